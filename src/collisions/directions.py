@@ -1,0 +1,95 @@
+"""Directions in the road plane as unit vectors, from an angle or from a vector."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError, ShapeError
+from .units import Door
+
+# A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a result stays the same bits.
+_UNIT_LENGTH = 2.0**-52
+
+
+def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
+    """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components."""
+    if isinstance(value, tuple):
+        if len(value) != 2:
+            door.refuse(
+                ShapeError(f"{argument} must be an angle or a tuple (x, y), got {len(value)} components", code="bad_shape")
+            )
+            return math.nan, math.nan
+        count = len(door.problems)
+        vx, vy = (door.number(part, "", f"{argument}[{i}]") for i, part in enumerate(value))
+        return normalised(door, vx, vy, argument) if len(door.problems) == count else (math.nan, math.nan)
+    if isinstance(value, list):
+        door.refuse(
+            InputError(
+                f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
+                f"np.array([...]) for angles",
+                code="bad_shape",
+                argument=argument,
+            )
+        )
+        return math.nan, math.nan
+    angle, in_degrees = door.angle(value, argument)
+    return from_degrees(angle) if in_degrees else from_radians(angle)
+
+
+def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
+    """The vector divided by its length; lanes without a length stay (0, 0), a single vector without one is refused."""
+    if isinstance(vx, float) and isinstance(vy, float):
+        # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
+        scale = max(abs(vx), abs(vy))
+        if scale == 0.0:
+            door.refuse(
+                InputError(
+                    f"{argument} has no length: (0, 0); give the direction it points in", code="zero_normal", argument=argument
+                )
+            )
+            return math.nan, math.nan
+        length = math.hypot(vx, vy)
+        if abs(length - 1.0) <= _UNIT_LENGTH:
+            return vx, vy
+        if not 1e-150 < scale < 1e150:
+            exponent = -math.frexp(scale)[1]
+            vx, vy = math.ldexp(vx, exponent), math.ldexp(vy, exponent)
+            length = math.hypot(vx, vy)
+        return vx / length, vy / length
+    with np.errstate(all="ignore"):
+        exponent = -np.frexp(np.maximum(abs(vx), abs(vy)))[1]
+        length = np.hypot(vx, vy)
+        scaled_x, scaled_y = np.ldexp(vx, exponent), np.ldexp(vy, exponent)
+        scaled_length = np.hypot(scaled_x, scaled_y)
+        divisor = np.where(scaled_length == 0.0, 1.0, scaled_length).astype(scaled_length.dtype)
+        keep = abs(length - 1.0) <= np.finfo(length.dtype).eps
+        return np.where(keep, vx, scaled_x / divisor), np.where(keep, vy, scaled_y / divisor)
+
+
+def from_radians(angle: Any) -> tuple[Any, Any]:
+    """Cosine and sine of an angle in radians."""
+    if isinstance(angle, float):
+        return math.cos(angle), math.sin(angle)
+    with np.errstate(invalid="ignore"):
+        return np.cos(angle), np.sin(angle)
+
+
+def from_degrees(degrees: Any) -> tuple[Any, Any]:
+    """Cosine and sine of an angle in degrees, exact at the quarter turns and accurate beside them.
+
+    Whole turns and the nearest quarter turn are taken off first, which rounds nothing; only the rest is converted.
+    """
+    xp: Any = math if isinstance(degrees, float) else np
+    with np.errstate(invalid="ignore"):
+        turn = xp.fmod(degrees, 360.0)
+        quarters = xp.floor(turn / 90.0 + 0.5)
+        rest = (turn - 90.0 * quarters) * (math.pi / 180.0)
+        c, s = xp.cos(rest), xp.sin(rest)
+        # cos and sin of the quarter turns themselves: 0, 1 or -1.
+        quarters = quarters % 4.0
+        qc = (quarters == 0.0) * 1.0 - (quarters == 2.0) * 1.0
+        qs = (quarters == 1.0) * 1.0 - (quarters == 3.0) * 1.0
+        return c * qc - s * qs + 0.0, s * qc + c * qs + 0.0

@@ -1,0 +1,122 @@
+"""eccentric: two bodies that also turn, struck anywhere, free, pinned or fixed."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from .arguments import Law, OnFailure, Progress, answer, read
+from .errors import MissingInputError
+from .impact import Asked, Impact
+from .kernels import codes
+from .kernels.eccentric import eccentric as kernel
+from .units import Input, Pair
+from .vehicle import Vehicle, missing
+
+
+def eccentric(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair,
+    point: Pair,
+    friction: Input | None = None,
+    impulse_ratio: Input | None = None,
+    critical_fraction: Input | None = None,
+    law: Law = codes.BRACH,
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve an eccentric impact: the line of impact misses a centre of mass, so the bodies turn.
+
+    Impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the contact points
+    along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"), for free, pinned and
+    fixed bodies, and with friction along the tangent. The contact is one point with one normal, the impact takes no time and
+    no distance, and tyre forces during it are left out. Valid where the impulse of the contact is large against that of the
+    tyres, and where the damage can be given a point and a normal.
+
+    Parameters
+    ----------
+    a, b : Vehicle
+        States just before contact. Each needs ``yaw_inertia``, ``x`` and ``y``, unless its mass and inertia are infinite.
+    restitution : float, str, Quantity or array [-]
+        Coefficient of restitution e along the normal at the contact, 0 to 1.
+    normal : angle [rad] or tuple (nx, ny)
+        Direction from A into B at the contact. An array is taken as angles.
+    point : pair [m]
+        Scene point (x, y) at which the impulse acts, at the moment of maximum engagement.
+    friction : float, str, Quantity or array [-]
+        Coulomb bound on the tangential over the normal impulse, >= 0; 0 is the paper's contact, ``inf`` never slips.
+    impulse_ratio : float, str, Quantity or array [-]
+        Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
+    critical_fraction : float, str, Quantity or array [-]
+        Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
+    law : {"brach", "kudlich-slibar"}, optional
+        Whether a sticking contact is without slip at separation, or at the end of compression.
+    on_failure, threads, progress
+        As for ``linear_central``.
+
+    Returns
+    -------
+    Impact
+        Velocities, yaw rates, delta-V, impulse and energy; see its attributes.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used.
+    MissingInputError
+        A position, a yaw inertia or the contact point was not given. Nothing is taken as zero.
+    NoImpactError
+        The contact points do not approach along the normal.
+    NoSolutionError
+        Nothing can yield, the ratio jams, or no slip would need the bodies to pull.
+
+    Examples
+    --------
+    Example 3 of the paper: A, not turning, strikes B at one end; B turns about its other end O.
+
+    >>> import collisions as col
+    >>> a = col.Vehicle(mass=900, vx="60 km/h", yaw_inertia=float("inf"), x=-1.0, y=4.0)
+    >>> b = col.Vehicle(mass=1000, yaw_inertia=1000 * 4**2 / 12, x=0.0, y=2.0, pivot=(0.0, 0.0))
+    >>> impact = col.eccentric(a, b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0)
+    >>> round(impact.b.after.yaw_rate, 3), round(impact.a.after.vx, 3)
+    (-5.473, 8.559)
+    >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
+    (3648.6, 12162)
+    """
+    e, n, rule, bound, contact = read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law)
+    if contact is None:
+        raise MissingInputError(
+            "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
+            code="missing_point",
+            argument="point",
+        )
+    return answer(
+        eccentric,
+        partial(kernel, rule=rule, law=law, pinned_a=a.pivot is not None, pinned_b=b.pivot is not None),
+        Asked("eccentric", a, b, e, n, rule, bound, law, contact),
+        (e, n[0], n[1], bound, *contact, *_body(a, "a", contact), *_body(b, "b", contact)),
+        (),
+        on_failure,
+        threads,
+        progress,
+    )
+
+
+def _body(vehicle: Vehicle, label: str, contact: tuple[Any, Any]) -> tuple[Any, ...]:
+    """The numbers of one body; a fixed one that stands still or slides without turning needs no position."""
+    mass, inertia, spin, x, y = vehicle.mass, vehicle.yaw_inertia, vehicle.yaw_rate, vehicle.x, vehicle.y
+    if inertia is None:
+        raise missing(vehicle, "yaw_inertia", "eccentric", label)
+    if x is None or y is None:
+        if not np.all(np.equal(mass, inf) & np.equal(inertia, inf) & np.equal(spin, 0.0)):
+            raise missing(vehicle, "x" if x is None else "y", "eccentric", label)
+        x, y = contact
+    pivot = (0.0, 0.0) if vehicle.pivot is None else vehicle.pivot
+    return (mass, inertia, vehicle.vx, vehicle.vy, spin, x, y, *pivot)

@@ -1,0 +1,126 @@
+"""Attributes that know their unit: how they are declared, read as Quantities, and shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, Generic, TypeVar, overload
+
+import numpy as np
+
+from .units import to_quantity
+
+T = TypeVar("T")
+
+
+class derived(Generic[T]):
+    """A read-only attribute worked out when asked for, and once where its owner has a cache; it carries its unit."""
+
+    def __init__(self, unit: str | None = None) -> None:
+        self.unit = unit
+
+    def __call__(self, work_out: Callable[[Any], T]) -> derived[T]:
+        self.work_out = work_out
+        self.name = work_out.__name__
+        self.__doc__ = work_out.__doc__
+        return self
+
+    @overload
+    def __get__(self, owner: None, kind: type[Any]) -> derived[T]: ...
+    @overload
+    def __get__(self, owner: object, kind: type[Any] | None = None) -> T: ...
+    def __get__(self, owner: Any, kind: type[Any] | None = None) -> Any:
+        if owner is None:
+            return self
+        cache = getattr(owner, "_cache", None)
+        if cache is None:
+            return self.work_out(owner)
+        try:
+            return cache[self.name]
+        except KeyError:
+            value = cache[self.name] = self.work_out(owner)
+            return value
+
+    def __set__(self, owner: Any, value: Any) -> None:
+        raise AttributeError(f"{self.name} is worked out and cannot be set")
+
+
+def unit_of(kind: type[Any], name: str) -> str | None:
+    """The SI unit an attribute is declared with, None for names, labels and other objects."""
+    declared = getattr(kind, "__dataclass_fields__", {}).get(name)
+    if declared is not None:
+        unit: str | None = declared.metadata.get("unit")
+        return unit
+    unit = getattr(getattr(kind, name, None), "unit", None)
+    return unit
+
+
+class Quantities:
+    """The same attributes as the owner's, with their units."""
+
+    __slots__ = ("_owner",)
+
+    def __init__(self, owner: Any) -> None:
+        self._owner = owner
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        value = getattr(self._owner, name)
+        unit = unit_of(type(self._owner), name)
+        if value is None or unit is None:
+            return getattr(value, "q", value)
+        return to_quantity(value, unit)
+
+    def __dir__(self) -> list[str]:
+        return [name for name in dir(self._owner) if not name.startswith("_")]
+
+    def __repr__(self) -> str:
+        return f"<Quantities of {self._owner!r}>"
+
+
+def attributes(kind: type[Any]) -> list[str]:
+    """Names of the worked-out attributes, in the order of their definition."""
+    return [name for name, member in vars(kind).items() if isinstance(member, derived)]
+
+
+def numeric(*values: Any) -> Any:
+    """The library whose functions suit these values: numpy as soon as one is an array."""
+    return np if any(isinstance(value, np.ndarray) for value in values) else math
+
+
+def show(value: Any, unit: str | None = None) -> str:
+    """A value for people: six digits and the unit; an array by its shape and range."""
+    suffix = f" {unit}" if unit else ""
+    if isinstance(value, tuple):
+        return "(" + ", ".join(show(part) for part in value) + ")" + suffix
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind == "f" and value.size and not np.all(np.isnan(value)):
+            return f"array{value.shape} {np.nanmin(value):.6g} to {np.nanmax(value):.6g}{suffix}"
+        return f"array{value.shape}{suffix}"
+    if isinstance(value, float):
+        return f"{value:.6g}{suffix}"
+    return str(value)
+
+
+def same(one: Any, other: Any) -> bool:
+    """Equality by value for numbers, arrays, pairs and None, NaN equal to itself."""
+    if isinstance(one, tuple) or isinstance(other, tuple):
+        return type(one) is type(other) and len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        if one is None or other is None or np.shape(one) != np.shape(other):
+            return False
+        one, other = np.asarray(one), np.asarray(other)
+        return bool(np.array_equal(one, other, equal_nan="f" in one.dtype.kind + other.dtype.kind))
+    return bool(one == other) or (one != one and other != other)
+
+
+def table(title: str, rows: Iterator[tuple[str, str]]) -> str:
+    """An HTML table of names and shown values for notebooks."""
+    from html import escape
+
+    body = "".join(
+        f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
+        for name, text in rows
+    )
+    return f"<table><caption>{escape(title)}</caption><tbody>{body}</tbody></table>"

@@ -1,0 +1,364 @@
+"""Impact: the answer of every forward solver."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .errors import Status
+from .fields import Quantities, attributes, derived, numeric, same, show, table
+from .kernels import codes
+from .units import UNIT_INTERVAL, Door, Input, Value
+from .side import Side
+from .vehicle import Vehicle, angle_of
+
+_AT = {name: index for index, name in enumerate(codes.OUTPUTS)}
+
+
+class Asked(NamedTuple):
+    """What a solver was asked, in numbers: enough to ask it again."""
+
+    model: str
+    a: Vehicle
+    b: Vehicle
+    restitution: Any
+    normal: tuple[Any, Any]
+    rule: str
+    bound: Any
+    law: str | None
+    point: tuple[Any, Any] | None
+
+
+class Impact:
+    """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
+
+    Made by the solvers, never by hand. Frozen. Attributes are floats, or arrays in a batch, all in SI; the same attributes of
+    ``.q`` are Quantities. The impulse P acts on B, -P on A; n points from A into B and t is n turned by +90 degrees.
+    """
+
+    __slots__ = ("_cache", "_asked", "_raw")
+
+    _cache: dict[str, Any]
+    _asked: Asked
+    _raw: tuple[Any, ...]
+
+    def __init__(self) -> None:
+        raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities."""
+        return Quantities(self)
+
+    @derived()
+    def a(self) -> Side:
+        """Vehicle A and what changed for it."""
+        return Side(self, 0)
+
+    @derived()
+    def b(self) -> Side:
+        """Vehicle B and what changed for it."""
+        return Side(self, 1)
+
+    @derived()
+    def model(self) -> str:
+        """The solver used: "linear_central", "oblique_central" or "eccentric"."""
+        return self._asked.model
+
+    @derived()
+    def law(self) -> str | None:
+        """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model."""
+        return self._asked.law
+
+    @derived("")
+    def restitution(self) -> Value:
+        """Coefficient of restitution e."""
+        return self._asked.restitution
+
+    @derived("")
+    def friction(self) -> Value | None:
+        """Coulomb friction bound as used; None when an impulse ratio or a critical fraction was given."""
+        return self._asked.bound if self._asked.rule == codes.FRICTION else None
+
+    @derived("m")
+    def point(self) -> tuple[Value, Value] | None:
+        """Contact point (x, y) [m]; None for the central models."""
+        return self._asked.point
+
+    @derived()
+    def choice(self) -> Any:
+        """How ``solve`` chose the model; None when a solver was called by name."""
+        return None
+
+    @derived("")
+    def normal(self) -> tuple[Value, Value]:
+        """Unit vector (nx, ny) from A into B; may be given as ``normal=`` again."""
+        return self._asked.normal
+
+    @derived("rad")
+    def normal_angle(self) -> Value:
+        """Scene angle of the normal [rad], in (-pi, pi]."""
+        return angle_of(*self.normal)
+
+    @derived("m/s")
+    def closing_speed(self) -> Value:
+        """Speed at which the contact points approach along the normal [m/s]."""
+        return self._output("closing_speed")
+
+    @derived("m/s")
+    def relative_speed(self) -> Value:
+        """Magnitude of the relative velocity of the centres of mass before contact [m/s]: not the closing speed."""
+        a, b = self.a.before, self.b.before
+        dx, dy = a.vx - b.vx, a.vy - b.vy
+        return self._answered(numeric(dx, dy).hypot(dx, dy))
+
+    @derived("m/s")
+    def separation_speed(self) -> Value:
+        """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11)."""
+        return self.restitution * self.closing_speed
+
+    @derived("m/s")
+    def slip_before(self) -> Value:
+        """Tangential velocity of B relative to A at the contact, before [m/s]."""
+        return self._output("slip_before")
+
+    @derived("m/s")
+    def slip_after(self) -> Value:
+        """Tangential velocity of B relative to A at the contact, after [m/s]."""
+        return self._output("slip_after")
+
+    @derived("N*s")
+    def normal_impulse(self) -> Value:
+        """Component of the impulse on B along the normal [N*s], >= 0."""
+        return self._output("normal_impulse")
+
+    @derived("N*s")
+    def tangential_impulse(self) -> Value:
+        """Component of the impulse on B along the tangent [N*s]."""
+        return self._output("tangential_impulse")
+
+    @derived("N*s")
+    def compression_impulse(self) -> Value:
+        """Normal impulse of the compression period [N*s], the integral of P in eq 10."""
+        return self._output("compression_impulse")
+
+    @derived("N*s")
+    def restitution_impulse(self) -> Value:
+        """Normal impulse of the restitution period [N*s], the integral of R in eq 10."""
+        return self.restitution * self.compression_impulse
+
+    @derived("")
+    def impulse_ratio(self) -> Value:
+        """Tangential over normal impulse, signed."""
+        return _divided(self.tangential_impulse, self.normal_impulse)
+
+    @derived("")
+    def critical_impulse_ratio(self) -> Value:
+        """The signed impulse ratio that just stops slip under the law used; infinite where no slip would need a pull."""
+        normal, tangential = self._output("no_slip_normal"), self._output("no_slip_tangential")
+        if isinstance(normal, np.ndarray):
+            with np.errstate(all="ignore"):
+                return np.where(normal > 0.0, tangential / normal, np.copysign(np.inf, tangential) + 0.0 * normal)  # type: ignore[return-value]
+        return tangential / normal if normal > 0.0 else math.copysign(math.inf, tangential)
+
+    @derived("m/s")
+    def common_velocity(self) -> Value:
+        """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3)."""
+        (nx, ny), place = self.normal, self.point
+        found = []
+        for side in (self.a, self.b):
+            before = side.before
+            ux, uy = (before.vx, before.vy) if place is None else before.velocity_at(place)
+            dux, duy = (side.delta_vx, side.delta_vy) if place is None else side.delta_v_at(place)
+            found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
+        # Built on the body that changes less, which is exact for a barrier.
+        (base_a, change_a), (base_b, change_b) = found
+        if any(isinstance(value, np.ndarray) for value in (change_a, change_b)):
+            return np.where(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)  # type: ignore[return-value]
+        return base_a + change_a if abs(change_a) < abs(change_b) else base_b + change_b
+
+    @derived("kg")
+    def effective_mass(self) -> Value:
+        """Mass that the contact feels along the normal [kg], 1/K_nn; the reduced mass of a central impact."""
+        return self._output("effective_mass")
+
+    @derived("J")
+    def energy_loss(self) -> Value:
+        """Energy dissipated [J] (eq 7, evaluated at the contact). Negative is a gain, and warned of."""
+        return self._output("energy_loss")
+
+    @derived("J")
+    def energy_loss_normal(self) -> Value:
+        """Energy dissipated along the normal [J] (eq 8)."""
+        return self._output("energy_loss_normal")
+
+    @derived("J")
+    def energy_loss_tangential(self) -> Value:
+        """Energy dissipated by the tangential impulse [J]."""
+        return self._output("energy_loss_tangential")
+
+    @derived("J")
+    def energy_absorbed(self) -> Value:
+        """Energy taken up along the normal at the end of compression [J], part of which restitution gives back."""
+        return 0.5 * (self.closing_speed * self.compression_impulse)
+
+    def ees(self, share_a: Input) -> tuple[Value, Value]:
+        """Energy equivalent speeds (A, B) [m/s] when A took up this share of ``energy_absorbed`` and B the rest.
+
+        The speed at which the vehicle alone would take up as much energy at maximum crush against a rigid wall. There is no
+        default share: momentum does not tell how the energy was divided. An infinite mass has 0.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
+        >>> impact.ees(0.5)
+        (10.0, 10.0)
+        """
+        door = Door()
+        share = door.number(share_a, "", "share_a", UNIT_INTERVAL)
+        door.close()
+        xp = numeric(self.energy_absorbed, share)
+        return tuple(
+            xp.sqrt(2.0 * (part * self.energy_absorbed) / side.before.mass)
+            for part, side in ((share, self.a), (1.0 - share, self.b))
+        )  # type: ignore[return-value]
+
+    @derived("N*s")
+    def momentum_residual(self) -> Value:
+        """What is left of the momentum balance, from the delta-Vs of the bodies that are free and finite [N*s]: rounding."""
+        left_x: Any = 0.0
+        left_y: Any = 0.0
+        for side in (self.a, self.b):
+            mass = side.before.mass
+            if side.before.pivot is not None or np.all(np.isinf(mass)):
+                continue
+            finite = np.isfinite(mass) if isinstance(mass, np.ndarray) else True
+            with np.errstate(invalid="ignore"):
+                rest_x, rest_y = mass * side.delta_vx - side.impulse_x, mass * side.delta_vy - side.impulse_y
+            left_x = left_x + (rest_x if finite is True else np.where(finite, rest_x, 0.0))
+            left_y = left_y + (rest_y if finite is True else np.where(finite, rest_y, 0.0))
+        return self._answered(numeric(left_x, left_y).hypot(left_x, left_y))
+
+    @derived()
+    def kind(self) -> Any:
+        """ "elastic" (e = 1), "plastic" (e = 0) or "elastoplastic"; an array of them in a batch."""
+        e = self._answered(self.restitution)
+        if isinstance(e, np.ndarray):
+            return np.where(e == 1.0, "elastic", np.where(e == 0.0, "plastic", np.where(np.isnan(e), "", "elastoplastic")))
+        return "elastic" if e == 1.0 else "plastic" if e == 0.0 else "elastoplastic"
+
+    @derived()
+    def regime(self) -> Any:
+        """How the tangential impulse came about: "frictionless", "sliding", "sticking", or "given" with a ratio."""
+        rule, bound, sticks = self._asked.rule, self._asked.bound, self._raw[_AT["sticks"]]
+        if isinstance(sticks, np.ndarray):
+            if rule != codes.FRICTION:
+                found = np.full(sticks.shape, "given", dtype="U12")
+            else:
+                moving = np.where(np.equal(bound, 0.0), "frictionless", "sliding")
+                found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
+            return np.where(self.refused, "", found)
+        if rule != codes.FRICTION:
+            return "given"
+        return "sticking" if sticks else "frictionless" if bound == 0.0 else "sliding"
+
+    @derived()
+    def status(self) -> Any:
+        """Outcome: a Status, whose ``sentence`` explains it; in a batch an array of its codes."""
+        code = self._raw[0]
+        return code if isinstance(code, np.ndarray) else Status(code)
+
+    @derived()
+    def ok(self) -> Any:
+        """Whether the case was answered without an energy gain."""
+        return self._raw[0] == codes.OK
+
+    @derived()
+    def refused(self) -> Any:
+        """Whether the case was refused, so that its numbers are NaN."""
+        return self._raw[0] > codes.ENERGY_GAIN
+
+    def _output(self, name: str) -> Any:
+        return self._raw[_AT[name]]
+
+    def _answered(self, value: Any) -> Any:
+        """A value worked out from inputs alone, NaN where the case was refused."""
+        if isinstance(self._raw[0], np.ndarray):
+            return np.where(self.refused, np.nan, value)
+        return math.nan if self.refused else value
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
+        from .records import impact_to_dict
+
+        return impact_to_dict(self)
+
+    @classmethod
+    def from_dict(cls, record: Mapping[str, Any]) -> Impact:
+        """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
+        from .records import impact_from_dict
+
+        return impact_from_dict(record)
+
+    def to_columns(self) -> dict[str, list[Any]]:
+        """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
+        from .records import impact_to_columns
+
+        return impact_to_columns(self)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Impact):
+            return NotImplemented
+        return all(map(same, self._asked, other._asked)) and all(map(same, self._raw, other._raw))
+
+    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"an Impact is frozen: {name} cannot be set")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return build, (self._asked, self._raw)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(
+            f"{name}={show(getattr(self, name), unit)}"
+            for name, unit in (("closing_speed", "m/s"), ("restitution", None), ("normal_impulse", "N*s"), ("energy_loss", "J"))
+        )
+        return f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} b={show(self.b.delta_v, 'm/s')}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(name, show(value, vars(Impact)[name].unit)) for name in attributes(Impact) if (value := _plain(self, name)) is not None]
+        for label, side in (("a", self.a), ("b", self.b)):
+            rows += [(f"{label}.{name}", text) for name, text in side._rows()]
+        return table(f"Impact ({self.model})", iter(rows))
+
+
+_set_asked, _set_raw, _set_cache = (vars(Impact)[name].__set__ for name in ("_asked", "_raw", "_cache"))
+
+
+def build(asked: Asked, raw: tuple[Any, ...]) -> Impact:
+    """An Impact from what was asked, in the order of its attributes, and what the kernel answered."""
+    impact: Impact = object.__new__(Impact)
+    _set_asked(impact, asked)
+    _set_raw(impact, raw)
+    _set_cache(impact, {})
+    return impact
+
+
+def _plain(impact: Impact, name: str) -> Any:
+    value = getattr(impact, name)
+    return None if isinstance(value, Side) else value
+
+
+def _divided(numerator: Any, denominator: Any) -> Any:
+    if isinstance(denominator, np.ndarray):
+        with np.errstate(all="ignore"):
+            return np.divide(numerator, denominator)
+    return numerator / denominator if denominator != 0.0 else math.nan

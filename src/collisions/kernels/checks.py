@@ -1,0 +1,59 @@
+"""What makes a case unfit to be answered: conditions on floats or arrays, each true where the case must be refused."""
+
+from math import inf
+from typing import Any
+
+from .codes import EPS
+from .turning import turning_velocity
+
+
+def not_finite(value: Any) -> Any:
+    """NaN or infinite."""
+    return value - value != 0.0
+
+
+def not_a_number(value: Any) -> Any:
+    """NaN."""
+    return value != value
+
+
+def not_positive(value: Any) -> Any:
+    """Zero or below."""
+    return value <= 0.0
+
+
+def negative(value: Any) -> Any:
+    """Below zero, or NaN."""
+    return (value < 0.0) | (value != value)
+
+
+def outside_unit_interval(value: Any) -> Any:
+    """Below 0, above 1, or NaN."""
+    return (value < 0.0) | (value > 1.0) | (value != value)
+
+
+def without_length(nx: Any, ny: Any) -> Any:
+    """A vector of length 0."""
+    return (nx == 0.0) & (ny == 0.0)
+
+
+def either_infinite(mass: Any, inertia: Any) -> Any:
+    """A mass or a yaw inertia that is infinite."""
+    return (mass == inf) | (inertia == inf)
+
+
+def turning(yaw_rate: Any) -> Any:
+    """Any yaw rate at all."""
+    return yaw_rate != 0.0
+
+
+def transverse(nx: Any, ny: Any, vx: Any, vy: Any, *, eps: float = EPS) -> Any:
+    """Motion across the normal beyond 8 eps of the speed, which is what rounding leaves of a motion along it."""
+    return abs(nx * vy - ny * vx) > 8.0 * eps * abs(nx * vx + ny * vy)
+
+
+def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, *, eps: float = EPS) -> Any:
+    """A velocity that is not yaw rate times arm to 1e-9 (or to the rounding of a coarser precision)."""
+    wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
+    tolerance = max(1e-9, 8.0 * eps)
+    return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))

@@ -1,0 +1,163 @@
+"""Eccentric impact: bodies that also turn, free, pinned to a point of the road, or fixed (eqs 10 to 19 of the paper).
+
+Every body answers an impulse at the contact through K_i = a_i 1 + b_i q q^T, with q its lever turned by +90 degrees. Barriers,
+pivots and free bodies differ only in a_i and b_i.
+"""
+
+from typing import Any
+
+from .codes import (
+    ENERGY_GAIN,
+    EPS,
+    FRICTION,
+    GRAZING,
+    IMMOVABLE,
+    KUDLICH_SLIBAR,
+    NO_SLIP_PULLS,
+    OUT_OF_RANGE,
+    RATIO_JAMS,
+    SEPARATING,
+    SINGULAR_CONTACT,
+)
+from .energy import energy_losses
+from .friction import sticking_slip, tangential_rule
+from .select import select, verdict
+from .turning import turning_velocity
+
+
+def response(
+    mass: Any, inertia: Any, vx: Any, vy: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, px: Any, py: Any, pinned: bool
+) -> tuple[Any, Any, Any, Any, Any, Any]:
+    """The body's a and b, its lever (x, y), and the part of its velocity that is not spin.
+
+    A pinned body turns about the pivot: its inertia is taken about it, it takes no share in a, and all its velocity is spin.
+    """
+    if pinned:
+        arm_x = x - pivot_x
+        arm_y = y - pivot_y
+        return 0.0, 1.0 / (inertia + mass * (arm_x * arm_x + arm_y * arm_y)), px - pivot_x, py - pivot_y, 0.0, 0.0
+    return 1.0 / mass, 1.0 / inertia, px - x, py - y, vx, vy
+
+
+def eccentric(
+    restitution: Any,
+    nx: Any,
+    ny: Any,
+    tangential: Any,
+    px: Any,
+    py: Any,
+    mass_a: Any,
+    inertia_a: Any,
+    vx_a: Any,
+    vy_a: Any,
+    spin_a: Any,
+    x_a: Any,
+    y_a: Any,
+    pivot_x_a: Any,
+    pivot_y_a: Any,
+    mass_b: Any,
+    inertia_b: Any,
+    vx_b: Any,
+    vy_b: Any,
+    spin_b: Any,
+    x_b: Any,
+    y_b: Any,
+    pivot_x_b: Any,
+    pivot_y_b: Any,
+    *,
+    rule: str,
+    law: str,
+    pinned_a: bool,
+    pinned_b: bool,
+    eps: float = EPS,
+) -> tuple[Any, ...]:
+    """Answers in the order of ``codes.OUTPUTS``."""
+    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(
+        mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a
+    )
+    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(
+        mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b
+    )
+    # Contact velocity of B relative to A: differences first, then the spins, and into (n, t) last.
+    ux = (ux_b - ux_a) + (spin_a * ry_a - spin_b * ry_b)
+    uy = (uy_b - uy_a) + (spin_b * rx_b - spin_a * rx_a)
+    closing = -(nx * ux + ny * uy)
+    slip = nx * uy - ny * ux
+    rn_a = nx * rx_a + ny * ry_a
+    rt_a = nx * ry_a - ny * rx_a
+    rn_b = nx * rx_b + ny * ry_b
+    rt_b = nx * ry_b - ny * rx_b
+
+    # K, its trace less a, and its determinant over that trace: sums of terms that are >= 0, so nothing cancels.
+    a = a_a + a_b
+    brt_a = b_a * rt_a
+    brt_b = b_b * rt_b
+    k_nn = a + brt_a * rt_a + brt_b * rt_b
+    k_nt = -(brt_a * rn_a + brt_b * rn_b)
+    trace = a + b_a * (rx_a * rx_a + ry_a * ry_a) + b_b * (rx_b * rx_b + ry_b * ry_b)
+    threshold = (64.0 * eps) * (64.0 * eps) * trace
+    immovable = k_nn <= threshold
+    k_nn = select(immovable, 1.0, k_nn)
+    trace = select(immovable, 1.0, trace)
+    cross = rx_a * ry_b - ry_a * rx_b
+    determinant = a + ((b_a / trace) * cross) * (b_b * cross)
+    singular = determinant <= threshold
+
+    # The impulse that ends with the slip a sticking contact keeps.
+    kept = sticking_slip(restitution, law)
+    change_n = (1.0 + restitution) * closing
+    change_t = -(1.0 - kept) * slip
+    q_a = b_a * (rn_a * change_n + rt_a * change_t)
+    q_b = b_b * (rn_b * change_n + rt_b * change_t)
+    no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
+    divisor = select(singular, 1.0, determinant)
+    no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divisor
+    no_slip_t = no_slip_t_determinant / divisor
+
+    sticks, ratio, no_slip_matters, pulls = tangential_rule(rule, tangential, no_slip_n, no_slip_t)
+    resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
+    jams = (resistance <= 0.0) & (sticks ^ True)
+    sliding_n = change_n / select(resistance == 0.0, 1.0, resistance)
+    normal = select(sticks, no_slip_n, sliding_n)
+    impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
+
+    beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
+    slip_after = kept * slip + beyond_sticking
+    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after)
+    torque_a = rt_a * normal - rn_a * impulse_t
+    torque_b = rn_b * impulse_t - rt_b * normal
+    mobility: Any = 0.0
+    if law == KUDLICH_SLIBAR and rule == FRICTION:
+        mobility = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
+    loss_n, loss_t, loss, gains = energy_losses(
+        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps
+    )
+
+    impulse_x = nx * normal - ny * impulse_t
+    impulse_y = ny * normal + nx * impulse_t
+    spin_change_a = b_a * torque_a
+    spin_change_b = b_b * torque_b
+    if pinned_a:
+        dvx_a, dvy_a = turning_velocity(spin_change_a, x_a, y_a, pivot_x_a, pivot_y_a)
+    else:
+        dvx_a, dvy_a = -(a_a * impulse_x), -(a_a * impulse_y)
+    if pinned_b:
+        dvx_b, dvy_b = turning_velocity(spin_change_b, x_b, y_b, pivot_x_b, pivot_y_b)
+    else:
+        dvx_b, dvy_b = a_b * impulse_x, a_b * impulse_y
+    total = normal + impulse_t + loss + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
+    status = verdict(
+        (immovable, IMMOVABLE),
+        (closing < 0.0, SEPARATING),
+        (closing == 0.0, GRAZING),
+        (singular & no_slip_matters, SINGULAR_CONTACT),
+        (pulls, NO_SLIP_PULLS),
+        (jams, RATIO_JAMS),
+        (total - total != 0.0, OUT_OF_RANGE),
+        (gains, ENERGY_GAIN),
+    )
+    return (
+        status, closing, slip, slip_after, normal, impulse_t, normal / (1.0 + restitution), no_slip_n, no_slip_t,
+        sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss,
+        dvx_a, dvy_a, spin_change_a, dvx_b, dvy_b, spin_change_b,
+    )  # fmt: skip

@@ -1,0 +1,65 @@
+"""Oblique central impact: two point masses, impulse along the normal and, with friction, along the tangent (eq 9 of the paper)."""
+
+from typing import Any
+
+from .central import shares
+from .codes import ENERGY_GAIN, EPS, FRICTION, GRAZING, IMMOVABLE, KUDLICH_SLIBAR, NO_SLIP_PULLS, OUT_OF_RANGE, SEPARATING
+from .energy import energy_losses
+from .friction import sticking_slip, tangential_rule
+from .select import select, verdict
+
+
+def oblique_central(
+    restitution: Any,
+    nx: Any,
+    ny: Any,
+    tangential: Any,
+    mass_a: Any,
+    vx_a: Any,
+    vy_a: Any,
+    mass_b: Any,
+    vx_b: Any,
+    vy_b: Any,
+    *,
+    rule: str,
+    law: str,
+    eps: float = EPS,
+) -> tuple[Any, ...]:
+    """Answers in the order of ``codes.OUTPUTS``; the masses divide the change of relative velocity (along n and t)."""
+    share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
+    ux = vx_b - vx_a
+    uy = vy_b - vy_a
+    closing = -(nx * ux + ny * uy)
+    slip = nx * uy - ny * ux
+    kept = sticking_slip(restitution, law)
+    change_n = (1.0 + restitution) * closing
+    no_slip_t = -(1.0 - kept) * slip
+    sticks, ratio, _, pulls = tangential_rule(rule, tangential, change_n, no_slip_t)
+    change_t = select(sticks, no_slip_t, ratio * change_n)
+
+    beyond_sticking = change_t - no_slip_t
+    slip_after = kept * slip + beyond_sticking
+    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after)
+    normal = effective_mass * change_n
+    impulse_t = effective_mass * change_t
+    mobility = normal * change_n + impulse_t * change_t if law == KUDLICH_SLIBAR and rule == FRICTION else 0.0
+    loss_n, loss_t, loss, gains = energy_losses(
+        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps
+    )
+
+    change_x = nx * change_n - ny * change_t
+    change_y = ny * change_n + nx * change_t
+    total = normal + impulse_t + loss + change_x + change_y
+    status = verdict(
+        (immovable, IMMOVABLE),
+        (closing < 0.0, SEPARATING),
+        (closing == 0.0, GRAZING),
+        (pulls, NO_SLIP_PULLS),
+        (total - total != 0.0, OUT_OF_RANGE),
+        (gains, ENERGY_GAIN),
+    )
+    return (
+        status, closing, slip, slip_after, normal, impulse_t, effective_mass * closing, normal, effective_mass * no_slip_t,
+        sticks, effective_mass, 0.0, loss_n, loss_t, loss,
+        -(share_a * change_x), -(share_a * change_y), 0.0, share_b * change_x, share_b * change_y, 0.0,
+    )  # fmt: skip

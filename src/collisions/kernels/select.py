@@ -1,0 +1,23 @@
+"""A choice that reads the same for one case and for many."""
+
+from typing import Any
+
+import numpy as np
+
+
+def select(condition: Any, yes: Any, no: Any) -> Any:
+    """``yes`` where the condition holds, ``no`` elsewhere; both have been worked out already."""
+    if condition is True:
+        return yes
+    if condition is False:
+        return no
+    return np.where(condition, yes, no)
+
+
+def verdict(*findings: tuple[Any, int]) -> Any:
+    """Code of the first finding whose condition holds, 0 if none does."""
+    status: Any = 0
+    for condition, code in reversed(findings):
+        if condition is not False:
+            status = select(condition, code, status)
+    return status

@@ -1,0 +1,92 @@
+"""linear_central: two bodies that move along one line and strike head to head or nose to tail."""
+
+from __future__ import annotations
+
+from .arguments import OnFailure, Progress, answer, read, refuse_pivots
+from .impact import Asked, Impact
+from .kernels import checks, codes
+from .kernels.linear import linear_central as kernel
+from .units import Input, Pair
+from .vehicle import Vehicle
+
+_NO_FRICTION = (0.0, None, None)
+
+
+def linear_central(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair = 0.0,
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve a linear central impact: from the states before and the restitution to the states after.
+
+    Momentum along the normal (eq 2 of "Application of Impulse Momentum Theory to Vehicle Collisions") and Newton's
+    restitution (eqs 5 and 6). The bodies are point masses: they do not turn, and all motion is along the normal through both
+    centres of mass. Valid for head-on and front-to-back collisions in line, against other vehicles or a barrier; a motion
+    across the normal of more than 8 eps of the speed is refused.
+
+    Parameters
+    ----------
+    a, b : Vehicle
+        States just before contact; only mass and velocity are used.
+    restitution : float, str, Quantity or array [-]
+        Coefficient of restitution e, 0 (plastic) to 1 (elastic).
+    normal : angle [rad] or tuple (nx, ny), optional
+        Direction from A into B; the x axis if not given.
+    on_failure : {None, "raise", "nan"}, optional
+        What to do with a case that cannot be answered: None raises for a single case and gives NaN with a status in a batch.
+    threads : int, optional
+        Threads for a batch.
+    progress : callable, optional
+        Called as ``progress(done, total)`` after each block of a batch.
+
+    Returns
+    -------
+    Impact
+        Velocities, delta-V, impulse and energy; see its attributes.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, a body that turns, is pinned, or moves across the normal.
+    NoImpactError
+        The bodies do not approach; the message gives the closing speed.
+    NoSolutionError
+        Both masses are infinite.
+
+    Examples
+    --------
+    Example 2 of the paper: 1100 kg at 80 km/h into the back of 950 kg at rest, with the restitution found there.
+
+    >>> import collisions as col
+    >>> a = col.Vehicle(mass="1100 kg", vx="80 km/h")
+    >>> b = col.Vehicle(mass="950 kg")
+    >>> impact = col.linear_central(a, b, restitution=35 / 88)
+    >>> round(impact.a.after.q.vx.m_as("km/h"), 2), round(impact.b.after.q.vx.m_as("km/h"), 2)
+    (28.18, 60.0)
+    >>> round(impact.energy_loss / 1000, 1)
+    105.9
+    """
+    e, n, rule, bound, _ = read(a, b, restitution, normal, None, _NO_FRICTION, codes.BRACH)
+    if a.pivot is not None or b.pivot is not None:
+        refuse_pivots("linear_central", a, b)
+    nx, ny = n
+    return answer(
+        linear_central,
+        kernel,
+        Asked("linear_central", a, b, e, n, rule, bound, None, None),
+        (e, nx, ny, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),
+        (
+            (codes.SPINNING, checks.turning, (a.yaw_rate,)),
+            (codes.SPINNING, checks.turning, (b.yaw_rate,)),
+            (codes.TRANSVERSE, checks.transverse, (nx, ny, a.vx, a.vy)),
+            (codes.TRANSVERSE, checks.transverse, (nx, ny, b.vx, b.vy)),
+        ),
+        on_failure,
+        threads,
+        progress,
+    )

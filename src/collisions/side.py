@@ -1,0 +1,188 @@
+"""Side: what one of the two vehicles had of an impact."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .directions import from_radians
+from .fields import Quantities, attributes, derived, numeric, show, table
+from .units import Door, Pair, Value
+from .vehicle import Vehicle, angle_of
+
+if TYPE_CHECKING:
+    from .impact import Impact
+
+
+class Side:
+    """One vehicle's part in an impact: its states before, during and after, and what changed.
+
+    ``delta_v`` is the change of velocity of the centre of mass. Scene axes, angles counter-clockwise from +x, except for the
+    PDOF. Values are floats, or arrays in a batch.
+    """
+
+    __slots__ = ("_cache", "_impact", "_index")
+
+    def __init__(self, impact: Impact, index: int) -> None:
+        self._impact = impact
+        self._index = index
+        self._cache: dict[str, Any] = {}
+
+    def _change(self) -> tuple[Any, Any, Any]:
+        output = self._impact._output
+        if self._index:
+            return output("delta_vx_b"), output("delta_vy_b"), output("delta_yaw_rate_b")
+        return output("delta_vx_a"), output("delta_vy_a"), output("delta_yaw_rate_a")
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities."""
+        return Quantities(self)
+
+    @derived()
+    def before(self) -> Vehicle:
+        """The vehicle just before contact."""
+        return self._impact._asked.b if self._index else self._impact._asked.a
+
+    @derived()
+    def after(self) -> Vehicle:
+        """The vehicle just after separation: ready to be the start of a next impact."""
+        before, (dvx, dvy, dw) = self.before, self._change()
+        return before._moved(before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
+
+    @derived()
+    def at_compression(self) -> Vehicle:
+        """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
+        before, (dvx, dvy, dw) = self.before, self._change()
+        whole = 1.0 + self._impact.restitution
+        return before._moved(before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
+
+    @derived("m/s")
+    def delta_v(self) -> Value:
+        """Magnitude of the change of velocity [m/s]."""
+        return numeric(self.delta_vx, self.delta_vy).hypot(self.delta_vx, self.delta_vy)
+
+    @derived("m/s")
+    def delta_vx(self) -> Value:
+        """Change of velocity along scene x [m/s]."""
+        return self._change()[0]
+
+    @derived("m/s")
+    def delta_vy(self) -> Value:
+        """Change of velocity along scene y [m/s]."""
+        return self._change()[1]
+
+    @derived("m/s")
+    def delta_v_forward(self) -> Value | None:
+        """Change of velocity along the vehicle's own heading [m/s]; None without a heading."""
+        return self._own_axes(self.delta_vx, self.delta_vy)[0]
+
+    @derived("m/s")
+    def delta_v_left(self) -> Value | None:
+        """Change of velocity to the vehicle's own left [m/s]; None without a heading.
+
+        Event data recorders count lateral delta-V from left to right: the opposite sign.
+        """
+        return self._own_axes(self.delta_vx, self.delta_vy)[1]
+
+    @derived("rad/s")
+    def delta_yaw_rate(self) -> Value:
+        """Change of yaw rate [rad/s], counter-clockwise."""
+        return self._change()[2]
+
+    @derived("N*s")
+    def impulse_x(self) -> Value:
+        """Impulse of the contact on this vehicle along scene x [N*s]."""
+        return self._impulse()[0]
+
+    @derived("N*s")
+    def impulse_y(self) -> Value:
+        """Impulse of the contact on this vehicle along scene y [N*s]."""
+        return self._impulse()[1]
+
+    @derived("rad")
+    def impulse_direction(self) -> Value:
+        """Scene angle of the impulse on this vehicle [rad], counter-clockwise from +x; NaN without an impulse."""
+        return angle_of(self.impulse_x, self.impulse_y)
+
+    @derived("rad")
+    def pdof(self) -> Value | None:
+        """Principal direction of force [rad]: where the force comes from, seen from the vehicle.
+
+        0 from straight ahead, positive clockwise (from the right), in (-pi, pi]. Tools disagree on the sign. Taken from the
+        contact impulse, also for a pinned vehicle. None without a heading, NaN without an impulse.
+        """
+        forward, left = self._own_axes(self.impulse_x, self.impulse_y)
+        if forward is None:
+            return None
+        return angle_of(-forward, left)
+
+    @derived()
+    def pdof_clock(self) -> Any:
+        """The PDOF as the nearest hour of a clock face, 12 from straight ahead, 3 from the right; None without a heading."""
+        pdof = self.pdof
+        if pdof is None:
+            return None
+        hours = pdof * (6.0 / math.pi)
+        if isinstance(hours, np.ndarray):
+            return (np.rint(hours) - 1.0) % 12.0 + 1.0
+        return hours if math.isnan(hours) else (round(hours) - 1) % 12 + 1
+
+    @derived("J")
+    def kinetic_energy_change(self) -> Value:
+        """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
+        before, dv = self.before, self._change()
+        place = self._impact.point
+        ux, uy = (before.vx, before.vy) if place is None else before.velocity_at(place)
+        dux, duy = (dv[0], dv[1]) if place is None else self.delta_v_at(place)
+        return self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
+
+    @derived("N*s")
+    def pivot_impulse_x(self) -> Value:
+        """Impulse of the pivot on this vehicle along scene x [N*s]; 0 for a body that is not pinned."""
+        return self._pivot_impulse(self.delta_vx, self.impulse_x)
+
+    @derived("N*s")
+    def pivot_impulse_y(self) -> Value:
+        """Impulse of the pivot on this vehicle along scene y [N*s]; 0 for a body that is not pinned."""
+        return self._pivot_impulse(self.delta_vy, self.impulse_y)
+
+    def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
+        """Change of velocity (x, y) [m/s] of the place of the vehicle that is at a scene point.
+
+        What an accelerometer there would have recorded, and not the delta-V of the centre of mass.
+        """
+        door = Door()
+        px, py = door.pair(point, "m", "point")
+        door.close()
+        turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
+        return self.delta_vx + turn_x, self.delta_vy + turn_y
+
+    def _impulse(self) -> tuple[Any, Any]:
+        nx, ny = self._impact.normal
+        normal, tangential = self._impact.normal_impulse, self._impact.tangential_impulse
+        x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
+        return (x, y) if self._index else (-x, -y)
+
+    def _own_axes(self, x: Any, y: Any) -> tuple[Any, Any]:
+        if self.before.heading is None:
+            return None, None
+        c, s = from_radians(self.before.heading)
+        return c * x + s * y, c * y - s * x
+
+    def _pivot_impulse(self, dv: Any, impulse: Any) -> Any:
+        return 0.0 * impulse if self.before.pivot is None else self.before.mass * dv - impulse
+
+    def __repr__(self) -> str:
+        return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"
+
+    def _repr_html_(self) -> str:
+        return table(self.before.name or "ab"[self._index], self._rows())
+
+    def _rows(self) -> Any:
+        for name in attributes(type(self)):
+            value = getattr(self, name)
+            if value is not None and not isinstance(value, Vehicle):
+                yield name, show(value, vars(type(self))[name].unit)

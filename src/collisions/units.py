@@ -1,0 +1,410 @@
+"""The door: numbers, arrays, unit strings and Quantities in, SI numbers out, and Quantities back on request.
+
+The only file that names pint, which it loads when a unit first appears. Nothing behind the door ever sees a Quantity.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from pint import Quantity
+
+    class Value(float):
+        """What an attribute holds, as a type checker sees it: a float in a single case, in a batch an array."""
+
+        def __getattr__(self, name: str) -> Any: ...
+        def __getitem__(self, key: Any) -> Any: ...
+        def __len__(self) -> int: ...
+
+    Input: TypeAlias = float | str | Quantity | npt.NDArray[Any] | np.number[Any] | Sequence[float]
+    Pair: TypeAlias = tuple[Input, Input] | list[Any] | Quantity | npt.NDArray[Any]
+else:
+    Value = Input = Pair = Any
+
+POSITIVE = "positive"
+FINITE = "finite"
+UNIT_INTERVAL = "unit interval"
+NOT_NEGATIVE = "not negative"
+
+_EXAMPLES = {
+    "kg": "1100 (kg), '1100 kg' or '2425 lb'",
+    "m/s": "22.2 (m/s), '80 km/h' or '50 mph'",
+    "rad/s": "0.5 (rad/s) or '30 deg/s'",
+    "kg*m**2": "1800 (kg m2), '1800 kg*m**2', '1330 slug*ft**2' or '1330 lbf*ft*s**2'",
+    "m": "2.1 (m), '2.1 m' or '7 ft'",
+    "rad": "1.57 (rad) or '90 deg'",
+    "": "a plain number",
+}
+_TARGET_NAMES = {"": "a plain number"}
+_TURNS_OF_A_SCENE = 2.0 * math.pi * (1.0 + 1e-9)
+# Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
+_PLAUSIBLE = {"rad": _TURNS_OF_A_SCENE, "rad/s": 20.0}
+_SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
+_COUNTS = ("hertz", "becquerel", "count", "counts_per_second", "percent", "permille", "ppm", "bit", "byte", "neper", "bel")
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s)", re.ASCII)
+_POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
+_NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
+_UNIT = re.compile(rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*")
+_LONGEST_TEXT = 60
+
+_factors: WeakKeyDictionary[Any, dict[tuple[Any, str], float]] = WeakKeyDictionary()
+
+
+def is_quantity(value: Any) -> bool:
+    """Whether this is a Quantity of any pint registry; asked before numpy is, which would strip the unit in silence."""
+    pint = sys.modules.get("pint")
+    return pint is not None and isinstance(value, getattr(pint, "Quantity", ()))
+
+
+def to_quantity(value: Any, unit: str) -> Any:
+    """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's own; pairs part by part."""
+    import pint
+
+    if isinstance(value, tuple):
+        return tuple(to_quantity(part, unit) for part in value)
+    registry = pint.get_application_registry()
+    return registry.Quantity(value, unit or "dimensionless")
+
+
+class Door:
+    """Reads the arguments of one call; ``close`` raises one error that names every wrong one."""
+
+    def __init__(self) -> None:
+        self.problems: list[InputError] = []
+
+    def refuse(self, problem: InputError) -> float:
+        self.problems.append(problem)
+        return math.nan
+
+    def close(self) -> None:
+        if not self.problems:
+            return
+        first = self.problems[0]
+        if len(self.problems) == 1:
+            raise first
+        kinds = {type(problem) for problem in self.problems}
+        kind = kinds.pop() if len(kinds) == 1 else InputError
+        text = "\n".join(f"- {problem}" for problem in self.problems)
+        raise kind(
+            f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems)
+        )
+
+    def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
+        """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
+        try:
+            read, bare = _read(value, unit, argument)
+        except InputError as problem:
+            return self.refuse(problem)
+        if isinstance(read, np.ndarray):
+            read.setflags(write=False)
+        else:
+            problem_found = _outside(read, domain, argument, value)
+            if problem_found is not None:
+                return self.refuse(problem_found)
+        if bare:
+            _warn_if_implausible(read, unit, argument)
+        return read
+
+    def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
+        """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
+        parts = value
+        if is_quantity(value):
+            parts = tuple(value) if np.shape(value.magnitude) == (2,) else None
+        elif isinstance(value, np.ndarray):
+            parts = tuple(value) if value.shape == (2,) else None
+        if not isinstance(parts, (tuple, list)) or len(parts) != 2:
+            shape = f" of shape {np.shape(getattr(value, 'magnitude', value))}" if hasattr(value, "__array__") else ""
+            self.refuse(
+                ShapeError(
+                    f"{argument} must be a pair (x, y), got {_shown(value)}{shape}; for many points write "
+                    f"(xs, ys) with one array each, such as (points[:, 0], points[:, 1])",
+                    code="bad_shape",
+                    argument=argument,
+                )
+            )
+            return math.nan, math.nan
+        return self.number(parts[0], unit, f"{argument}[0]"), self.number(parts[1], unit, f"{argument}[1]")
+
+    def angle(self, value: Any, argument: str) -> tuple[Any, bool]:
+        """An angle, and whether it is in degrees: those are handed on as given, so that they can be reduced exactly."""
+        try:
+            quantity = _parse(value, "rad", argument) if isinstance(value, str) else value
+            if is_quantity(quantity) and _is_degree(quantity):
+                # Asked for only to refuse what cannot be an angle in the same words as everywhere else.
+                magnitude, _ = _read(quantity.magnitude, "", argument)
+                if not isinstance(magnitude, np.ndarray):
+                    problem_found = _outside(magnitude, FINITE, argument, value)
+                    if problem_found is not None:
+                        raise problem_found
+                return magnitude, True
+        except InputError as problem:
+            return self.refuse(problem), False
+        return self.number(quantity, "rad", argument), False
+
+
+def given_text(value: Any) -> str | None:
+    """How a scalar with a unit was written, for reports; None for plain numbers and arrays."""
+    if isinstance(value, str):
+        return value.strip()
+    if is_quantity(value) and np.ndim(value.magnitude) == 0:
+        return f"{value.magnitude} {value.units}"
+    return None
+
+
+def _read(value: Any, unit: str, argument: str) -> tuple[Any, bool]:
+    """The value in the unit, and whether it came without one."""
+    if type(value) is float:
+        return value, True
+    if isinstance(value, str):
+        return _convert(_parse(value, unit, argument), unit, argument), False
+    if is_quantity(value):
+        return _convert(value, unit, argument), value.unitless
+    return _plain(value, argument), True
+
+
+def _plain(value: Any, argument: str) -> Any:
+    """A float or a fresh float array from a number or an array without unit."""
+    if isinstance(value, (bool, np.bool_)):
+        raise _not_a_number(value, argument)
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        try:
+            read = float(value)
+        except OverflowError:
+            read = math.inf
+        if math.isinf(read) and (isinstance(value, (int, np.integer)) or not np.isinf(value)):
+            raise InputError(
+                f"{argument} is a number too large to be held as a float: {_shown(value)}", code="out_of_range", argument=argument
+            )
+        return read
+    if isinstance(value, (list, tuple)):
+        value = _from_sequence(value, argument)
+    elif not isinstance(value, np.ndarray):
+        if not hasattr(value, "__array__") or hasattr(value, "units") or hasattr(value, "unit"):
+            raise _not_a_number(value, argument)
+        value = np.asarray(value)
+    if type(value) not in (np.ndarray, np.memmap):
+        raise InputError(
+            f"{argument} is a {type(value).__module__}.{type(value).__name__}, whose mask or unit would be lost; give a plain "
+            f"numpy array (masked values filled with nan), or a pint Quantity",
+            code="not_a_number",
+            argument=argument,
+        )
+    if value.dtype.kind not in "fiu":
+        raise InputError(
+            f"{argument} is an array of {value.dtype}; give an array of floats or integers, for example by .astype(float)",
+            code="not_a_number",
+            argument=argument,
+        )
+    kept = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
+    with np.errstate(over="ignore"):
+        array = np.array(value, dtype=kept)
+    if value.dtype.itemsize > 8 and bool(np.any(np.isinf(array) & ~np.isinf(value))):
+        raise InputError(f"{argument} holds numbers too large for a float64", code="out_of_range", argument=argument)
+    return float(array) if array.ndim == 0 else array
+
+
+def _from_sequence(value: Sequence[Any], argument: str) -> Any:
+    stack: list[Any] = [value]
+    while stack:
+        item = stack.pop()
+        if isinstance(item, (list, tuple)):
+            stack.extend(item)
+        elif is_quantity(item) or isinstance(item, str):
+            raise UnitsError(
+                f"{argument} is a {type(value).__name__} with {_shown(item)} in it; put the unit on the whole: "
+                f"Quantity([1.0, 2.0], 'm/s'), or convert each to SI numbers first",
+                code="bad_units",
+                argument=argument,
+            )
+        elif isinstance(item, (bool, np.bool_)) or not isinstance(item, (int, float, np.number, np.ndarray)):
+            raise _not_a_number(item, argument)
+    try:
+        return np.array(value)
+    except ValueError:
+        raise ShapeError(
+            f"{argument} is a {type(value).__name__} of unequal rows; give an array", code="bad_shape", argument=argument
+        ) from None
+
+
+def _parse(text: str, unit: str, argument: str) -> Any:
+    """A Quantity from one plain number and one unit: float reads the number, pint only the unit.
+
+    Whole strings are never handed to pint, which reads "80 km/h 5" as 400 km/h and "1 500 kg" as 500 kg.
+    """
+    stripped = text.strip()
+    number = _NUMBER.match(stripped) if len(stripped) <= _LONGEST_TEXT else None
+    name = stripped[number.end() :].strip() if number else ""
+    if number is None or not (_UNIT.fullmatch(name) or (not name and not unit)):
+        raise UnitsError(
+            f"{argument}: cannot read {_shown(text)}; write one plain number and one unit, such as {_EXAMPLES[unit]}",
+            code="bad_units",
+            argument=argument,
+            text=text,
+        )
+    import pint
+
+    try:
+        registry = pint.get_application_registry()
+        return registry.Quantity(float(number.group()), registry.parse_units(name))
+    except Exception as error:
+        raise _bad_units(text, unit, argument, error) from error
+
+
+def _convert(quantity: Any, unit: str, argument: str) -> Any:
+    magnitude = _plain(quantity.magnitude, argument)
+    factor = _factor(quantity, unit, argument)
+    if factor != 1.0:
+        if isinstance(magnitude, np.ndarray):
+            magnitude *= factor
+        else:
+            magnitude *= factor
+            if math.isinf(magnitude) and not np.isinf(quantity.magnitude):
+                raise InputError(f"{argument} is too large: {_shown(quantity)}", code="out_of_range", argument=argument)
+    return magnitude
+
+
+def _factor(quantity: Any, unit: str, argument: str) -> float:
+    """What to multiply the magnitude by, kept for each registry and unit: pint needs 60 us to work it out."""
+    registry = quantity._REGISTRY
+    known = _factors.get(registry)
+    if known is None:
+        known = _factors[registry] = {}
+    key = (quantity._units, unit)
+    factor = known.get(key)
+    # An active context may give a unit another meaning until it ends, so nothing is kept of it.
+    in_context = bool(getattr(registry, "_active_ctx", None))
+    if factor is None or in_context:
+        try:
+            zero, factor, two = (
+                float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0.0, 1.0, 2.0)
+            )
+        except Exception as error:
+            raise _bad_units(quantity, unit, argument, error) from error
+        if zero != 0.0 or two != 2.0 * factor or _is_of_another_kind(quantity, unit):
+            raise _bad_units(quantity, unit, argument, None)
+        if not in_context:
+            known[key] = factor
+    return factor
+
+
+def _is_of_another_kind(quantity: Any, unit: str) -> bool:
+    """Units that pint calls dimensionless are still not one kind: an angle is no proportion, a count of turns no angle."""
+    names = [str(name) for name in quantity._units]
+    if unit == "":
+        units = quantity._REGISTRY.Unit
+        return any(units(name).dimensionless and name not in _SPOKEN_PROPORTIONS for name in names)
+    return unit in ("rad", "rad/s") and any(name.endswith(_COUNTS) for name in names)
+
+
+def _is_degree(quantity: Any) -> bool:
+    return dict(quantity._units) == {"degree": 1}
+
+
+def _outside(value: float, domain: str, argument: str, given: Any) -> InputError | None:
+    """The refusal of a scalar outside its domain, if it is."""
+    if math.isnan(value) and domain in (POSITIVE, FINITE):
+        return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
+    if domain == POSITIVE and not value > 0.0:
+        return InputError(f"{argument} must be > 0 (inf allowed), got {_shown(given)}", code="not_positive", argument=argument)
+    if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
+        code = "bad_restitution" if argument == "restitution" else "bad_fraction"
+        return InputError(f"{argument} must be from 0 to 1, got {_shown(given)}", code=code, argument=argument)
+    if domain == NOT_NEGATIVE and not value >= 0.0:
+        return InputError(
+            f"{argument} must be >= 0 (inf allowed), got {_shown(given)}: its direction is worked out, give the magnitude",
+            code="bad_friction",
+            argument=argument,
+        )
+    if domain == FINITE and math.isinf(value):
+        return InputError(
+            f"{argument} must be finite, got {_shown(given)}; only mass, yaw_inertia and friction may be inf",
+            code="not_finite",
+            argument=argument,
+        )
+    return None
+
+
+def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
+    limit = _PLAUSIBLE.get(unit)
+    if limit is None:
+        return
+    # fmin and fmax pass over NaN, and reductions make no temporary.
+    worst = (
+        max(-float(np.fmin.reduce(value, axis=None)), float(np.fmax.reduce(value, axis=None)))
+        if isinstance(value, np.ndarray) and value.size
+        else abs(value)
+        if not isinstance(value, np.ndarray)
+        else 0.0
+    )
+    if worst > limit and not math.isinf(worst):
+        degrees = "deg" if unit == "rad" else "deg/s"
+        warnings.warn(
+            SuspectUnitsWarning(
+                f"{argument} = {worst:g} is read as {unit}; if degrees were meant, write '{worst:g} {degrees}'",
+                code="suspect_units",
+                argument=argument,
+                value=worst,
+            ),
+            stacklevel=callers_level(),
+        )
+
+
+def callers_level() -> int:
+    """The stack level of the first caller outside this package, where a warning belongs."""
+    level = 1
+    frame: Any = sys._getframe(1)
+    package = __name__.partition(".")[0]
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        frame = frame.f_back
+        level += 1
+    return level - 1
+
+
+def _not_a_number(value: Any, argument: str) -> InputError:
+    return InputError(
+        f"{argument} must be a number, an array, a Quantity or a text such as '80 km/h', got {_shown(value)} "
+        f"of type {type(value).__name__}",
+        code="not_a_number",
+        argument=argument,
+    )
+
+
+def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) -> UnitsError:
+    wanted = unit or "a plain number"
+    reason = f" ({error})" if error is not None else ""
+    hint = ""
+    text = str(given)
+    if unit == "kg" and ("force" in text or "lbf" in text or "newton" in text):
+        hint = "; a weight is a force: give the mass, in 'lb' or 'kg'"
+    elif unit == "rad/s" and "hertz" in text.lower() or "Hz" in text:
+        hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
+    elif unit == "kg*m**2":
+        hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
+    return UnitsError(
+        f"{argument}: {_shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {_EXAMPLES[unit]}",
+        code="bad_units",
+        argument=argument,
+        text=text,
+    )
+
+
+def _shown(value: Any) -> str:
+    """A short rendering of what was given, safe for any object."""
+    try:
+        text = f"{value}" if is_quantity(value) else repr(value)
+    except Exception:
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= 80 else text[:77] + "..."

@@ -1,0 +1,430 @@
+"""Vehicle: one body at one instant, before, during or after an impact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+from .directions import direction, from_radians
+from .errors import InputError, MissingInputError
+from .fields import Quantities, derived, numeric, same, show, table
+from .kernels.turning import turning_velocity
+from .units import FINITE, POSITIVE, Door, Input, Pair, Value, given_text
+
+_isfinite = math.isfinite
+_ABSENT: Any = object()
+
+
+def _quantity(unit: str, domain: str = FINITE) -> Any:
+    return field(metadata={"unit": unit, "domain": domain})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, eq=False, repr=False)
+class Vehicle:
+    """One body in the road plane at one instant: what it weighs, where it is and how it moves.
+
+    The state before an impact, and also the state after it, so that the result of one impact can be the start of the next.
+    Scene axes x, y, right-handed seen from above; angles counter-clockwise from +x. Numbers without a unit are SI; a
+    Quantity or a text such as ``"80 km/h"`` is converted once, here. Any argument may be an array (a batch): arrays are copied
+    and locked, and their values are checked case by case by the solver.
+
+    Parameters
+    ----------
+    mass : float, str, Quantity or array [kg]
+        Mass, > 0; ``inf`` for a body that does not move.
+    vx, vy : float, str, Quantity or array [m/s]
+        Velocity of the centre of mass.
+    yaw_rate : float, str, Quantity or array [rad/s]
+        Yaw rate, positive counter-clockwise.
+    yaw_inertia : float, str, Quantity or array [kg*m**2], optional
+        Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that does not rotate.
+    x, y : float, str, Quantity or array [m], optional
+        Position of the centre of mass. Never taken as 0 when it was not given.
+    heading : float, str, Quantity or array [rad], optional
+        Direction in which the vehicle points, which need not be the direction in which it moves.
+    pivot : pair [m], optional
+        Scene point the body can only turn about. Its velocity then is the yaw rate times the arm: worked out where vx and vy
+        are 0, otherwise it must agree to 1e-9.
+    name : str, optional
+        What to call it in messages and tables.
+
+    Raises
+    ------
+    InputError
+        Naming every argument that cannot be used.
+
+    Examples
+    --------
+    >>> Vehicle(mass="1100 kg", vx="80 km/h", name="A")
+    Vehicle(mass=1100 kg, vx=22.2222 m/s, name='A')
+    """
+
+    mass: Value = _quantity("kg", POSITIVE)
+    vx: Value = _quantity("m/s")
+    vy: Value = _quantity("m/s")
+    yaw_rate: Value = _quantity("rad/s")
+    yaw_inertia: Value | None = _quantity("kg*m**2", POSITIVE)
+    x: Value | None = _quantity("m")
+    y: Value | None = _quantity("m")
+    heading: Value | None = _quantity("rad")
+    pivot: tuple[Value, Value] | None = _quantity("m")
+    name: str = field()
+    _given: dict[str, str] | None = field(metadata={"hidden": True})
+
+    def __init__(
+        self,
+        *,
+        mass: Input,
+        vx: Input = 0.0,
+        vy: Input = 0.0,
+        yaw_rate: Input = 0.0,
+        yaw_inertia: Input | None = None,
+        x: Input | None = None,
+        y: Input | None = None,
+        heading: Input | None = None,
+        pivot: Pair | None = None,
+        name: str = "",
+    ) -> None:
+        given: dict[str, str] | None = None
+        if not (
+            # Six plain floats in order need none of the door; anything else goes through it.
+            type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
+            and mass > 0.0
+            and _isfinite(vx + vy)
+            and -20.0 < yaw_rate < 20.0
+            and (yaw_inertia is None or (type(yaw_inertia) is float and yaw_inertia > 0.0))
+            and (x is None or (type(x) is float and _isfinite(x)))
+            and (y is None or (type(y) is float and _isfinite(y)))
+            and (heading is None or (type(heading) is float and -6.0 < heading < 6.0))
+            and pivot is None
+            and type(name) is str
+        ):
+            mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name, given = _through_the_door(
+                mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name
+            )
+        _set_mass(self, mass)
+        _set_vx(self, vx)
+        _set_vy(self, vy)
+        _set_yaw_rate(self, yaw_rate)
+        _set_yaw_inertia(self, yaw_inertia)
+        _set_x(self, x)
+        _set_y(self, y)
+        _set_heading(self, heading)
+        _set_pivot(self, pivot)
+        _set_name(self, name)
+        _set_given(self, given)
+
+    @classmethod
+    def barrier(cls, **rest: Any) -> Vehicle:
+        """A body that neither moves nor turns: a wall, a pillar, or whatever does not give way.
+
+        Examples
+        --------
+        >>> Vehicle.barrier()
+        Vehicle(mass=inf kg, yaw_inertia=inf kg*m**2, name='barrier')
+        """
+        return cls(**{"mass": math.inf, "yaw_inertia": math.inf, "name": "barrier", **rest})
+
+    @classmethod
+    def from_speed(cls, *, speed: Input, course: Input, **rest: Any) -> Vehicle:
+        """A vehicle from its speed [m/s] and course [rad], the direction in which it moves.
+
+        A course in degrees is reduced exactly: 90 deg gives vx = 0, not 6e-17.
+
+        Raises
+        ------
+        InputError
+            Also when vx or vy is given beside them.
+
+        Examples
+        --------
+        >>> Vehicle.from_speed(speed="60 km/h", course="90 deg", mass=900)
+        Vehicle(mass=900 kg, vy=16.6667 m/s)
+        """
+        if "vx" in rest or "vy" in rest:
+            raise InputError("give either speed and course or vx and vy, not both", code="speed_twice", argument="speed")
+        door = Door()
+        magnitude = door.number(speed, "m/s", "speed")
+        cx, cy = direction(door, course, "course")
+        door.close()
+        vehicle = cls(**{**rest, "vx": magnitude * cx + 0.0, "vy": magnitude * cy + 0.0})
+        given = {name: text for name, text in (("speed", given_text(speed)), ("course", given_text(course))) if text}
+        if given:
+            _set_given(vehicle, {**(vehicle._given or {}), **given})
+        return vehicle
+
+    def replace(self, **changes: Any) -> Vehicle:
+        """The same vehicle with some fields changed; the velocity of a pinned one is worked out again.
+
+        Examples
+        --------
+        >>> Vehicle(mass=900.0).replace(yaw_inertia=1200.0)
+        Vehicle(mass=900 kg, yaw_inertia=1200 kg*m**2)
+        """
+        kept = {name: getattr(self, name) for name in _NAMES}
+        if self.pivot is not None:
+            kept["vx"] = kept["vy"] = 0.0
+        vehicle = type(self)(**{**kept, **changes})
+        if self._given:
+            texts = {name: text for name, text in self._given.items() if name not in changes}
+            if {"vx", "vy"} & changes.keys():
+                texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
+            _set_given(vehicle, {**texts, **(vehicle._given or {})} or None)
+        return vehicle
+
+    def _moved(self, vx: Any, vy: Any, yaw_rate: Any) -> Vehicle:
+        """The same body in another motion, numbers taken as they are: the way results are made."""
+        vehicle: Vehicle = object.__new__(Vehicle)
+        _set_mass(vehicle, self.mass)
+        _set_yaw_inertia(vehicle, self.yaw_inertia)
+        _set_x(vehicle, self.x)
+        _set_y(vehicle, self.y)
+        _set_heading(vehicle, self.heading)
+        _set_pivot(vehicle, self.pivot)
+        _set_name(vehicle, self.name)
+        _set_given(vehicle, None)
+        if self.pivot is not None:
+            vx, vy = turning_velocity(yaw_rate, self.x, self.y, self.pivot[0], self.pivot[1])
+        for value in (vx, vy, yaw_rate):
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        _set_vx(vehicle, vx)
+        _set_vy(vehicle, vy)
+        _set_yaw_rate(vehicle, yaw_rate)
+        return vehicle
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
+    @derived("m/s")
+    def speed(self) -> Value:
+        """Speed of the centre of mass [m/s]."""
+        return numeric(self.vx, self.vy).hypot(self.vx, self.vy)
+
+    @derived("rad")
+    def course(self) -> Value:
+        """Direction of motion of the centre of mass [rad], in (-pi, pi]; NaN at rest."""
+        return angle_of(self.vx, self.vy)
+
+    @derived("kg*m/s")
+    def momentum(self) -> tuple[Value, Value]:
+        """Momentum (x, y) [kg*m/s]; of an infinite mass 0 at rest, else infinite."""
+        return _product(self.mass, self.vx), _product(self.mass, self.vy)
+
+    @derived("J")
+    def kinetic_energy(self) -> Value:
+        """Kinetic energy, translation and rotation [J]; of an infinite mass 0 at rest, else infinite.
+
+        Raises
+        ------
+        MissingInputError
+            The body turns and its yaw inertia was not given.
+        """
+        energy = _product(self.mass, 0.5 * (self.vx * self.vx + self.vy * self.vy))
+        if np.all(np.equal(self.yaw_rate, 0.0)):
+            return energy
+        inertia = self.need("yaw_inertia", "kinetic_energy of a turning body")
+        return energy + _product(inertia, 0.5 * (self.yaw_rate * self.yaw_rate))
+
+    def point(
+        self,
+        *,
+        forward: Input = _ABSENT,
+        left: Input = _ABSENT,
+        distance: Input = _ABSENT,
+        angle: Input = _ABSENT,
+    ) -> tuple[Value, Value]:
+        """A place on the vehicle as a scene point (x, y) [m]: from the centre of mass, forward and left, or distance and angle.
+
+        Parameters
+        ----------
+        forward, left : [m]
+            Ahead of the centre of mass, and to the driver's left (negative: to the right). One not given is 0.
+        distance, angle : [m], [rad]
+            Both together: distance, and angle from the heading, counter-clockwise.
+
+        Raises
+        ------
+        MissingInputError
+            The vehicle has no position or no heading.
+
+        Examples
+        --------
+        >>> Vehicle(mass=1100.0, x=10.0, y=5.0, heading=0.0).point(forward=2.0, left="-50 cm")
+        (12.0, 4.5)
+        """
+        door = Door()
+        polar = distance is not _ABSENT, angle is not _ABSENT
+        if (any(polar) and not all(polar)) or all(polar) != (forward is _ABSENT and left is _ABSENT):
+            raise InputError("give forward= and left=, or distance= and angle=", code="bad_point", argument="point")
+        x, y, heading = (self.need(name, "point") for name in ("x", "y", "heading"))
+        if all(polar):
+            length = door.number(distance, "m", "distance")
+            c, s = direction(door, angle, "angle")
+            ahead, aside = length * c, length * s
+        else:
+            ahead = 0.0 if forward is _ABSENT else door.number(forward, "m", "forward")
+            aside = 0.0 if left is _ABSENT else door.number(left, "m", "left")
+        door.close()
+        hx, hy = from_radians(heading)
+        return x + (ahead * hx - aside * hy), y + (ahead * hy + aside * hx)
+
+    def velocity_at(self, point: Pair) -> tuple[Value, Value]:
+        """Velocity (x, y) [m/s] of the place of the body that is at a scene point.
+
+        Raises
+        ------
+        MissingInputError
+            The body turns and its position was not given.
+
+        Examples
+        --------
+        >>> Vehicle(mass=1100.0, vx=10.0, yaw_rate=0.5, x=0.0, y=0.0).velocity_at((2.0, 1.0))
+        (9.5, 1.0)
+        """
+        door = Door()
+        px, py = door.pair(point, "m", "point")
+        door.close()
+        turn_x, turn_y = self._turn_at(self.yaw_rate, px, py, "velocity_at")
+        return self.vx + turn_x, self.vy + turn_y
+
+    def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:
+        """What a yaw rate adds to the velocity at a scene point."""
+        if isinstance(yaw_rate, float) and yaw_rate == 0.0:
+            return 0.0, 0.0
+        return turning_velocity(yaw_rate, px, py, self.need("x", purpose), self.need("y", purpose))
+
+    def need(self, name: str, purpose: str) -> Any:
+        """The value of an optional field, or a MissingInputError that says what it is needed for."""
+        value = getattr(self, name)
+        if value is None:
+            raise missing(self, name, purpose)
+        return value
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Vehicle):
+            return NotImplemented
+        return all(same(getattr(self, name), getattr(other, name)) for name in _NAMES)
+
+    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
+
+    def __repr__(self) -> str:
+        return f"Vehicle({', '.join(f'{name}={text}' for name, text in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return table(self.name or "Vehicle", self._rows())
+
+    def _rows(self) -> Any:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if "hidden" in f.metadata or value is None or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET):
+                continue
+            yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in (*_NAMES, "_given")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, value in state.items():
+            for part in value if isinstance(value, tuple) else (value,):
+                if isinstance(part, np.ndarray):
+                    part.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+
+_NAMES = tuple(f.name for f in fields(Vehicle) if "hidden" not in f.metadata)
+DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
+_QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
+# Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
+_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, _set_pivot, _set_name, _set_given = (
+    getattr(Vehicle, f.name).__set__ for f in fields(Vehicle)
+)
+
+
+def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
+    """The refusal of a vehicle that lacks a field something needs."""
+    who = f"{label} ({vehicle.name})" if vehicle.name else label
+    example = {
+        "yaw_inertia": "yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
+        "x": "x='2.5 m' (the centre of mass at the moment of impact)",
+        "y": "y='0 m' (the centre of mass at the moment of impact)",
+        "heading": "heading='30 deg' (where it points, counter-clockwise from +x, whatever way it moves)",
+    }[name]
+    code = {"yaw_inertia": "missing_inertia", "x": "missing_position", "y": "missing_position", "heading": "missing_heading"}[name]
+    return MissingInputError(f"{who} has no {name}, which {purpose} needs; give {example}", code=code, argument=name, vehicle=label)
+
+
+def angle_of(x: Any, y: Any) -> Any:
+    """Direction of a vector [rad] in (-pi, pi]; NaN without a length. Adding 0 turns -0 into 0, which would give -pi."""
+    if isinstance(x, float) and isinstance(y, float):
+        return math.atan2(y + 0.0, x) if x != 0.0 or y != 0.0 else math.nan
+    return np.where(np.equal(x, 0.0) & np.equal(y, 0.0), np.nan, np.arctan2(np.add(y, 0.0), x))
+
+
+def _product(weight: Any, motion: Any) -> Any:
+    """Mass times motion, where an infinite mass at rest counts as 0."""
+    if isinstance(weight, float) and isinstance(motion, float):
+        return 0.0 if motion == 0.0 else weight * motion
+    with np.errstate(invalid="ignore"):
+        return np.where(np.equal(motion, 0.0), 0.0, np.multiply(weight, motion))
+
+
+def _through_the_door(
+    mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any, heading: Any, pivot: Any, name: Any
+) -> tuple[Any, ...]:
+    """Every field in SI, and the texts of those given with a unit; one error names all that cannot be used."""
+    door = Door()
+    raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
+    if mass is None:
+        door.refuse(MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass"))
+    read = [
+        value if value is None else door.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
+        for value, f in zip(raw, fields(Vehicle), strict=False)
+    ]
+    for label, value in (("vx", vx), ("vy", vy), ("yaw_rate", yaw_rate)):
+        if value is None:
+            door.refuse(InputError(f"{label} is None; leave it out for 0", code="not_a_number", argument=label))
+    if not isinstance(name, str):
+        door.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
+    pin = None if pivot is None else door.pair(pivot, "m", "pivot")
+    door.close()
+    if pin is not None:
+        read[1], read[2] = _pinned(pin, *read[:7])
+    given = {f.name: text for value, f in zip(raw, fields(Vehicle), strict=False) if (text := given_text(value)) is not None}
+    return (*read, pin, name, given or None)
+
+
+def _pinned(pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any) -> tuple[Any, Any]:
+    """The velocity of a body that can only turn about the pin; scalars are checked here, arrays by the solver."""
+    for label, value in (("mass", mass), ("yaw_inertia", yaw_inertia)):
+        if isinstance(value, float) and math.isinf(value):
+            raise InputError(
+                f"{label} is inf and pivot is given; a pinned body turns, so give its {label}, or use Vehicle.barrier()",
+                code="pinned_infinite",
+                argument=label,
+            )
+    for label, value in (("x", x), ("y", y)):
+        if value is None:
+            raise MissingInputError(
+                f"{label} is missing; a pivot needs the position of the centre of mass (x, y)", code="missing_position", argument=label
+            )
+    wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
+    if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
+        if (vx != 0.0 or vy != 0.0) and math.hypot(vx - wanted_x, vy - wanted_y) > 1e-9 * math.hypot(wanted_x, wanted_y):
+            raise InputError(
+                f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate times arm "
+                f"gives ({wanted_x:.10g}, {wanted_y:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
+                code="pinned_velocity",
+                argument="vx",
+            )
+        return wanted_x, wanted_y
+    resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
+    moved_x, moved_y = np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)
+    for moved in (moved_x, moved_y):
+        moved.setflags(write=False)
+    return moved_x, moved_y
