@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .directions import direction
+from .directions import direction, from_radians
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, ShapeError, Status
 from .impact import Asked, Impact, build
 from .kernels import checks, codes
@@ -24,6 +24,10 @@ Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 Progress: TypeAlias = Callable[[int, int], None]
 
+# A NamedTuple made from a tuple costs a third of one made from arguments.
+_as_asked: Callable[..., Asked] = tuple.__new__
+_as_read: Callable[..., Read] = tuple.__new__
+_ALONG_X = (1.0, 0.0)
 _TANGENTIAL_DOMAINS = {codes.FRICTION: NOT_NEGATIVE, codes.IMPULSE_RATIO: FINITE, codes.CRITICAL_FRACTION: UNIT_INTERVAL}
 _VALUE_CHECKS: dict[str, tuple[tuple[int, Callable[..., Any]], ...]] = {
     FINITE: ((codes.NOT_FINITE, checks.not_finite),),
@@ -36,27 +40,51 @@ _BOUND_CHECKS = {
 }
 
 
-def read(
-    a: Vehicle, b: Vehicle, restitution: Any, normal: Any, point: Any, tangential: tuple[Any, Any, Any], law: Any
-) -> tuple[Any, tuple[Any, Any], str, Any, tuple[Any, Any] | None]:
-    """Restitution, unit normal, tangential rule and its value, and contact point, as floats or arrays.
+class Read(NamedTuple):
+    """The shared arguments as numbers; ``plain`` if all of them are floats."""
 
-    Plain floats that need no conversion pass at once; anything else goes through the door, which names all that is wrong.
-    """
-    given = [(rule, value) for rule, value in zip(codes.RULES, tangential, strict=True) if value is not None]
-    quick = (
+    restitution: Any
+    normal: tuple[Any, Any]
+    rule: str
+    bound: Any
+    point: tuple[Any, Any] | None
+    plain: bool
+
+
+def read(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    friction: Any,
+    impulse_ratio: Any,
+    critical_fraction: Any,
+    law: Any,
+) -> Read:
+    """The shared arguments as numbers. What the door would hand on unchanged passes at once; the door names what is wrong."""
+    if (
         type(a) is type(b) is Vehicle
         and type(restitution) is float
         and 0.0 <= restitution <= 1.0
-        and len(given) == 1
-        and type(given[0][1]) is float
-        and 0.0 <= given[0][1] <= 1.0
-        and law in codes.LAWS
-        and (point is None or (type(point) is tuple and len(point) == 2 and type(point[0]) is type(point[1]) is float))
-        and (point is None or math.isfinite(point[0] + point[1]))
-    )
-    if quick and type(normal) is float and -6.0 < normal < 6.0:
-        return restitution, (math.cos(normal), math.sin(normal)), given[0][0], given[0][1], point
+        and type(friction) is float
+        and friction >= 0.0
+        and impulse_ratio is critical_fraction is None
+        and (law == codes.BRACH or law == codes.KUDLICH_SLIBAR)
+        and (
+            point is None
+            or (
+                type(point) is tuple
+                and len(point) == 2
+                and type(point[0]) is type(point[1]) is float
+                and math.isfinite(point[0] + point[1])
+            )
+        )
+    ):
+        if normal == 0.0 and type(normal) is float:
+            return _as_read(Read, (restitution, _ALONG_X, codes.FRICTION, friction, point, True))
+        if type(normal) is float and -6.0 < normal < 6.0:
+            return _as_read(Read, (restitution, from_radians(normal), codes.FRICTION, friction, point, True))
     door = Door()
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
@@ -67,25 +95,10 @@ def read(
                     argument=label,
                 )
             )
-    unit = direction(door, normal, "normal")
-    if quick and not door.problems:
-        return restitution, unit, given[0][0], given[0][1], point
     e = door.number(restitution, "", "restitution", UNIT_INTERVAL)
+    unit = direction(door, normal, "normal")
     contact = None if point is None else door.pair(point, "m", "point")
-    rule, bound = codes.FRICTION, math.nan
-    if len(given) == 1:
-        rule = given[0][0]
-        bound = door.number(given[0][1], "", rule, _TANGENTIAL_DOMAINS[rule])
-    else:
-        found = "none" if not given else " and ".join(f"{name}=" for name, _ in given)
-        door.refuse(
-            InputError(
-                f"give exactly one of friction=, impulse_ratio=, critical_fraction=; got {found}. There is no default, because "
-                f"it decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",
-                code="one_tangential",
-                argument="friction",
-            )
-        )
+    rule, bound = _tangential(door, (friction, impulse_ratio, critical_fraction))
     if law not in codes.LAWS:
         door.refuse(
             InputError(
@@ -96,7 +109,25 @@ def read(
             )
         )
     door.close()
-    return e, unit, rule, bound, contact
+    return Read(e, unit, rule, bound, contact, np.ndarray not in map(type, (e, bound, *unit, *(contact or ()))))
+
+
+def _tangential(door: Door, values: tuple[Any, Any, Any]) -> tuple[str, Any]:
+    """Which of the three ways to say what happens along the tangent was used, and its value."""
+    given = [(rule, value) for rule, value in zip(codes.RULES, values, strict=True) if value is not None]
+    if len(given) == 1:
+        rule, value = given[0]
+        return rule, door.number(value, "", rule, _TANGENTIAL_DOMAINS[rule])
+    found = "none" if not given else " and ".join(f"{name}=" for name, _ in given)
+    door.refuse(
+        InputError(
+            f"give exactly one of friction=, impulse_ratio=, critical_fraction=; got {found}. There is no default, because "
+            f"it decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",
+            code="one_tangential",
+            argument="friction",
+        )
+    )
+    return codes.FRICTION, math.nan
 
 
 def refuse_pivots(model: str, a: Vehicle, b: Vehicle) -> None:
@@ -113,33 +144,38 @@ def refuse_pivots(model: str, a: Vehicle, b: Vehicle) -> None:
 def answer(
     solver: Callable[..., Impact],
     kernel: Callable[..., tuple[Any, ...]],
-    asked: Asked,
     inputs: tuple[Any, ...],
-    scope: Sequence[Check],
+    settings: tuple[Any, ...],
+    asked: tuple[Any, ...],
+    plain: bool,
+    scope: Check | None,
     on_failure: Any,
     threads: Any,
     progress: Any,
 ) -> Impact:
-    """The Impact of one case or of a batch. ``scope`` are the checks of the model, the values having been checked at the door."""
+    """The Impact of one case or of a batch: the kernel called with its inputs and its settings.
+
+    ``scope`` finds the motion that the model cannot hold; every other value has been checked at the door.
+    """
     if on_failure is not None or threads != 1 or progress is not None:
         _check_options(on_failure, threads, progress)
-    a, b = asked.a, asked.b
-    if (a._given is not None or b._given is not None or np.ndarray in map(type, inputs)) and (shape := _shape(asked)) is not None:
-        return _batch(solver, kernel, asked, inputs, scope, shape, on_failure, threads, progress)
-    raw = kernel(*inputs)
-    if scope:
-        fault = verdict(*((condition(*values), code) for code, condition, values in scope))
-        if fault:
-            raw = (fault, *raw[1:])
-    if raw[0]:
+    question = _as_asked(Asked, asked)
+    if not (plain and question.a._given is None and question.b._given is None):
+        shape = _shape(question)
+        if shape is not None:
+            return _batch(solver, kernel, inputs, settings, question, scope, shape, on_failure, threads, progress)
+    raw = kernel(*inputs, *settings)
+    fault = scope[0](*scope[1]) if scope is not None else codes.OK
+    if fault or raw[0]:
+        raw = (fault or raw[0], *raw[1:])
         if raw[0] > codes.ENERGY_GAIN:
             if on_failure != "nan":
-                raise refusal(asked, raw)
+                raise refusal(question, raw)
             raw = (raw[0], *(False if name == "sticks" else math.nan for name in codes.OUTPUTS[1:]))
         else:
-            loss = raw[codes.OUTPUTS.index("energy_loss")]
-            _warn_of_gain(f"the impact gains {-loss:.6g} J of energy", -loss)
-    return build(asked, raw)
+            gain = -raw[codes.OUTPUTS.index("energy_loss")]
+            _warn_of_gain(f"the impact gains {gain:.6g} J of energy", gain)
+    return build(question, raw)
 
 
 def ask(solver: Callable[..., Impact], asked: Asked, **options: Any) -> Impact:
@@ -155,9 +191,10 @@ def ask(solver: Callable[..., Impact], asked: Asked, **options: Any) -> Impact:
 def _batch(
     solver: Callable[..., Impact],
     kernel: Callable[..., tuple[Any, ...]],
-    asked: Asked,
     inputs: tuple[Any, ...],
-    scope: Sequence[Check],
+    settings: tuple[Any, ...],
+    asked: Asked,
+    scope: Check | None,
     shape: tuple[int, ...],
     on_failure: Any,
     threads: int,
@@ -166,11 +203,10 @@ def _batch(
     arrays = [value for _, value in _values(asked) if isinstance(value, np.ndarray)]
     dtype = np.float32 if all(array.dtype == np.float32 for array in arrays) else np.float64
     eps = float(np.finfo(dtype).eps)
-    scope = [
-        (code, partial(condition, eps=eps) if condition in (checks.transverse, checks.not_about_pivot) else condition, values)
-        for code, condition, values in (*_value_checks(asked), *scope)
-    ]
-    raw = solve_lanes(partial(kernel, eps=eps), inputs, scope, shape, dtype, threads, progress)
+    found = _value_checks(asked, eps)
+    if scope is not None:
+        found.append((partial(scope[0], eps=eps), scope[1]))
+    raw = solve_lanes(lambda *block: kernel(*block, *settings, eps), inputs, found, shape, dtype, threads, progress)
     status = raw[0]
     refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
     if refused:
@@ -209,27 +245,30 @@ def _shape(asked: Asked) -> tuple[int, ...] | None:
         raise ShapeError(f"these arrays do not broadcast together: {shapes}", code="bad_shape") from None
 
 
-def _value_checks(asked: Asked) -> list[Check]:
+def _value_checks(asked: Asked, eps: float) -> list[Check]:
     """What the door checks of scalars, for the arrays of the question."""
     found: list[Check] = []
+
+    def add(code: int, condition: Callable[..., Any], *values: Any) -> None:
+        found.append((lambda *block: verdict((condition(*block), code)), values))
+
     for label, value in _values(asked):
         if not isinstance(value, np.ndarray):
             continue
         if label == "restitution":
-            found.append((codes.BAD_RESTITUTION, checks.outside_unit_interval, (value,)))
+            add(codes.BAD_RESTITUTION, checks.outside_unit_interval, value)
         elif label == asked.rule:
-            code, condition = _BOUND_CHECKS[asked.rule]
-            found.append((code, condition, (value,)))
+            add(*_BOUND_CHECKS[asked.rule], value)
         else:
-            domain = DOMAINS.get(label.partition(".")[2], FINITE)
-            found += [(code, condition, (value,)) for code, condition in _VALUE_CHECKS[domain]]
+            for code, condition in _VALUE_CHECKS[DOMAINS.get(label.partition(".")[2], FINITE)]:
+                add(code, condition, value)
     if any(isinstance(part, np.ndarray) for part in asked.normal):
-        found.append((codes.ZERO_NORMAL, checks.without_length, asked.normal))
+        add(codes.ZERO_NORMAL, checks.without_length, *asked.normal)
     for vehicle in (asked.a, asked.b):
         if vehicle.pivot is not None:
-            found.append((codes.PINNED_INFINITE, checks.either_infinite, (vehicle.mass, vehicle.yaw_inertia)))
+            add(codes.PINNED_INFINITE, checks.either_infinite, vehicle.mass, vehicle.yaw_inertia)
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y)
-            found.append((codes.PINNED_VELOCITY, checks.not_about_pivot, (*motion, *vehicle.pivot)))
+            add(codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps), *motion, *vehicle.pivot)
     return found
 
 
@@ -243,12 +282,18 @@ def _first_refusal(solver: Callable[..., Impact], asked: Asked, status: Any) -> 
             return tuple(lane(part) for part in value)
         return float(np.broadcast_to(value, status.shape)[index]) if isinstance(value, np.ndarray) else value
 
+    def lane_of(vehicle: Vehicle) -> Vehicle:
+        return vehicle.replace(**{name: lane(getattr(vehicle, name)) for name in (*DOMAINS, "pivot")})
+
     try:
         one = asked._replace(
-            **{name: lane(getattr(asked, name)) for name in ("restitution", "normal", "bound", "point")},
-            **{side: vehicle.replace(**{n: lane(getattr(vehicle, n)) for n in (*DOMAINS, "pivot")})
-               for side, vehicle in (("a", asked.a), ("b", asked.b))},
-        )  # fmt: skip
+            a=lane_of(asked.a),
+            b=lane_of(asked.b),
+            restitution=lane(asked.restitution),
+            normal=lane(asked.normal),
+            bound=lane(asked.bound),
+            point=lane(asked.point),
+        )
         ask(solver, one)
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
@@ -257,7 +302,9 @@ def _first_refusal(solver: Callable[..., Impact], asked: Asked, status: Any) -> 
 
 
 def _warn_of_refusals(status: Any, refused: int) -> None:
-    kinds = {Status(int(code)).label: int(np.count_nonzero(status == code)) for code in np.unique(status[status > codes.ENERGY_GAIN])}
+    kinds = {
+        Status(int(code)).label: int(np.count_nonzero(status == code)) for code in np.unique(status[status > codes.ENERGY_GAIN])
+    }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     warnings.warn(
         CollisionsWarning(
@@ -290,5 +337,7 @@ def _check_options(on_failure: Any, threads: Any, progress: Any) -> None:
         raise InputError(f"threads must be a whole number from 1, got {threads!r}", code="bad_option", argument="threads")
     if progress is not None and not callable(progress):
         raise InputError(
-            f"progress must be a function of (done, total), got {type(progress).__name__}", code="bad_option", argument="progress"
+            f"progress must be a function of (done, total), got {type(progress).__name__}",
+            code="bad_option",
+            argument="progress",
         )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from math import inf
 from typing import Any
 
@@ -10,8 +9,7 @@ import numpy as np
 
 from .arguments import Law, OnFailure, Progress, answer, read
 from .errors import MissingInputError
-from .impact import Asked, Impact
-from .kernels import codes
+from .impact import Impact
 from .kernels.eccentric import eccentric as kernel
 from .units import Input, Pair
 from .vehicle import Vehicle, missing
@@ -27,7 +25,7 @@ def eccentric(
     friction: Input | None = None,
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
-    law: Law = codes.BRACH,
+    law: Law = "brach",
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -90,7 +88,7 @@ def eccentric(
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
     """
-    e, n, rule, bound, contact = read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law)
+    e, n, rule, bound, contact, plain = read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law)
     if contact is None:
         raise MissingInputError(
             "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
@@ -99,10 +97,12 @@ def eccentric(
         )
     return answer(
         eccentric,
-        partial(kernel, rule=rule, law=law, pinned_a=a.pivot is not None, pinned_b=b.pivot is not None),
-        Asked("eccentric", a, b, e, n, rule, bound, law, contact),
-        (e, n[0], n[1], bound, *contact, *_body(a, "a", contact), *_body(b, "b", contact)),
-        (),
+        kernel,
+        (e, *n, bound, *contact, *_body(a, "a", contact), *_body(b, "b", contact)),
+        (rule, law, a.pivot is not None, b.pivot is not None),
+        ("eccentric", a, b, e, n, rule, bound, law, contact),
+        plain,
+        None,
         on_failure,
         threads,
         progress,
@@ -118,5 +118,5 @@ def _body(vehicle: Vehicle, label: str, contact: tuple[Any, Any]) -> tuple[Any, 
         if not np.all(np.equal(mass, inf) & np.equal(inertia, inf) & np.equal(spin, 0.0)):
             raise missing(vehicle, "x" if x is None else "y", "eccentric", label)
         x, y = contact
-    pivot = (0.0, 0.0) if vehicle.pivot is None else vehicle.pivot
-    return (mass, inertia, vehicle.vx, vehicle.vy, spin, x, y, *pivot)
+    pivot_x, pivot_y = vehicle.pivot or (0.0, 0.0)
+    return mass, inertia, vehicle.vx, vehicle.vy, spin, x, y, pivot_x, pivot_y

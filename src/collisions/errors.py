@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 
-class _Carrying:
+class _Carrying(BaseException):
     """Carries a label and named fields beside the message, through pickling too."""
 
     def __init__(self, message: str = "", *, code: str = "", **fields: Any) -> None:

@@ -4,29 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from .units import to_quantity
+from .units import Value, to_quantity
 
 T = TypeVar("T")
 
 
-class derived(Generic[T]):
+class Derived(Generic[T]):
     """A read-only attribute worked out when asked for, and once where its owner has a cache; it carries its unit."""
 
-    def __init__(self, unit: str | None = None) -> None:
+    def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:
         self.unit = unit
-
-    def __call__(self, work_out: Callable[[Any], T]) -> derived[T]:
         self.work_out = work_out
         self.name = work_out.__name__
         self.__doc__ = work_out.__doc__
-        return self
 
     @overload
-    def __get__(self, owner: None, kind: type[Any]) -> derived[T]: ...
+    def __get__(self, owner: None, kind: type[Any]) -> Derived[T]: ...
     @overload
     def __get__(self, owner: object, kind: type[Any] | None = None) -> T: ...
     def __get__(self, owner: Any, kind: type[Any] | None = None) -> Any:
@@ -43,6 +41,11 @@ class derived(Generic[T]):
 
     def __set__(self, owner: Any, value: Any) -> None:
         raise AttributeError(f"{self.name} is worked out and cannot be set")
+
+
+def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:
+    """Declares an attribute that is worked out, in the given SI unit."""
+    return partial(Derived, unit)
 
 
 def unit_of(kind: type[Any], name: str) -> str | None:
@@ -81,12 +84,18 @@ class Quantities:
 
 def attributes(kind: type[Any]) -> list[str]:
     """Names of the worked-out attributes, in the order of their definition."""
-    return [name for name, member in vars(kind).items() if isinstance(member, derived)]
+    return [name for name, member in vars(kind).items() if isinstance(member, Derived)]
 
 
 def numeric(*values: Any) -> Any:
     """The library whose functions suit these values: numpy as soon as one is an array."""
     return np if any(isinstance(value, np.ndarray) for value in values) else math
+
+
+def hypot(x: Value, y: Value) -> Value:
+    """Length of a vector, without the squares that overflow."""
+    length: Value = numeric(x, y).hypot(x, y)
+    return length
 
 
 def show(value: Any, unit: str | None = None) -> str:

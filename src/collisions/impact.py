@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import Status
-from .fields import Quantities, attributes, derived, numeric, same, show, table
+from .fields import Quantities, attributes, derived, hypot, numeric, same, show, table
 from .kernels import codes
-from .units import UNIT_INTERVAL, Door, Input, Value
+from .kernels.select import select
 from .side import Side
+from .units import UNIT_INTERVAL, Door, Input, Value
 from .vehicle import Vehicle, angle_of
 
 _AT = {name: index for index, name in enumerate(codes.OUTPUTS)}
@@ -24,12 +25,12 @@ class Asked(NamedTuple):
     model: str
     a: Vehicle
     b: Vehicle
-    restitution: Any
-    normal: tuple[Any, Any]
+    restitution: Value
+    normal: tuple[Value, Value]
     rule: str
-    bound: Any
+    bound: Value
     law: str | None
-    point: tuple[Any, Any] | None
+    point: tuple[Value, Value] | None
 
 
 class Impact:
@@ -39,7 +40,7 @@ class Impact:
     ``.q`` are Quantities. The impulse P acts on B, -P on A; n points from A into B and t is n turned by +90 degrees.
     """
 
-    __slots__ = ("_cache", "_asked", "_raw")
+    __slots__ = ("_asked", "_cache", "_raw")
 
     _cache: dict[str, Any]
     _asked: Asked
@@ -113,7 +114,7 @@ class Impact:
         """Magnitude of the relative velocity of the centres of mass before contact [m/s]: not the closing speed."""
         a, b = self.a.before, self.b.before
         dx, dy = a.vx - b.vx, a.vy - b.vy
-        return self._answered(numeric(dx, dy).hypot(dx, dy))
+        return self._answered(hypot(dx, dy))
 
     @derived("m/s")
     def separation_speed(self) -> Value:
@@ -159,10 +160,11 @@ class Impact:
     def critical_impulse_ratio(self) -> Value:
         """The signed impulse ratio that just stops slip under the law used; infinite where no slip would need a pull."""
         normal, tangential = self._output("no_slip_normal"), self._output("no_slip_tangential")
-        if isinstance(normal, np.ndarray):
-            with np.errstate(all="ignore"):
-                return np.where(normal > 0.0, tangential / normal, np.copysign(np.inf, tangential) + 0.0 * normal)  # type: ignore[return-value]
-        return tangential / normal if normal > 0.0 else math.copysign(math.inf, tangential)
+        # 0 times the normal impulse keeps the NaN of a refused case.
+        with np.errstate(invalid="ignore"):
+            without_end = numeric(tangential).copysign(math.inf, tangential) + 0.0 * normal
+        ratio: Value = select(normal > 0.0, _divided(tangential, normal), without_end)
+        return ratio
 
     @derived("m/s")
     def common_velocity(self) -> Value:
@@ -176,9 +178,8 @@ class Impact:
             found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
         # Built on the body that changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
-        if any(isinstance(value, np.ndarray) for value in (change_a, change_b)):
-            return np.where(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)  # type: ignore[return-value]
-        return base_a + change_a if abs(change_a) < abs(change_b) else base_b + change_b
+        common: Value = select(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)
+        return common
 
     @derived("kg")
     def effective_mass(self) -> Value:
@@ -221,11 +222,11 @@ class Impact:
         door = Door()
         share = door.number(share_a, "", "share_a", UNIT_INTERVAL)
         door.close()
-        xp = numeric(self.energy_absorbed, share)
-        return tuple(
-            xp.sqrt(2.0 * (part * self.energy_absorbed) / side.before.mass)
-            for part, side in ((share, self.a), (1.0 - share, self.b))
-        )  # type: ignore[return-value]
+        energy = self.energy_absorbed
+        xp = numeric(energy, share)
+        return xp.sqrt(2.0 * (share * energy) / self.a.before.mass), xp.sqrt(
+            2.0 * ((1.0 - share) * energy) / self.b.before.mass
+        )
 
     @derived("N*s")
     def momentum_residual(self) -> Value:
@@ -234,18 +235,16 @@ class Impact:
         left_y: Any = 0.0
         for side in (self.a, self.b):
             mass = side.before.mass
-            if side.before.pivot is not None or np.all(np.isinf(mass)):
-                continue
-            finite = np.isfinite(mass) if isinstance(mass, np.ndarray) else True
-            with np.errstate(invalid="ignore"):
-                rest_x, rest_y = mass * side.delta_vx - side.impulse_x, mass * side.delta_vy - side.impulse_y
-            left_x = left_x + (rest_x if finite is True else np.where(finite, rest_x, 0.0))
-            left_y = left_y + (rest_y if finite is True else np.where(finite, rest_y, 0.0))
-        return self._answered(numeric(left_x, left_y).hypot(left_x, left_y))
+            if side.before.pivot is None:
+                free = numeric(mass).isfinite(mass)
+                weight = select(free, mass, 0.0)
+                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x, 0.0)
+                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y, 0.0)
+        return self._answered(hypot(left_x, left_y))
 
     @derived()
     def kind(self) -> Any:
-        """ "elastic" (e = 1), "plastic" (e = 0) or "elastoplastic"; an array of them in a batch."""
+        """One of "elastic" (e = 1), "plastic" (e = 0) and "elastoplastic"; an array of them in a batch."""
         e = self._answered(self.restitution)
         if isinstance(e, np.ndarray):
             return np.where(e == 1.0, "elastic", np.where(e == 0.0, "plastic", np.where(np.isnan(e), "", "elastoplastic")))
@@ -282,14 +281,14 @@ class Impact:
         """Whether the case was refused, so that its numbers are NaN."""
         return self._raw[0] > codes.ENERGY_GAIN
 
-    def _output(self, name: str) -> Any:
-        return self._raw[_AT[name]]
+    def _output(self, name: str) -> Value:
+        value: Value = self._raw[_AT[name]]
+        return value
 
-    def _answered(self, value: Any) -> Any:
+    def _answered(self, value: Any) -> Value:
         """A value worked out from inputs alone, NaN where the case was refused."""
-        if isinstance(self._raw[0], np.ndarray):
-            return np.where(self.refused, np.nan, value)
-        return math.nan if self.refused else value
+        answered: Value = select(self.refused, math.nan, value)
+        return answered
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
@@ -334,7 +333,11 @@ class Impact:
         return f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} b={show(self.b.delta_v, 'm/s')}>"
 
     def _repr_html_(self) -> str:
-        rows = [(name, show(value, vars(Impact)[name].unit)) for name in attributes(Impact) if (value := _plain(self, name)) is not None]
+        rows = [
+            (name, show(value, vars(Impact)[name].unit))
+            for name in attributes(Impact)
+            if (value := _plain(self, name)) is not None
+        ]
         for label, side in (("a", self.a), ("b", self.b)):
             rows += [(f"{label}.{name}", text) for name, text in side._rows()]
         return table(f"Impact ({self.model})", iter(rows))
@@ -357,8 +360,8 @@ def _plain(impact: Impact, name: str) -> Any:
     return None if isinstance(value, Side) else value
 
 
-def _divided(numerator: Any, denominator: Any) -> Any:
-    if isinstance(denominator, np.ndarray):
-        with np.errstate(all="ignore"):
-            return np.divide(numerator, denominator)
-    return numerator / denominator if denominator != 0.0 else math.nan
+def _divided(numerator: Value, denominator: Value) -> Value:
+    """A quotient that is NaN or infinite, without a word, where there is nothing to divide by."""
+    with np.errstate(all="ignore"):
+        quotient: Value = numerator / select(denominator == 0.0, math.nan, denominator)
+        return quotient

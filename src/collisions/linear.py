@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from .arguments import OnFailure, Progress, answer, read, refuse_pivots
-from .impact import Asked, Impact
-from .kernels import checks, codes
+from .impact import Impact
+from .kernels import codes
 from .kernels.linear import linear_central as kernel
+from .kernels.linear import outside_linear
 from .units import Input, Pair
 from .vehicle import Vehicle
-
-_NO_FRICTION = (0.0, None, None)
 
 
 def linear_central(
@@ -71,21 +70,19 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     105.9
     """
-    e, n, rule, bound, _ = read(a, b, restitution, normal, None, _NO_FRICTION, codes.BRACH)
+    e, n, rule, bound, _, plain = read(a, b, restitution, normal, None, 0.0, None, None, codes.BRACH)
     if a.pivot is not None or b.pivot is not None:
         refuse_pivots("linear_central", a, b)
     nx, ny = n
+    vx_a, vy_a, vx_b, vy_b = a.vx, a.vy, b.vx, b.vy
     return answer(
         linear_central,
         kernel,
-        Asked("linear_central", a, b, e, n, rule, bound, None, None),
-        (e, nx, ny, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),
-        (
-            (codes.SPINNING, checks.turning, (a.yaw_rate,)),
-            (codes.SPINNING, checks.turning, (b.yaw_rate,)),
-            (codes.TRANSVERSE, checks.transverse, (nx, ny, a.vx, a.vy)),
-            (codes.TRANSVERSE, checks.transverse, (nx, ny, b.vx, b.vy)),
-        ),
+        (e, nx, ny, a.mass, vx_a, vy_a, b.mass, vx_b, vy_b),
+        (),
+        ("linear_central", a, b, e, n, rule, bound, None, None),
+        plain,
+        (outside_linear, (nx, ny, a.yaw_rate, vx_a, vy_a, b.yaw_rate, vx_b, vy_b)),
         on_failure,
         threads,
         progress,

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from .arguments import Law, OnFailure, Progress, answer, read, refuse_pivots
-from .impact import Asked, Impact
-from .kernels import checks, codes
+from .impact import Impact
 from .kernels.oblique import oblique_central as kernel
+from .kernels.oblique import outside_central
 from .units import Input, Pair
 from .vehicle import Vehicle
 
@@ -21,7 +19,7 @@ def oblique_central(
     friction: Input | None = None,
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
-    law: Law = codes.BRACH,
+    law: Law = "brach",
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -77,15 +75,17 @@ def oblique_central(
     >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
     (3.464, -3.0, 2.0)
     """
-    e, n, rule, bound, _ = read(a, b, restitution, normal, None, (friction, impulse_ratio, critical_fraction), law)
+    e, n, rule, bound, _, plain = read(a, b, restitution, normal, None, friction, impulse_ratio, critical_fraction, law)
     if a.pivot is not None or b.pivot is not None:
         refuse_pivots("oblique_central", a, b)
     return answer(
         oblique_central,
-        partial(kernel, rule=rule, law=law),
-        Asked("oblique_central", a, b, e, n, rule, bound, law, None),
+        kernel,
         (e, n[0], n[1], bound, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),
-        ((codes.SPINNING, checks.turning, (a.yaw_rate,)), (codes.SPINNING, checks.turning, (b.yaw_rate,))),
+        (rule, law),
+        ("oblique_central", a, b, e, n, rule, bound, law, None),
+        plain,
+        (outside_central, (a.yaw_rate, b.yaw_rate)),
         on_failure,
         threads,
         progress,

@@ -44,11 +44,16 @@ def impact_from_dict(record: Mapping[str, Any]) -> Impact:
     """Asks the solver again what the record says it was asked."""
     try:
         if record["format"] != _FORMAT:
-            raise InputError(f"record['format'] must be {_FORMAT!r}, got {record['format']!r}", code="bad_record", argument="record")
+            raise InputError(
+                f"record['format'] must be {_FORMAT!r}, got {record['format']!r}", code="bad_record", argument="record"
+            )
         inputs = record["inputs"]
         solver = _SOLVERS[inputs["model"]]
-        sides = {side: Vehicle(**{name: _number(value) for name, value in inputs[side].items() if value is not None}) for side in "ab"}
-        numbers = {name: _number(inputs[name]) for name in ("restitution", "normal", "bound", "point")}
+        sides: dict[str, Any] = {
+            side: Vehicle(**{name: _number(value) for name, value in inputs[side].items() if value is not None})
+            for side in "ab"
+        }
+        numbers: dict[str, Any] = {name: _number(inputs[name]) for name in ("restitution", "normal", "bound", "point")}
         asked = Asked(model=inputs["model"], rule=inputs["rule"], law=inputs["law"], **sides, **numbers)
         options = {"on_failure": "nan"} if np.any(np.asarray(_number(record["results"]["status"])) > Status.ENERGY_GAIN) else {}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -101,7 +106,11 @@ def _state(vehicle: Vehicle) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     """Only what strict JSON knows: an infinity and NaN by name, an array with its precision, a pair as a list."""
     if isinstance(value, np.ndarray):
-        return {"dtype": str(value.dtype), "shape": list(value.shape), "values": [_plain(v) for v in value.reshape(-1).tolist()]}
+        return {
+            "dtype": str(value.dtype),
+            "shape": list(value.shape),
+            "values": [_plain(v) for v in value.reshape(-1).tolist()],
+        }
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     if isinstance(value, Status):

@@ -24,7 +24,8 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
         motion = "move apart along the normal" if closing < 0.0 else "do not approach along the normal"
         return NoImpactError(
             f"no impact: the bodies {motion}, closing speed {closing:.6g} m/s; the normal must point from A into B, "
-            f"given ({nx:.4g}, {ny:.4g}); if A and B were meant the other way round, write normal=({-nx + 0.0:.4g}, {-ny + 0.0:.4g})",
+            f"given ({nx:.4g}, {ny:.4g}); if A and B were meant the other way round, write "
+            f"normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})",
             code=label,
             closing_speed=closing,
         )
@@ -42,8 +43,9 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
         )
     if status is Status.NO_SLIP_PULLS:
         return NoSolutionError(
-            f"{asked.rule} = {asked.bound:g} asks for a contact without slip, which here needs the bodies to pull at each other "
-            f"(no-slip impulse along the normal {raw[_AT['no_slip_normal']]:.6g} N s); give a finite friction=, or impulse_ratio=",
+            f"{asked.rule} = {asked.bound:g} asks for a contact without slip, which here needs the bodies to pull at each "
+            f"other (no-slip impulse along the normal {raw[_AT['no_slip_normal']]:.6g} N s); give a finite friction=, or "
+            f"impulse_ratio=",
             code=label,
         )
     if status is Status.RATIO_JAMS:
@@ -59,14 +61,16 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
     if status is Status.SPINNING:
         turning = _named(asked, "yaw_rate")
         return InputError(
-            f"{asked.model} takes bodies that do not turn, and {turning}; use eccentric, which needs yaw_inertia, x, y and point",
+            f"{asked.model} takes bodies that do not turn, and {turning}; use eccentric, which needs yaw_inertia, x, y and "
+            f"point",
             code=label,
             argument="yaw_rate",
         )
     if status is Status.TRANSVERSE:
         nx, ny = asked.normal
         across = ", ".join(
-            f"{side} moves at {nx * body.vy - ny * body.vx:.6g} m/s across it" for side, body in (("a", asked.a), ("b", asked.b))
+            f"{side} moves at {nx * body.vy - ny * body.vx:.6g} m/s across it"
+            for side, body in (("a", asked.a), ("b", asked.b))
         )
         return InputError(
             f"linear_central takes motion along the normal ({nx:.4g}, {ny:.4g}) only, and {across}; use oblique_central, or "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .directions import from_radians
-from .fields import Quantities, attributes, derived, numeric, show, table
+from .fields import Quantities, attributes, derived, hypot, show, table
 from .units import Door, Pair, Value
 from .vehicle import Vehicle, angle_of
 
@@ -30,7 +30,7 @@ class Side:
         self._index = index
         self._cache: dict[str, Any] = {}
 
-    def _change(self) -> tuple[Any, Any, Any]:
+    def _change(self) -> tuple[Value, Value, Value]:
         output = self._impact._output
         if self._index:
             return output("delta_vx_b"), output("delta_vy_b"), output("delta_yaw_rate_b")
@@ -62,7 +62,7 @@ class Side:
     @derived("m/s")
     def delta_v(self) -> Value:
         """Magnitude of the change of velocity [m/s]."""
-        return numeric(self.delta_vx, self.delta_vy).hypot(self.delta_vx, self.delta_vy)
+        return hypot(self.delta_vx, self.delta_vy)
 
     @derived("m/s")
     def delta_vx(self) -> Value:
@@ -115,7 +115,7 @@ class Side:
         contact impulse, also for a pinned vehicle. None without a heading, NaN without an impulse.
         """
         forward, left = self._own_axes(self.impulse_x, self.impulse_y)
-        if forward is None:
+        if forward is None or left is None:
             return None
         return angle_of(-forward, left)
 
@@ -160,19 +160,19 @@ class Side:
         turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
         return self.delta_vx + turn_x, self.delta_vy + turn_y
 
-    def _impulse(self) -> tuple[Any, Any]:
+    def _impulse(self) -> tuple[Value, Value]:
         nx, ny = self._impact.normal
         normal, tangential = self._impact.normal_impulse, self._impact.tangential_impulse
         x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
         return (x, y) if self._index else (-x, -y)
 
-    def _own_axes(self, x: Any, y: Any) -> tuple[Any, Any]:
+    def _own_axes(self, x: Value, y: Value) -> tuple[Value | None, Value | None]:
         if self.before.heading is None:
             return None, None
         c, s = from_radians(self.before.heading)
         return c * x + s * y, c * y - s * x
 
-    def _pivot_impulse(self, dv: Any, impulse: Any) -> Any:
+    def _pivot_impulse(self, dv: Value, impulse: Value) -> Value:
         return 0.0 * impulse if self.before.pivot is None else self.before.mass * dv - impulse
 
     def __repr__(self) -> str:

@@ -27,9 +27,18 @@ if TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any: ...
         def __getitem__(self, key: Any) -> Any: ...
         def __len__(self) -> int: ...
+        def __neg__(self) -> Value: ...
+        def __add__(self, other: Any) -> Value: ...
+        def __radd__(self, other: Any) -> Value: ...
+        def __sub__(self, other: Any) -> Value: ...
+        def __rsub__(self, other: Any) -> Value: ...
+        def __mul__(self, other: Any) -> Value: ...
+        def __rmul__(self, other: Any) -> Value: ...
+        def __truediv__(self, other: Any) -> Value: ...
+        def __rtruediv__(self, other: Any) -> Value: ...
 
-    Input: TypeAlias = float | str | Quantity | npt.NDArray[Any] | np.number[Any] | Sequence[float]
-    Pair: TypeAlias = tuple[Input, Input] | list[Any] | Quantity | npt.NDArray[Any]
+    Input: TypeAlias = float | str | Quantity[Any] | npt.NDArray[Any] | np.number[Any] | Sequence[float]
+    Pair: TypeAlias = tuple[Input, Input] | list[Any] | Quantity[Any] | npt.NDArray[Any]
 else:
     Value = Input = Pair = Any
 
@@ -47,7 +56,6 @@ _EXAMPLES = {
     "rad": "1.57 (rad) or '90 deg'",
     "": "a plain number",
 }
-_TARGET_NAMES = {"": "a plain number"}
 _TURNS_OF_A_SCENE = 2.0 * math.pi * (1.0 + 1e-9)
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": _TURNS_OF_A_SCENE, "rad/s": 20.0}
@@ -60,7 +68,7 @@ _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = re.compile(rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*")
 _LONGEST_TEXT = 60
 
-_factors: WeakKeyDictionary[Any, dict[tuple[Any, str], float]] = WeakKeyDictionary()
+_known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
 
 def is_quantity(value: Any) -> bool:
@@ -71,12 +79,17 @@ def is_quantity(value: Any) -> bool:
 
 def to_quantity(value: Any, unit: str) -> Any:
     """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's own; pairs part by part."""
-    import pint
-
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
-    registry = pint.get_application_registry()
-    return registry.Quantity(value, unit or "dimensionless")
+    return _registry().Quantity(value, unit or "dimensionless")
+
+
+def _registry() -> Any:
+    """Pint's application registry, which is the one the caller's own quantities are made with unless they chose another."""
+    import pint
+
+    registry: Any = pint
+    return registry.get_application_registry()
 
 
 class Door:
@@ -84,6 +97,7 @@ class Door:
 
     def __init__(self) -> None:
         self.problems: list[InputError] = []
+        self.texts: dict[str, str] = {}
 
     def refuse(self, problem: InputError) -> float:
         self.problems.append(problem)
@@ -98,23 +112,23 @@ class Door:
         kinds = {type(problem) for problem in self.problems}
         kind = kinds.pop() if len(kinds) == 1 else InputError
         text = "\n".join(f"- {problem}" for problem in self.problems)
-        raise kind(
-            f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems)
-        )
+        raise kind(f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems))
 
     def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
         """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
         try:
-            read, bare = _read(value, unit, argument)
+            read, text = _read(value, unit, argument)
         except InputError as problem:
             return self.refuse(problem)
+        if text:
+            self.texts[argument] = text
         if isinstance(read, np.ndarray):
             read.setflags(write=False)
         else:
             problem_found = _outside(read, domain, argument, value)
             if problem_found is not None:
                 return self.refuse(problem_found)
-        if bare:
+        if not text:
             _warn_if_implausible(read, unit, argument)
         return read
 
@@ -144,7 +158,9 @@ class Door:
             quantity = _parse(value, "rad", argument) if isinstance(value, str) else value
             if is_quantity(quantity) and _is_degree(quantity):
                 # Asked for only to refuse what cannot be an angle in the same words as everywhere else.
-                magnitude, _ = _read(quantity.magnitude, "", argument)
+                magnitude = _plain(quantity.magnitude, argument)
+                if isinstance(magnitude, float):
+                    self.texts[argument] = value.strip() if isinstance(value, str) else f"{magnitude!r} degree"
                 if not isinstance(magnitude, np.ndarray):
                     problem_found = _outside(magnitude, FINITE, argument, value)
                     if problem_found is not None:
@@ -155,24 +171,15 @@ class Door:
         return self.number(quantity, "rad", argument), False
 
 
-def given_text(value: Any) -> str | None:
-    """How a scalar with a unit was written, for reports; None for plain numbers and arrays."""
-    if isinstance(value, str):
-        return value.strip()
-    if is_quantity(value) and np.ndim(value.magnitude) == 0:
-        return f"{value.magnitude} {value.units}"
-    return None
-
-
-def _read(value: Any, unit: str, argument: str) -> tuple[Any, bool]:
-    """The value in the unit, and whether it came without one."""
+def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
+    """The value in the unit, and how it was written if it came with one."""
     if type(value) is float:
-        return value, True
+        return value, ""
     if isinstance(value, str):
-        return _convert(_parse(value, unit, argument), unit, argument), False
+        return _convert(_parse(value, unit, argument), unit, argument, value)[0], value.strip()
     if is_quantity(value):
-        return _convert(value, unit, argument), value.unitless
-    return _plain(value, argument), True
+        return _convert(value, unit, argument, value)
+    return _plain(value, argument), ""
 
 
 def _plain(value: Any, argument: str) -> Any:
@@ -186,7 +193,9 @@ def _plain(value: Any, argument: str) -> Any:
             read = math.inf
         if math.isinf(read) and (isinstance(value, (int, np.integer)) or not np.isinf(value)):
             raise InputError(
-                f"{argument} is a number too large to be held as a float: {_shown(value)}", code="out_of_range", argument=argument
+                f"{argument} is a number too large to be held as a float: {_shown(value)}",
+                code="out_of_range",
+                argument=argument,
             )
         return read
     if isinstance(value, (list, tuple)):
@@ -254,50 +263,49 @@ def _parse(text: str, unit: str, argument: str) -> Any:
             argument=argument,
             text=text,
         )
-    import pint
-
     try:
-        registry = pint.get_application_registry()
+        registry = _registry()
         return registry.Quantity(float(number.group()), registry.parse_units(name))
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from error
 
 
-def _convert(quantity: Any, unit: str, argument: str) -> Any:
+def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
+    """The magnitude in the unit, and the quantity as a text."""
     magnitude = _plain(quantity.magnitude, argument)
-    factor = _factor(quantity, unit, argument)
+    factor, name = _factor(quantity, unit, argument, given)
+    text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
     if factor != 1.0:
-        if isinstance(magnitude, np.ndarray):
-            magnitude *= factor
-        else:
-            magnitude *= factor
-            if math.isinf(magnitude) and not np.isinf(quantity.magnitude):
-                raise InputError(f"{argument} is too large: {_shown(quantity)}", code="out_of_range", argument=argument)
-    return magnitude
+        finite = isinstance(magnitude, float) and not math.isinf(magnitude)
+        magnitude *= factor
+        if finite and math.isinf(magnitude):
+            raise InputError(f"{argument} is too large: {_shown(given)}", code="out_of_range", argument=argument)
+    return magnitude, text
 
 
-def _factor(quantity: Any, unit: str, argument: str) -> float:
-    """What to multiply the magnitude by, kept for each registry and unit: pint needs 60 us to work it out."""
+def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
+    """What to multiply the magnitude by and what its unit is called, kept for each registry: pint takes 60 us to find out."""
     registry = quantity._REGISTRY
-    known = _factors.get(registry)
+    known = _known.get(registry)
     if known is None:
-        known = _factors[registry] = {}
+        known = _known[registry] = {}
     key = (quantity._units, unit)
-    factor = known.get(key)
+    found = known.get(key)
     # An active context may give a unit another meaning until it ends, so nothing is kept of it.
     in_context = bool(getattr(registry, "_active_ctx", None))
-    if factor is None or in_context:
+    if found is None or in_context:
         try:
             zero, factor, two = (
                 float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0.0, 1.0, 2.0)
             )
         except Exception as error:
-            raise _bad_units(quantity, unit, argument, error) from error
+            raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * factor or _is_of_another_kind(quantity, unit):
-            raise _bad_units(quantity, unit, argument, None)
+            raise _bad_units(given, unit, argument, None)
+        found = factor, "" if quantity.unitless else f"{quantity.units}"
         if not in_context:
-            known[key] = factor
-    return factor
+            known[key] = found
+    return found
 
 
 def _is_of_another_kind(quantity: Any, unit: str) -> bool:
@@ -342,13 +350,13 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
     if limit is None:
         return
     # fmin and fmax pass over NaN, and reductions make no temporary.
-    worst = (
-        max(-float(np.fmin.reduce(value, axis=None)), float(np.fmax.reduce(value, axis=None)))
-        if isinstance(value, np.ndarray) and value.size
-        else abs(value)
-        if not isinstance(value, np.ndarray)
-        else 0.0
-    )
+    if isinstance(value, np.ndarray):
+        bounds = (
+            (float(np.fmin.reduce(value, axis=None)), float(np.fmax.reduce(value, axis=None))) if value.size else (0.0, 0.0)
+        )
+        worst = max(-bounds[0], bounds[1])
+    else:
+        worst = abs(value)
     if worst > limit and not math.isinf(worst):
         degrees = "deg" if unit == "rad" else "deg/s"
         warnings.warn(
@@ -383,13 +391,13 @@ def _not_a_number(value: Any, argument: str) -> InputError:
 
 
 def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) -> UnitsError:
-    wanted = unit or "a plain number"
+    wanted = unit or "a plain number without a unit"
     reason = f" ({error})" if error is not None else ""
     hint = ""
     text = str(given)
     if unit == "kg" and ("force" in text or "lbf" in text or "newton" in text):
         hint = "; a weight is a force: give the mass, in 'lb' or 'kg'"
-    elif unit == "rad/s" and "hertz" in text.lower() or "Hz" in text:
+    elif unit == "rad/s" and ("hertz" in text or "Hz" in text):
         hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     elif unit == "kg*m**2":
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"

@@ -10,16 +10,13 @@ import numpy as np
 
 from .directions import direction, from_radians
 from .errors import InputError, MissingInputError
-from .fields import Quantities, derived, numeric, same, show, table
+from .fields import Quantities, derived, hypot, same, show, table
+from .kernels.select import select
 from .kernels.turning import turning_velocity
-from .units import FINITE, POSITIVE, Door, Input, Pair, Value, given_text
+from .units import FINITE, POSITIVE, Door, Input, Pair, Value
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
-
-
-def _quantity(unit: str, domain: str = FINITE) -> Any:
-    return field(metadata={"unit": unit, "domain": domain})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, eq=False, repr=False)
@@ -62,16 +59,17 @@ class Vehicle:
     Vehicle(mass=1100 kg, vx=22.2222 m/s, name='A')
     """
 
-    mass: Value = _quantity("kg", POSITIVE)
-    vx: Value = _quantity("m/s")
-    vy: Value = _quantity("m/s")
-    yaw_rate: Value = _quantity("rad/s")
-    yaw_inertia: Value | None = _quantity("kg*m**2", POSITIVE)
-    x: Value | None = _quantity("m")
-    y: Value | None = _quantity("m")
-    heading: Value | None = _quantity("rad")
-    pivot: tuple[Value, Value] | None = _quantity("m")
+    mass: Value = field(metadata={"unit": "kg", "domain": POSITIVE})
+    vx: Value = field(metadata={"unit": "m/s", "domain": FINITE})
+    vy: Value = field(metadata={"unit": "m/s", "domain": FINITE})
+    yaw_rate: Value = field(metadata={"unit": "rad/s", "domain": FINITE})
+    yaw_inertia: Value | None = field(metadata={"unit": "kg*m**2", "domain": POSITIVE})
+    x: Value | None = field(metadata={"unit": "m", "domain": FINITE})
+    y: Value | None = field(metadata={"unit": "m", "domain": FINITE})
+    heading: Value | None = field(metadata={"unit": "rad", "domain": FINITE})
+    pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
+    # How the fields given with a unit were written; None if all are plain floats, which the solvers need not look at again.
     _given: dict[str, str] | None = field(metadata={"hidden": True})
 
     def __init__(
@@ -151,9 +149,8 @@ class Vehicle:
         cx, cy = direction(door, course, "course")
         door.close()
         vehicle = cls(**{**rest, "vx": magnitude * cx + 0.0, "vy": magnitude * cy + 0.0})
-        given = {name: text for name, text in (("speed", given_text(speed)), ("course", given_text(course))) if text}
-        if given:
-            _set_given(vehicle, {**(vehicle._given or {}), **given})
+        if door.texts:
+            _set_given(vehicle, {**(vehicle._given or {}), **door.texts})
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -172,7 +169,7 @@ class Vehicle:
             texts = {name: text for name, text in self._given.items() if name not in changes}
             if {"vx", "vy"} & changes.keys():
                 texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
-            _set_given(vehicle, {**texts, **(vehicle._given or {})} or None)
+            _set_given(vehicle, {**texts, **(vehicle._given or {})})
         return vehicle
 
     def _moved(self, vx: Any, vy: Any, yaw_rate: Any) -> Vehicle:
@@ -188,8 +185,9 @@ class Vehicle:
         _set_given(vehicle, None)
         if self.pivot is not None:
             vx, vy = turning_velocity(yaw_rate, self.x, self.y, self.pivot[0], self.pivot[1])
-        for value in (vx, vy, yaw_rate):
-            if isinstance(value, np.ndarray):
+        if isinstance(vx, np.ndarray):
+            _set_given(vehicle, {})
+            for value in (vx, vy, yaw_rate):
                 value.setflags(write=False)
         _set_vx(vehicle, vx)
         _set_vy(vehicle, vy)
@@ -204,7 +202,7 @@ class Vehicle:
     @derived("m/s")
     def speed(self) -> Value:
         """Speed of the centre of mass [m/s]."""
-        return numeric(self.vx, self.vy).hypot(self.vx, self.vy)
+        return hypot(self.vx, self.vy)
 
     @derived("rad")
     def course(self) -> Value:
@@ -322,7 +320,11 @@ class Vehicle:
     def _rows(self) -> Any:
         for f in fields(self):
             value = getattr(self, f.name)
-            if "hidden" in f.metadata or value is None or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET):
+            if (
+                "hidden" in f.metadata
+                or value is None
+                or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET)
+            ):
                 continue
             yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
 
@@ -341,9 +343,19 @@ _NAMES = tuple(f.name for f in fields(Vehicle) if "hidden" not in f.metadata)
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
-_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, _set_pivot, _set_name, _set_given = (
-    getattr(Vehicle, f.name).__set__ for f in fields(Vehicle)
-)
+(
+    _set_mass,
+    _set_vx,
+    _set_vy,
+    _set_yaw_rate,
+    _set_yaw_inertia,
+    _set_x,
+    _set_y,
+    _set_heading,
+    _set_pivot,
+    _set_name,
+    _set_given,
+) = (getattr(Vehicle, f.name).__set__ for f in fields(Vehicle))
 
 
 def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
@@ -355,23 +367,29 @@ def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle
         "y": "y='0 m' (the centre of mass at the moment of impact)",
         "heading": "heading='30 deg' (where it points, counter-clockwise from +x, whatever way it moves)",
     }[name]
-    code = {"yaw_inertia": "missing_inertia", "x": "missing_position", "y": "missing_position", "heading": "missing_heading"}[name]
-    return MissingInputError(f"{who} has no {name}, which {purpose} needs; give {example}", code=code, argument=name, vehicle=label)
+    code = {"yaw_inertia": "missing_inertia", "x": "missing_position", "y": "missing_position", "heading": "missing_heading"}[
+        name
+    ]
+    return MissingInputError(
+        f"{who} has no {name}, which {purpose} needs; give {example}", code=code, argument=name, vehicle=label
+    )
 
 
-def angle_of(x: Any, y: Any) -> Any:
+def angle_of(x: Any, y: Any) -> Value:
     """Direction of a vector [rad] in (-pi, pi]; NaN without a length. Adding 0 turns -0 into 0, which would give -pi."""
     if isinstance(x, float) and isinstance(y, float):
-        return math.atan2(y + 0.0, x) if x != 0.0 or y != 0.0 else math.nan
-    return np.where(np.equal(x, 0.0) & np.equal(y, 0.0), np.nan, np.arctan2(np.add(y, 0.0), x))
+        atan2: Any = math.atan2
+    else:
+        atan2 = np.arctan2
+    angle: Value = select((x == 0.0) & (y == 0.0), math.nan, atan2(y + 0.0, x))
+    return angle
 
 
-def _product(weight: Any, motion: Any) -> Any:
+def _product(weight: Value, motion: Value) -> Value:
     """Mass times motion, where an infinite mass at rest counts as 0."""
-    if isinstance(weight, float) and isinstance(motion, float):
-        return 0.0 if motion == 0.0 else weight * motion
     with np.errstate(invalid="ignore"):
-        return np.where(np.equal(motion, 0.0), 0.0, np.multiply(weight, motion))
+        product: Value = select(motion == 0.0, 0.0, weight * motion)
+    return product
 
 
 def _through_the_door(
@@ -381,7 +399,9 @@ def _through_the_door(
     door = Door()
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
     if mass is None:
-        door.refuse(MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass"))
+        door.refuse(
+            MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
+        )
     read = [
         value if value is None else door.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
         for value, f in zip(raw, fields(Vehicle), strict=False)
@@ -395,11 +415,12 @@ def _through_the_door(
     door.close()
     if pin is not None:
         read[1], read[2] = _pinned(pin, *read[:7])
-    given = {f.name: text for value, f in zip(raw, fields(Vehicle), strict=False) if (text := given_text(value)) is not None}
-    return (*read, pin, name, given or None)
+    return (*read, pin, name, door.texts)
 
 
-def _pinned(pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any) -> tuple[Any, Any]:
+def _pinned(
+    pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any
+) -> tuple[Any, Any]:
     """The velocity of a body that can only turn about the pin; scalars are checked here, arrays by the solver."""
     for label, value in (("mass", mass), ("yaw_inertia", yaw_inertia)):
         if isinstance(value, float) and math.isinf(value):
@@ -411,14 +432,16 @@ def _pinned(pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, ya
     for label, value in (("x", x), ("y", y)):
         if value is None:
             raise MissingInputError(
-                f"{label} is missing; a pivot needs the position of the centre of mass (x, y)", code="missing_position", argument=label
+                f"{label} is missing; a pivot needs the position of the centre of mass (x, y)",
+                code="missing_position",
+                argument=label,
             )
     wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
     if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
         if (vx != 0.0 or vy != 0.0) and math.hypot(vx - wanted_x, vy - wanted_y) > 1e-9 * math.hypot(wanted_x, wanted_y):
             raise InputError(
-                f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate times arm "
-                f"gives ({wanted_x:.10g}, {wanted_y:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
+                f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate times "
+                f"arm gives ({wanted_x:.10g}, {wanted_y:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
                 code="pinned_velocity",
                 argument="vx",
             )

@@ -6,18 +6,16 @@ Every case is worked out by itself. A refused one is NaN in every output and car
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from .codes import ENERGY_GAIN, OUTPUTS
-from .select import verdict
+from .codes import ENERGY_GAIN, OK, OUTPUTS
 
 BLOCK = 8192
 
-# A status code, the condition under which it applies, and the values the condition looks at.
-Check: TypeAlias = tuple[int, Callable[..., Any], tuple[Any, ...]]
+# What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
+Check: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
 def solve_lanes(
@@ -35,7 +33,7 @@ def solve_lanes(
     """
     size = int(np.prod(shape, dtype=np.int64))
     lanes = [_flat(value, shape) for value in inputs]
-    checked = [(code, condition, [_flat(value, shape) for value in values]) for code, condition, values in checks]
+    checked = [(check, [_flat(value, shape) for value in values]) for check, values in checks]
     outputs = [np.empty(size, dtype={"status": np.uint8, "sticks": np.bool_}.get(name, dtype)) for name in OUTPUTS]
 
     def solve(start: int) -> int:
@@ -46,9 +44,11 @@ def solve_lanes(
 
         with np.errstate(all="ignore"):
             answers = kernel(*cut(lanes))
-            fault = verdict(*((condition(*cut(values)), code) for code, condition, values in checked))
             status = outputs[0][block]
-            status[...] = np.where(np.equal(fault, 0), answers[0], fault)
+            status[...] = answers[0]
+            for check, values in reversed(checked):
+                fault = check(*cut(values))
+                status[...] = np.where(np.equal(fault, OK), status, fault)
             refused = status > ENERGY_GAIN
             for name, output, answer in zip(OUTPUTS[1:], outputs[1:], answers[1:], strict=True):
                 output[block] = answer
@@ -59,6 +59,9 @@ def solve_lanes(
     if threads == 1 or len(starts) < 2:
         _report(map(solve, starts), size, progress)
     else:
+        # Costs a tenth of importing numpy, and most calls need no second thread.
+        from concurrent.futures import ThreadPoolExecutor
+
         with ThreadPoolExecutor(threads) as pool:
             try:
                 _report(pool.map(solve, starts), size, progress)

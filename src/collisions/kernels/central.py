@@ -9,15 +9,10 @@ from .select import select
 def shares(mass_a: Any, mass_b: Any) -> tuple[Any, Any, Any, Any]:
     """Share of A, share of B, reduced mass, and whether both bodies are immovable.
 
-    Built on the ratio of the lighter to the heavier mass, which is 0 against a barrier: nothing overflows, and no infinity meets
-    another. The reduced mass is the lighter mass times its own share.
+    Built on ratios of the masses, which are 0 or infinite against a barrier: no sum or product of masses overflows, and no
+    infinity meets another. The reduced mass is the lighter mass times its own share.
     """
-    a_is_lighter = mass_a <= mass_b
-    light = select(a_is_lighter, mass_a, mass_b)
-    immovable = light == inf
-    ratio = select(immovable, 1.0, light) / select(a_is_lighter, mass_b, mass_a)
-    light_share = 1.0 / (1.0 + ratio)
-    heavy_share = ratio * light_share
-    share_a = select(a_is_lighter, light_share, heavy_share)
-    share_b = select(a_is_lighter, heavy_share, light_share)
-    return share_a, share_b, light * light_share, immovable
+    share_a = 1.0 / (1.0 + mass_a / mass_b)
+    share_b = 1.0 / (1.0 + mass_b / mass_a)
+    reduced = select(mass_a <= mass_b, mass_a * share_a, mass_b * share_b)
+    return share_a, share_b, reduced, (mass_a == inf) & (mass_b == inf)

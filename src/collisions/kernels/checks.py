@@ -42,17 +42,7 @@ def either_infinite(mass: Any, inertia: Any) -> Any:
     return (mass == inf) | (inertia == inf)
 
 
-def turning(yaw_rate: Any) -> Any:
-    """Any yaw rate at all."""
-    return yaw_rate != 0.0
-
-
-def transverse(nx: Any, ny: Any, vx: Any, vy: Any, *, eps: float = EPS) -> Any:
-    """Motion across the normal beyond 8 eps of the speed, which is what rounding leaves of a motion along it."""
-    return abs(nx * vy - ny * vx) > 8.0 * eps * abs(nx * vx + ny * vy)
-
-
-def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, *, eps: float = EPS) -> Any:
+def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, eps: float = EPS) -> Any:
     """A velocity that is not yaw rate times arm to 1e-9 (or to the rounding of a coarser precision)."""
     wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
     tolerance = max(1e-9, 8.0 * eps)

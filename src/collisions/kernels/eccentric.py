@@ -14,6 +14,7 @@ from .codes import (
     IMMOVABLE,
     KUDLICH_SLIBAR,
     NO_SLIP_PULLS,
+    OK,
     OUT_OF_RANGE,
     RATIO_JAMS,
     SEPARATING,
@@ -64,7 +65,6 @@ def eccentric(
     y_b: Any,
     pivot_x_b: Any,
     pivot_y_b: Any,
-    *,
     rule: str,
     law: str,
     pinned_a: bool,
@@ -72,12 +72,8 @@ def eccentric(
     eps: float = EPS,
 ) -> tuple[Any, ...]:
     """Answers in the order of ``codes.OUTPUTS``."""
-    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(
-        mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a
-    )
-    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(
-        mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b
-    )
+    a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a)
+    a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b)
     # Contact velocity of B relative to A: differences first, then the spins, and into (n, t) last.
     ux = (ux_b - ux_a) + (spin_a * ry_a - spin_b * ry_b)
     uy = (uy_b - uy_a) + (spin_b * rx_b - spin_a * rx_a)
@@ -146,15 +142,21 @@ def eccentric(
     else:
         dvx_b, dvy_b = a_b * impulse_x, a_b * impulse_y
     total = normal + impulse_t + loss + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
-    status = verdict(
-        (immovable, IMMOVABLE),
-        (closing < 0.0, SEPARATING),
-        (closing == 0.0, GRAZING),
-        (singular & no_slip_matters, SINGULAR_CONTACT),
-        (pulls, NO_SLIP_PULLS),
-        (jams, RATIO_JAMS),
-        (total - total != 0.0, OUT_OF_RANGE),
-        (gains, ENERGY_GAIN),
+    stuck = singular & no_slip_matters
+    fine = (closing > 0.0) & (total - total == 0.0) & ((immovable | stuck | pulls | jams | gains) ^ True)
+    status = (
+        OK
+        if fine is True
+        else verdict(
+            (immovable, IMMOVABLE),
+            (closing < 0.0, SEPARATING),
+            (closing == 0.0, GRAZING),
+            (stuck, SINGULAR_CONTACT),
+            (pulls, NO_SLIP_PULLS),
+            (jams, RATIO_JAMS),
+            (total - total != 0.0, OUT_OF_RANGE),
+            (gains, ENERGY_GAIN),
+        )
     )
     return (
         status, closing, slip, slip_after, normal, impulse_t, normal / (1.0 + restitution), no_slip_n, no_slip_t,

@@ -20,10 +20,10 @@ def sticking_slip(restitution: Any, law: str) -> Any:
 
 
 def tangential_rule(rule: str, value: Any, no_slip_n: Any, no_slip_t: Any) -> tuple[Any, Any, Any, Any]:
-    """Whether the contact sticks, the impulse ratio it has otherwise, whether no slip matters, and whether it would need to pull.
+    """Whether the contact sticks, its impulse ratio otherwise, whether no slip matters, and whether it would need a pull.
 
-    The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers reverse it. The limit is compared
-    by multiplication, so that an infinite friction needs no case of its own.
+    The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers reverse it. The limit is
+    compared by multiplication, so that an infinite friction needs no case of its own.
     """
     pushes = no_slip_n > 0.0
     if rule == FRICTION:

@@ -3,12 +3,21 @@
 from typing import Any
 
 from .central import shares
-from .codes import EPS, GRAZING, IMMOVABLE, OUT_OF_RANGE, SEPARATING
+from .codes import EPS, GRAZING, IMMOVABLE, OK, OUT_OF_RANGE, SEPARATING, SPINNING, TRANSVERSE
 from .select import verdict
 
 
 def linear_central(
-    restitution: Any, nx: Any, ny: Any, mass_a: Any, vx_a: Any, vy_a: Any, mass_b: Any, vx_b: Any, vy_b: Any, *, eps: float = EPS
+    restitution: Any,
+    nx: Any,
+    ny: Any,
+    mass_a: Any,
+    vx_a: Any,
+    vy_a: Any,
+    mass_b: Any,
+    vx_b: Any,
+    vy_b: Any,
+    eps: float = EPS,
 ) -> tuple[Any, ...]:
     """Answers in the order of ``codes.OUTPUTS``; what is transverse is carried through unchanged."""
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
@@ -21,10 +30,28 @@ def linear_central(
     dvn_a = -(share_a * change)
     dvn_b = share_b * change
     total = normal + loss + dvn_a + dvn_b
-    status = verdict(
-        (immovable, IMMOVABLE), (closing < 0.0, SEPARATING), (closing == 0.0, GRAZING), (total - total != 0.0, OUT_OF_RANGE)
+    fine = (closing > 0.0) & (total - total == 0.0)
+    status = (
+        OK
+        if fine is True
+        else verdict(
+            (immovable, IMMOVABLE), (closing < 0.0, SEPARATING), (closing == 0.0, GRAZING), (total - total != 0.0, OUT_OF_RANGE)
+        )
     )
     return (
         status, closing, 0.0, 0.0, normal, 0.0, compression, normal, 0.0, False, effective_mass, 0.0, loss, 0.0, loss,
         nx * dvn_a, ny * dvn_a, 0.0, nx * dvn_b, ny * dvn_b, 0.0,
     )  # fmt: skip
+
+
+def outside_linear(
+    nx: Any, ny: Any, spin_a: Any, vx_a: Any, vy_a: Any, spin_b: Any, vx_b: Any, vy_b: Any, eps: float = EPS
+) -> Any:
+    """Status of motion that the linear model cannot hold, 0 where there is none."""
+    spins = (spin_a != 0.0) | (spin_b != 0.0)
+    # What rounding leaves of a motion along the normal is below 8 eps of the speed.
+    most = 8.0 * eps
+    across = (abs(nx * vy_a - ny * vx_a) > most * abs(nx * vx_a + ny * vy_a)) | (
+        abs(nx * vy_b - ny * vx_b) > most * abs(nx * vx_b + ny * vy_b)
+    )
+    return OK if spins is False and across is False else verdict((spins, SPINNING), (across, TRANSVERSE))

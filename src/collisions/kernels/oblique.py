@@ -1,9 +1,21 @@
-"""Oblique central impact: two point masses, impulse along the normal and, with friction, along the tangent (eq 9 of the paper)."""
+"""Oblique central impact: two point masses, impulse along the normal and, with friction, the tangent (eq 9 of the paper)."""
 
 from typing import Any
 
 from .central import shares
-from .codes import ENERGY_GAIN, EPS, FRICTION, GRAZING, IMMOVABLE, KUDLICH_SLIBAR, NO_SLIP_PULLS, OUT_OF_RANGE, SEPARATING
+from .codes import (
+    ENERGY_GAIN,
+    EPS,
+    FRICTION,
+    GRAZING,
+    IMMOVABLE,
+    KUDLICH_SLIBAR,
+    NO_SLIP_PULLS,
+    OK,
+    OUT_OF_RANGE,
+    SEPARATING,
+    SPINNING,
+)
 from .energy import energy_losses
 from .friction import sticking_slip, tangential_rule
 from .select import select, verdict
@@ -20,7 +32,6 @@ def oblique_central(
     mass_b: Any,
     vx_b: Any,
     vy_b: Any,
-    *,
     rule: str,
     law: str,
     eps: float = EPS,
@@ -50,16 +61,27 @@ def oblique_central(
     change_x = nx * change_n - ny * change_t
     change_y = ny * change_n + nx * change_t
     total = normal + impulse_t + loss + change_x + change_y
-    status = verdict(
-        (immovable, IMMOVABLE),
-        (closing < 0.0, SEPARATING),
-        (closing == 0.0, GRAZING),
-        (pulls, NO_SLIP_PULLS),
-        (total - total != 0.0, OUT_OF_RANGE),
-        (gains, ENERGY_GAIN),
+    fine = (closing > 0.0) & (total - total == 0.0) & (gains ^ True) & (pulls ^ True)
+    status = (
+        OK
+        if fine is True
+        else verdict(
+            (immovable, IMMOVABLE),
+            (closing < 0.0, SEPARATING),
+            (closing == 0.0, GRAZING),
+            (pulls, NO_SLIP_PULLS),
+            (total - total != 0.0, OUT_OF_RANGE),
+            (gains, ENERGY_GAIN),
+        )
     )
     return (
         status, closing, slip, slip_after, normal, impulse_t, effective_mass * closing, normal, effective_mass * no_slip_t,
         sticks, effective_mass, 0.0, loss_n, loss_t, loss,
         -(share_a * change_x), -(share_a * change_y), 0.0, share_b * change_x, share_b * change_y, 0.0,
     )  # fmt: skip
+
+
+def outside_central(spin_a: Any, spin_b: Any, eps: float = EPS) -> Any:
+    """Status of motion that a point mass cannot have, 0 where there is none."""
+    spins = (spin_a != 0.0) | (spin_b != 0.0)
+    return OK if spins is False else verdict((spins, SPINNING))

@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from .codes import OK
+
 
 def select(condition: Any, yes: Any, no: Any) -> Any:
     """``yes`` where the condition holds, ``no`` elsewhere; both have been worked out already."""
@@ -16,7 +18,7 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
 
 def verdict(*findings: tuple[Any, int]) -> Any:
     """Code of the first finding whose condition holds, 0 if none does."""
-    status: Any = 0
+    status: Any = OK
     for condition, code in reversed(findings):
         if condition is not False:
             status = select(condition, code, status)
