@@ -81,7 +81,7 @@ def read(
             )
         )
     ):
-        if normal == 0.0 and type(normal) is float:
+        if type(normal) is float and normal == 0.0:
             return _as_read(Read, (restitution, _ALONG_X, codes.FRICTION, friction, point, True))
         if type(normal) is float and -6.0 < normal < 6.0:
             return _as_read(Read, (restitution, from_radians(normal), codes.FRICTION, friction, point, True))

@@ -27,7 +27,7 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
         return normalised(door, vx, vy, argument) if len(door.problems) == count else (math.nan, math.nan)
     if isinstance(value, list):
         door.refuse(
-            InputError(
+            ShapeError(
                 f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
                 f"np.array([...]) for angles",
                 code="bad_shape",

@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
+from .errors import Status
 from .units import Value, to_quantity
 
 T = TypeVar("T")
@@ -36,7 +37,7 @@ class Derived(Generic[T]):
         try:
             return cache[self.name]
         except KeyError:
-            value = cache[self.name] = self.work_out(owner)
+            value = cache[self.name] = lock(self.work_out(owner))
             return value
 
     def __set__(self, owner: Any, value: Any) -> None:
@@ -82,6 +83,16 @@ class Quantities:
         return f"<Quantities of {self._owner!r}>"
 
 
+def lock(value: Any) -> Any:
+    """The value, its arrays (also those of a tuple) made read-only."""
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif isinstance(value, tuple):
+        for part in value:
+            lock(part)
+    return value
+
+
 def attributes(kind: type[Any]) -> list[str]:
     """Names of the worked-out attributes, in the order of their definition."""
     return [name for name, member in vars(kind).items() if isinstance(member, Derived)]
@@ -109,6 +120,8 @@ def show(value: Any, unit: str | None = None) -> str:
         return f"array{value.shape}{suffix}"
     if isinstance(value, float):
         return f"{value:.6g}{suffix}"
+    if isinstance(value, Status):
+        return value.sentence
     return str(value)
 
 

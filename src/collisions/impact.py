@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import Status
-from .fields import Quantities, attributes, derived, hypot, numeric, same, show, table
+from .fields import Quantities, attributes, derived, hypot, lock, numeric, same, show, table
 from .kernels import codes
 from .kernels.select import select
 from .side import Side
@@ -91,7 +91,7 @@ class Impact:
 
     @derived()
     def choice(self) -> Any:
-        """How ``solve`` chose the model; None when a solver was called by name."""
+        """How the model was chosen; None when its solver was called by name."""
         return None
 
     @derived("")
@@ -323,7 +323,7 @@ class Impact:
         raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return build, (self._asked, self._raw)
+        return _rebuild, (self._asked, self._raw)
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -353,6 +353,11 @@ def build(asked: Asked, raw: tuple[Any, ...]) -> Impact:
     _set_raw(impact, raw)
     _set_cache(impact, {})
     return impact
+
+
+def _rebuild(asked: Asked, raw: tuple[Any, ...]) -> Impact:
+    """An unpickled Impact; arrays come out of a pickle unlocked."""
+    return build(lock(asked), lock(raw))
 
 
 def _plain(impact: Impact, name: str) -> Any:

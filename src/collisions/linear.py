@@ -68,7 +68,7 @@ def linear_central(
     >>> round(impact.a.after.q.vx.m_as("km/h"), 2), round(impact.b.after.q.vx.m_as("km/h"), 2)
     (28.18, 60.0)
     >>> round(impact.energy_loss / 1000, 1)
-    105.9
+    106.0
     """
     e, n, rule, bound, _, plain = read(a, b, restitution, normal, None, 0.0, None, None, codes.BRACH)
     if a.pivot is not None or b.pivot is not None:

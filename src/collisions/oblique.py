@@ -66,7 +66,7 @@ def oblique_central(
 
     Examples
     --------
-    Two equal balls (an e-course's solved problem): A at 4 m/s, 30 degrees off the line, meets B at 3 m/s, elastic.
+    Two equal balls (eCourses Dynamics 4.3, K. Gramoll): A at 4 m/s, 30 degrees off the line, meets B at 3 m/s, elastic.
 
     >>> import collisions as col
     >>> a = col.Vehicle.from_speed(mass=1.0, speed=4.0, course="30 deg")

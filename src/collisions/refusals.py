@@ -23,7 +23,7 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
         nx, ny = asked.normal
         motion = "move apart along the normal" if closing < 0.0 else "do not approach along the normal"
         return NoImpactError(
-            f"no impact: the bodies {motion}, closing speed {closing:.6g} m/s; the normal must point from A into B, "
+            f"no impact: the bodies {motion}, closing speed {closing + 0.0:.6g} m/s; the normal must point from A into B, "
             f"given ({nx:.4g}, {ny:.4g}); if A and B were meant the other way round, write "
             f"normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})",
             code=label,

@@ -173,7 +173,7 @@ class Side:
         return c * x + s * y, c * y - s * x
 
     def _pivot_impulse(self, dv: Value, impulse: Value) -> Value:
-        return 0.0 * impulse if self.before.pivot is None else self.before.mass * dv - impulse
+        return 0.0 * impulse + 0.0 if self.before.pivot is None else self.before.mass * dv - impulse
 
     def __repr__(self) -> str:
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"

@@ -292,7 +292,7 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
     key = (quantity._units, unit)
     found = known.get(key)
     # An active context may give a unit another meaning until it ends, so nothing is kept of it.
-    in_context = bool(getattr(registry, "_active_ctx", None))
+    in_context = bool(getattr(getattr(registry, "_active_ctx", None), "contexts", ()))
     if found is None or in_context:
         try:
             zero, factor, two = (
@@ -378,7 +378,7 @@ def callers_level() -> int:
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
         frame = frame.f_back
         level += 1
-    return level - 1
+    return level
 
 
 def _not_a_number(value: Any, argument: str) -> InputError:
@@ -395,8 +395,8 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) ->
     reason = f" ({error})" if error is not None else ""
     hint = ""
     text = str(given)
-    if unit == "kg" and ("force" in text or "lbf" in text or "newton" in text):
-        hint = "; a weight is a force: give the mass, in 'lb' or 'kg'"
+    if unit == "kg":
+        hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
     elif unit == "rad/s" and ("hertz" in text or "Hz" in text):
         hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     elif unit == "kg*m**2":

@@ -10,7 +10,7 @@ import numpy as np
 
 from .directions import direction, from_radians
 from .errors import InputError, MissingInputError
-from .fields import Quantities, derived, hypot, same, show, table
+from .fields import Quantities, derived, hypot, lock, same, show, table
 from .kernels.select import select
 from .kernels.turning import turning_velocity
 from .units import FINITE, POSITIVE, Door, Input, Pair, Value
@@ -162,7 +162,7 @@ class Vehicle:
         Vehicle(mass=900 kg, yaw_inertia=1200 kg*m**2)
         """
         kept = {name: getattr(self, name) for name in _NAMES}
-        if self.pivot is not None:
+        if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
             kept["vx"] = kept["vy"] = 0.0
         vehicle = type(self)(**{**kept, **changes})
         if self._given:
@@ -187,8 +187,7 @@ class Vehicle:
             vx, vy = turning_velocity(yaw_rate, self.x, self.y, self.pivot[0], self.pivot[1])
         if isinstance(vx, np.ndarray):
             _set_given(vehicle, {})
-            for value in (vx, vy, yaw_rate):
-                value.setflags(write=False)
+            lock((vx, vy, yaw_rate))
         _set_vx(vehicle, vx)
         _set_vy(vehicle, vy)
         _set_yaw_rate(vehicle, yaw_rate)
@@ -226,7 +225,7 @@ class Vehicle:
         energy = _product(self.mass, 0.5 * (self.vx * self.vx + self.vy * self.vy))
         if np.all(np.equal(self.yaw_rate, 0.0)):
             return energy
-        inertia = self.need("yaw_inertia", "kinetic_energy of a turning body")
+        inertia = self._need("yaw_inertia", "kinetic_energy of a turning body")
         return energy + _product(inertia, 0.5 * (self.yaw_rate * self.yaw_rate))
 
     def point(
@@ -260,7 +259,7 @@ class Vehicle:
         polar = distance is not _ABSENT, angle is not _ABSENT
         if (any(polar) and not all(polar)) or all(polar) != (forward is _ABSENT and left is _ABSENT):
             raise InputError("give forward= and left=, or distance= and angle=", code="bad_point", argument="point")
-        x, y, heading = (self.need(name, "point") for name in ("x", "y", "heading"))
+        x, y, heading = (self._need(name, "point") for name in ("x", "y", "heading"))
         if all(polar):
             length = door.number(distance, "m", "distance")
             c, s = direction(door, angle, "angle")
@@ -293,11 +292,13 @@ class Vehicle:
 
     def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:
         """What a yaw rate adds to the velocity at a scene point."""
-        if isinstance(yaw_rate, float) and yaw_rate == 0.0:
-            return 0.0, 0.0
-        return turning_velocity(yaw_rate, px, py, self.need("x", purpose), self.need("y", purpose))
+        resting = (yaw_rate == 0.0) | (yaw_rate != yaw_rate)
+        if resting is True or np.all(resting):
+            # Nothing turns, so no position is needed; NaN stays NaN.
+            return yaw_rate, yaw_rate
+        return turning_velocity(yaw_rate, px, py, self._need("x", purpose), self._need("y", purpose))
 
-    def need(self, name: str, purpose: str) -> Any:
+    def _need(self, name: str, purpose: str) -> Any:
         """The value of an optional field, or a MissingInputError that says what it is needed for."""
         value = getattr(self, name)
         if value is None:
@@ -333,10 +334,7 @@ class Vehicle:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for name, value in state.items():
-            for part in value if isinstance(value, tuple) else (value,):
-                if isinstance(part, np.ndarray):
-                    part.setflags(write=False)
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, lock(value))
 
 
 _NAMES = tuple(f.name for f in fields(Vehicle) if "hidden" not in f.metadata)
@@ -448,6 +446,5 @@ def _pinned(
         return wanted_x, wanted_y
     resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
     moved_x, moved_y = np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)
-    for moved in (moved_x, moved_y):
-        moved.setflags(write=False)
-    return moved_x, moved_y
+    moved: tuple[Any, Any] = lock((moved_x, moved_y))
+    return moved

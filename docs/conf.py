@@ -1,0 +1,108 @@
+"""Sphinx settings. Nothing is fetched while building, and the pages fetch nothing."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import jupytext
+from nbformat import NotebookNode
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+SEARCHED = [str(ROOT / "src"), str(HERE / "_ext")]
+sys.path[:0] = SEARCHED
+# The kernels that run the pages find the same modules.
+os.environ["PYTHONPATH"] = os.pathsep.join([*SEARCHED, *filter(None, [os.environ.get("PYTHONPATH")])])
+# Pages run on the Python that builds them, whatever kernel of that name the machine has.
+os.environ["JUPYTER_PATH"] = str(HERE / "_ext" / "jupyter")
+os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
+
+import collisions  # noqa: E402
+
+project = "collisions"
+author = "The collisions developers"
+release = version = collisions.__version__
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "sphinx_design", "mathml", "attributes"]
+exclude_patterns = ["_build", "_ext", "_static", "**/.ipynb_checkpoints"]
+nitpicky = True
+# Bases outside the package have no page here.
+nitpick_ignore = [("py:class", name) for name in ("ValueError", "UserWarning", "Exception", "enum.IntEnum", "IntEnum")]
+
+html_theme = "furo"
+html_title = f"collisions {version}"
+html_static_path = ["_static"]
+html_css_files = ["pages.css"]
+html_math_renderer = "mathml"
+html_copy_source = False
+html_show_copyright = False
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_merge_streams = True
+nb_render_markdown_format = "myst"
+nb_ipywidgets_js = {}  # would be fetched from elsewhere
+
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+
+def render_examples(source: Path, target: Path) -> None:
+    """Turn every script of the source folder into a notebook of the target folder, with its data beside it and a list."""
+    target.mkdir(exist_ok=True)
+    scripts = sorted(path for path in source.glob("*.py") if not path.name.startswith("_")) if source.is_dir() else []
+    wanted = {f"{script.stem}.ipynb" for script in scripts}
+    for stale in target.glob("*.ipynb"):
+        if stale.name not in wanted:
+            stale.unlink()
+    titles = {}
+    for script in scripts:
+        notebook = jupytext.read(script, fmt="py:percent")
+        for index, cell in enumerate(notebook.cells):
+            cell["id"] = f"cell-{index}"  # the same at every build
+        notebook.metadata = NotebookNode(
+            kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
+        )
+        titles[script.stem] = title_of(notebook, script.stem)
+        write(target / f"{script.stem}.ipynb", jupytext.writes(notebook, fmt="ipynb"))
+    for folder in source.glob("*/"):
+        if not folder.name.startswith((".", "_")):
+            shutil.copytree(folder, target / folder.name, dirs_exist_ok=True)
+    write(target / "index.md", list_of(titles))
+
+
+def title_of(notebook: NotebookNode, otherwise: str) -> str:
+    """The first heading of a notebook."""
+    lines = (line for cell in notebook.cells if cell.cell_type == "markdown" for line in cell.source.splitlines())
+    return next((line[2:].strip() for line in lines if line.startswith("# ")), otherwise)
+
+
+def list_of(titles: dict[str, str]) -> str:
+    """The page that lists the examples."""
+    page = ["# Worked examples", ""]
+    if not titles:
+        return "\n".join([*page, "There are none in this copy of the sources.", ""])
+    page += [
+        "Each example is a script in `examples/`. It ends with checks of the published answer.",
+        "Here it was run when these pages were built. Take it along as a notebook:",
+        "",
+    ]
+    page += [f"- {{doc}}`{title} <{stem}>`: {{download}}`{stem}.ipynb <{stem}.ipynb>`" for stem, title in titles.items()]
+    page += ["", "```{toctree}", ":hidden:", ":glob:", "", "*", "```", ""]
+    return "\n".join(page)
+
+
+def write(path: Path, text: str) -> None:
+    """Leave a file alone that already says this, so that a second build has less to do."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+render_examples(ROOT / "examples", HERE / "examples")

@@ -1,0 +1,277 @@
+"""The sign-convention figures of the three impacts.
+
+``python docs/figures.py [folder] [svg|png]`` writes them, by default again to docs/_static/ as SVG.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import matplotlib as mpl
+
+mpl.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+
+INK, A, B, FORCE, FRAME, GREY = "#1a1a1a", "#1f5fa8", "#b3541e", "#a01040", "#2b7a3d", "#777777"
+mpl.rcParams |= {
+    "font.size": 11,
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "dejavuserif",
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "svg.fonttype": "path",
+    "svg.hashsalt": "collisions",
+}
+
+
+def unit(degrees):
+    return np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
+
+
+def turned(v):
+    return np.array([-v[1], v[0]])
+
+
+def beside(place, dx, dy):
+    return np.add(place, (dx, dy))
+
+
+def canvas(ax, x, y):
+    ax.set(xlim=x, ylim=y, aspect="equal")
+    ax.axis("off")
+
+
+def arrow(ax, start, end, colour, width=2.0, head=14, **style):
+    ax.add_patch(
+        FancyArrowPatch(
+            start, end, arrowstyle="-|>", mutation_scale=head, lw=width, color=colour, shrinkA=0, shrinkB=0, **style
+        )
+    )
+
+
+def label(ax, place, text, colour=INK, **style):
+    ax.text(*place, text, color=colour, **{"ha": "center", "va": "center", **style})
+
+
+def turn(ax, centre, radius, start, end, colour):
+    """An arc with a head at its end; clockwise where end < start."""
+    angles = np.radians(np.linspace(start, end, 60))
+    x, y = centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)
+    ax.plot(x[:-4], y[:-4], color=colour, lw=1.6)
+    arrow(ax, (x[-6], y[-6]), (x[-1], y[-1]), colour, width=1.2, head=11)
+
+
+def car(ax, centre, heading, colour, name, length=4.4, width=1.8, name_at=(-1.3, 0.0)):
+    """A rectangle with a windscreen and a nose, its centre of mass and its name."""
+    h = unit(heading)
+    axes = np.array([h, turned(h)])
+    corners = np.array([[-0.5, -0.5], [0.42, -0.5], [0.5, -0.3], [0.5, 0.3], [0.42, 0.5], [-0.5, 0.5]]) * [length, width]
+    ax.add_patch(Polygon(corners @ axes + centre, closed=True, fc=colour + "1f", ec=colour, lw=1.8))
+    screen = np.array([[0.2, -0.4], [0.27, -0.32], [0.27, 0.32], [0.2, 0.4]]) * [length, width]
+    ax.add_patch(Polygon(screen @ axes + centre, closed=True, fc=colour + "44", ec="none"))
+    mass_centre(ax, centre, colour)
+    label(ax, np.array(name_at) @ axes + centre, name, colour, fontsize=14, fontweight="bold")
+
+
+def mass_centre(ax, centre, colour):
+    ax.add_patch(Circle(centre, 0.11, fc="white", ec=colour, lw=1.8, zorder=5))
+    ax.add_patch(Circle(centre, 0.04, fc=colour, ec=colour, zorder=6))
+
+
+def scene_axes(ax, origin, size=1.3):
+    origin = np.asarray(origin, float)
+    arrow(ax, origin, beside(origin, size, 0), INK, 1.5, 12)
+    arrow(ax, origin, beside(origin, 0, size), INK, 1.5, 12)
+    label(ax, beside(origin, size + 0.22, 0), "$x$")
+    label(ax, beside(origin, 0, size + 0.25), "$y$")
+    ax.add_patch(Circle(origin, 0.13, fc="white", ec=INK, lw=1.2, zorder=5))
+    ax.add_patch(Circle(origin, 0.035, fc=INK, ec=INK, zorder=6))
+    label(ax, beside(origin, -0.32, -0.05), "$z$", ha="center")
+    turn(ax, origin, 0.75 * size, 8, 68, INK)
+    label(ax, origin + 1.02 * size * unit(40), "+", fontsize=12)
+
+
+def contact_frame(ax, place, n, n_size, t_size, n_label, t_label):
+    t = turned(n)
+    arrow(ax, place, place + n_size * n, FRAME, 2.2)
+    arrow(ax, place, place + t_size * t, FRAME, 2.2)
+    label(ax, place + n_size * n + n_label, "$n$", FRAME, fontsize=14)
+    label(ax, place + t_size * t + t_label, "$t$", FRAME, fontsize=14)
+
+
+def linear():
+    fig, (ax, force) = plt.subplots(1, 2, figsize=(10.5, 4.0), width_ratios=(2.1, 1))
+    canvas(ax, (-6.4, 6.4), (-3.6, 3.3))
+    place = np.array([0.0, 0.0])
+    car(ax, (-2.2, 0), 0, A, "A")
+    car(ax, (2.2, 0), 0, B, "B", name_at=(1.6, 0.0))
+    ax.plot([-6.2, 6.2], [0, 0], color=GREY, lw=0.9, ls=(0, (6, 4)), zorder=0)
+    arrow(ax, (-2.7, 1.35), (-0.5, 1.35), A)
+    label(ax, (-1.6, 1.72), r"$v_A$", A)
+    arrow(ax, (2.2, 1.35), (3.2, 1.35), B)
+    label(ax, (2.7, 1.72), r"$v_B$", B)
+    contact_frame(ax, place, np.array([1.0, 0.0]), 1.35, 2.4, np.array([0.0, 0.32]), np.array([0.3, 0.0]))
+    arrow(ax, (0.15, -1.4), (2.3, -1.4), FORCE)
+    label(ax, (2.4, -1.4), r"$P$ on B", FORCE, ha="left")
+    arrow(ax, (-0.15, -1.4), (-2.3, -1.4), FORCE)
+    label(ax, (-2.4, -1.4), r"$-P$ on A", FORCE, ha="right")
+    label(ax, (4.0, 2.85), "line of impact through\nboth centres of mass", GREY, fontsize=9.5)
+    ax.plot([5.3, 5.6], [2.4, 0.1], color=GREY, lw=0.8)
+    scene_axes(ax, (-5.7, -3.2), 1.2)
+    label(ax, (1.3, -2.75), r"closing speed $g = (v_A - v_B)\cdot n > 0$", fontsize=11.5)
+
+    time = np.linspace(0, 1, 200)
+    rise, fall = np.sin(np.pi / 2 * time), np.sin(np.pi / 2 * (1 - time))
+    force.fill_between(time, rise, color="#d9a7b5", ec=FORCE, lw=1.6)
+    force.fill_between(1 + 0.5 * time, 1.0 * fall, color="#f3e0e6", ec=FORCE, lw=1.6)
+    force.text(0.62, 0.34, "$A_1$\ncompression\nimpulse", ha="center", va="center", fontsize=10)
+    force.annotate(
+        "$A_2$\nrestitution\nimpulse",
+        (1.2, 0.3),
+        (1.68, 0.86),
+        ha="center",
+        va="center",
+        fontsize=10,
+        arrowprops={"arrowstyle": "-", "color": INK},
+    )
+    force.set(xlim=(0, 2.05), ylim=(0, 1.22), xticks=[1.0, 1.5], xticklabels=["$t_1$", "$t_1+t_2$"], yticks=[])
+    force.set_xlabel("time")
+    force.set_ylabel("force between A and B")
+    force.set_title("restitution $e = A_2/A_1$", fontsize=11.5)
+    force.spines[["top", "right"]].set_visible(False)
+    fig.tight_layout()
+    return fig
+
+
+def oblique():
+    fig, ax = plt.subplots(figsize=(9.0, 5.6))
+    canvas(ax, (-7.2, 6.9), (-4.6, 4.4))
+    angle = 20.0
+    n, t = unit(angle), turned(unit(angle))
+    place = np.array([0.0, 0.0])
+    centre_a, centre_b = -2.1 * n, 2.1 * n
+    for centre, colour, name in ((centre_a, A, "A"), (centre_b, B, "B")):
+        ax.add_patch(Circle(centre, 2.1, fc=colour + "1a", ec=colour, lw=1.8))
+        mass_centre(ax, centre, colour)
+        label(ax, centre + 1.2 * t, name, colour, fontsize=15, fontweight="bold")
+    ax.plot(*np.array([-6.2 * n, 6.6 * n]).T, color=GREY, lw=0.9, ls=(0, (6, 4)), zorder=0)
+    ax.plot(*np.array([-3.9 * t, 3.9 * t]).T, color=GREY, lw=0.9, ls=(0, (2, 3)), zorder=0)
+    # Angle of the normal, drawn where nothing else is.
+    corner = 4.5 * n
+    ax.plot([corner[0], corner[0] + 2.1], [corner[1]] * 2, color=INK, lw=0.8)
+    turn(ax, corner, 1.5, 0, angle, INK)
+    label(ax, beside(corner, 2.3, -0.28), r"$+x$", fontsize=10)
+    label(ax, beside(corner, 1.1, -0.4), "normal angle", fontsize=10)
+    contact_frame(ax, place, n, 1.5, 2.3, 0.42 * -t + 0.0 * n, 0.35 * n)
+    # Velocities with their components along n and t.
+    for centre, vn, vt, colour, text, at in (
+        (centre_a, 1.7, -2.6, A, "$v_A$", (-1.12, 1.22)),
+        (centre_b, -1.2, -2.9, B, "$v_B$", (-0.45, 0.1)),
+    ):
+        tip = centre + vn * n + vt * t
+        arrow(ax, centre, tip, colour)
+        ax.plot(*np.array([centre + vn * n, tip]).T, color=colour, lw=1.0, ls=":")
+        ax.plot(*np.array([centre + vt * t, tip]).T, color=colour, lw=1.0, ls=":")
+        ax.plot(*np.array([centre, centre + vt * t]).T, color=colour, lw=1.0, ls=":")
+        label(ax, tip + at, text, colour, fontsize=13)
+    # The impulse and its components, away from the bodies.
+    p = 2.6 * n + 0.95 * t
+    foot = np.array([2.6, -3.6])
+    arrow(ax, foot, foot + p, FORCE, 2.2)
+    ax.plot(*np.array([foot, foot + 2.6 * n, foot + p]).T, color=FORCE, lw=1.2, ls="--")
+    label(ax, foot + 0.5 * p + [-0.2, 0.35], "$P$ on B", FORCE, ha="right")
+    label(ax, foot + 1.56 * n - 0.32 * t, "$P_n$", FORCE)
+    label(ax, foot + 3.0 * n + 0.48 * t, "$P_t$", FORCE)
+    tail = np.array([-3.6, -2.3])
+    arrow(ax, tail, tail - p, FORCE, 2.2)
+    label(ax, tail - 0.5 * p + [0.3, -0.35], "$-P$ on A", FORCE, ha="left")
+    label(ax, (-7.0, 3.9), "circles: point masses,\nno levers, no rotation", GREY, fontsize=10, ha="left")
+    label(ax, (1.3, 4.05), "line of impact (dashed)\nthrough both centres of mass", GREY, fontsize=10, ha="left")
+    scene_axes(ax, (-6.5, 0.6), 1.3)
+    fig.tight_layout()
+    return fig
+
+
+def eccentric():
+    fig, (ax, seen) = plt.subplots(1, 2, figsize=(11.5, 6.2), width_ratios=(1.75, 1))
+    canvas(ax, (-6.4, 5.6), (-4.9, 5.3))
+    heading_a, heading_b = 10.0, 100.0
+    n = unit(10.0)
+    t = turned(n)
+    place = np.array([0.0, 0.0])
+    centre_a = place - 2.2 * n - 0.45 * t
+    centre_b = place + 0.9 * n - 1.25 * t
+    car(ax, centre_a, heading_a, A, "A", name_at=(-1.7, 0.0))
+    car(ax, centre_b, heading_b, B, "B", name_at=(-1.8, 0.0))
+    ax.plot(*np.array([-6.0 * n, 5.3 * n]).T, color=GREY, lw=0.9, ls=(0, (6, 4)), zorder=0)
+    label(ax, 4.5 * n + 0.35 * t, "line of impact", GREY, fontsize=10, rotation=10)
+    # Levers from the centres of mass to the contact.
+    for centre, text, at in ((centre_a, "$r_A$", -0.35 * n - 0.38 * t), (centre_b, "$r_B$", 0.38 * n + 0.1 * t)):
+        arrow(ax, centre, place, INK, 1.5, 12)
+        label(ax, (centre + place) / 2 + at, text, fontsize=13)
+    ax.add_patch(Circle(place, 0.1, color=INK, zorder=7))
+    label(ax, beside(place, 0.25, 0.45), "C", fontsize=12)
+    contact_frame(ax, place, n, 2.6, 2.6, -0.38 * t, -0.35 * n)
+    # The impulse on B, and its opposite on A, in their own places.
+    p = 2.0 * n - 0.62 * t
+    arrow(ax, place, place + p, FORCE, 2.4)
+    label(ax, place + p + [0.75, -0.12], "$P$ on B", FORCE)
+    arrow(ax, place, place - p, FORCE, 2.4)
+    label(ax, place - p + [-0.1, 0.45], "$-P$ on A", FORCE, ha="center")
+    h = unit(heading_b)
+    arrow(ax, centre_b + 2.2 * h, centre_b + 4.5 * h, B, 1.6, ls=(0, (4, 2)))
+    label(ax, centre_b + 4.2 * h + [1.25, 0.2], "heading of B", B, fontsize=10.5)
+    # Yaw, positive counter-clockwise.
+    turn(ax, centre_b, 1.2, -125, -25, B)
+    label(ax, centre_b + 1.95 * unit(-30), r"$+\omega_B$", B, fontsize=13)
+    turn(ax, centre_a, 1.45, -130, -30, A)
+    label(ax, centre_a + 1.85 * unit(-80), r"$+\omega_A$", A, fontsize=13)
+    scene_axes(ax, (-5.7, -4.4), 1.3)
+    label(
+        ax,
+        (-3.6, -4.05),
+        "closing speed $g$ and slip $s$\nare those of the bodies\nat the contact point C",
+        fontsize=10,
+        ha="left",
+    )
+
+    canvas(seen, (-4.0, 4.0), (-4.6, 5.6))
+    car(seen, (0, 0), 90, B, "", length=4.0, width=1.7)
+    label(seen, (0, 5.3), "directions seen from a vehicle", fontsize=11.5)
+    seen.plot([0, 0], [2.05, 3.3], color=GREY, lw=1, ls=":")
+    label(seen, (0, 4.25), "PDOF 0\nfrom ahead", fontsize=10)
+    label(seen, (3.2, 0), "+90°\nfrom the\nright", fontsize=10)
+    label(seen, (-3.2, 0), "−90°\nfrom the\nleft", fontsize=10)  # noqa: RUF001
+    label(seen, (0, -3.4), "180°\nfrom behind", fontsize=10)
+    came = unit(90 - 50)
+    arrow(seen, 3.5 * came, 0.25 * came, FORCE, 2.2)
+    label(seen, 3.75 * came + [0.05, 0.55], "force\non the vehicle", FORCE, fontsize=10)
+    turn(seen, (0, 0), 2.65, 90, 40, INK)
+    label(seen, 3.05 * unit(68), "+PDOF", fontsize=10.5)
+    arrow(seen, (0, 0), (0, 1.7), FRAME, 1.8)
+    arrow(seen, (0, 0), (-1.7, 0), FRAME, 1.8)
+    label(seen, (-0.42, 1.45), r"$\Delta v$" + "\nfwd", FRAME, fontsize=9)
+    label(seen, (-1.5, 0.5), r"$\Delta v$" + " left", FRAME, fontsize=9)
+    fig.tight_layout()
+    return fig
+
+
+FIGURES = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
+
+
+def main(folder=Path(__file__).parent / "_static", kind="svg"):
+    blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}
+    for name, draw in FIGURES.items():
+        fig = draw()
+        path = Path(folder) / f"signs_{name}.{kind}"
+        fig.savefig(path, metadata=blank[kind], dpi=110)
+        if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
+            path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+        plt.close(fig)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

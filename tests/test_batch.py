@@ -1,0 +1,146 @@
+"""Batches: shapes, precision, threads and progress; every case as if it were alone."""
+
+import math
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.kernels.batch import BLOCK
+
+B = col.Vehicle(mass=950.0, vy=5.0, yaw_rate=0.2, yaw_inertia=1500.0, x=3.0, y=0.4)
+PLACE = {"normal": 0.1, "point": (1.7, 0.3)}
+READ = ("closing_speed", "slip_before", "slip_after", "normal_impulse", "tangential_impulse", "energy_loss", "effective_mass")
+
+
+def striking(vx):
+    """A car with one field as given."""
+    return col.Vehicle(mass=1100.0, vx=vx, yaw_inertia=1800.0, x=0.0, y=0.0)
+
+
+def solve(vx, e=0.2, **options):
+    """One scene, with the field that varies."""
+    return col.eccentric(striking(vx), B, e, friction=options.pop("friction", 0.3), **PLACE, **options)
+
+
+@pytest.mark.parametrize("shape", [(3,), (1,), (0,), (2, 3), (4, 1, 2)])
+def test_results_have_the_broadcast_shape(shape):
+    """Any shape, empty ones included."""
+    impact = solve(np.full(shape, 20.0))
+    for name in READ:
+        assert getattr(impact, name).shape == shape
+    assert impact.b.after.vx.shape == impact.ok.shape == impact.status.shape == shape
+    assert impact.regime.shape == shape
+
+
+def test_arguments_broadcast_together():
+    """A column of speeds against a row of restitutions, each pair as if alone."""
+    speeds, es = np.array([[10.0], [20.0], [30.0]]), np.array([0.0, 0.5])
+    impact = solve(speeds, es)
+    assert impact.energy_loss.shape == (3, 2)
+    for i in range(3):
+        for j in range(2):
+            alone = solve(float(speeds[i, 0]), float(es[j]))
+            for name in READ:
+                assert getattr(impact, name)[i, j] == pytest.approx(getattr(alone, name), rel=1e-13, abs=1e-12), name
+
+
+def test_an_array_without_dimensions_is_a_single_case():
+    """A 0-d array is a number, and the answer a Python float."""
+    assert type(solve(np.array(20.0)).energy_loss) is float
+
+
+@pytest.mark.parametrize(
+    "layout",
+    [
+        lambda v: v[::-1][::-1],
+        lambda v: np.repeat(v, 2)[::2],
+        lambda v: np.asfortranarray(np.stack([v, v]))[0],
+        lambda v: v.astype(">f8"),
+        lambda v: list(v),
+        lambda v: tuple(v),
+    ],
+)
+def test_layout_does_not_matter(layout):
+    """Strided, reversed, Fortran-ordered, big-endian, lists: the same numbers."""
+    v = np.array([10.0, 20.0, 30.0])
+    assert solve(layout(v)).energy_loss.tolist() == solve(v).energy_loss.tolist()
+    square = np.asfortranarray(np.arange(1.0, 7.0).reshape(2, 3))
+    assert solve(square).energy_loss.tolist() == solve(square.copy()).energy_loss.tolist()
+
+
+def test_integers_become_floats():
+    """Integer arrays are read as float64."""
+    assert solve(np.array([10, 20])).energy_loss.tolist() == solve(np.array([10.0, 20.0])).energy_loss.tolist()
+
+
+def test_single_precision_stays_single_only_if_every_array_is():
+    """float32 in, float32 out, right to about 1e-5 here; one float64 array makes all of it float64."""
+    v = np.array([10.0, 20.0], dtype=np.float32)
+    single, double = solve(v), solve(v.astype(np.float64))
+    assert single.energy_loss.dtype == single.a.after.vx.dtype == np.float32
+    # float32 eps is 1.2e-7; ordinary traffic keeps P within 3 eps and the loss within 10 eps of its parts (numerics 5).
+    np.testing.assert_allclose(single.normal_impulse, double.normal_impulse, rtol=8 * 1.2e-7)
+    np.testing.assert_allclose(single.energy_loss, double.energy_loss, rtol=10 * 1.2e-7)
+    mixed = solve(v, np.array([0.2, 0.2]))
+    assert mixed.energy_loss.dtype == np.float64
+    np.testing.assert_allclose(mixed.energy_loss, double.energy_loss, rtol=1e-15)
+
+
+def test_blocks_and_threads_change_no_bit():
+    """More cases than a block holds, on one thread and on three, refused cases among them."""
+    v = np.linspace(5.0, 60.0, 3 * BLOCK + 17)
+    v[100] = -50.0
+    v[BLOCK + 5] = np.nan
+    with pytest.warns(col.CollisionsWarning, match="2 of 24593 cases were refused"):
+        one = solve(v)
+    with pytest.warns(col.CollisionsWarning):
+        three = solve(v, threads=3)
+    assert one == three
+    assert np.flatnonzero(one.status > 1).tolist() == [100, BLOCK + 5]
+    assert np.isfinite(one.energy_loss).sum() == v.size - 2
+    small = solve(v[:50])
+    assert np.array_equal(one.energy_loss[:50], small.energy_loss)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_progress_counts_up_and_can_interrupt(threads):
+    """Called after each block with cases done and total; what it raises ends the run."""
+    seen = []
+    v = np.full(2 * BLOCK + 1, 20.0)
+    solve(v, threads=threads, progress=lambda done, total: seen.append((done, total)))
+    assert seen == [(BLOCK, v.size), (2 * BLOCK, v.size), (v.size, v.size)]
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve(v, threads=threads, progress=stop)
+
+
+def test_results_are_locked():
+    """Nobody changes an answer by accident."""
+    impact = solve(np.array([10.0, 20.0]))
+    for array in (impact.energy_loss, impact.a.after.vx, impact.normal_impulse):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
+
+
+def test_infinities_mix_with_finite_cases():
+    """Barriers and cars, friction and none, in one batch, without a warning from numpy."""
+    mass = np.array([950.0, math.inf, 950.0, math.inf])
+    b = B.replace(mass=mass, yaw_inertia=np.where(np.isinf(mass), np.inf, 1500.0), vy=0.0, yaw_rate=0.0)
+    mu = np.array([math.inf, math.inf, 0.0, 0.3])
+    impact = col.eccentric(striking(20.0), b, 0.2, friction=mu, **PLACE)
+    assert impact.ok.all()
+    assert impact.b.delta_v[1] == impact.b.delta_v[3] == 0.0
+    for i in range(4):
+        alone = col.eccentric(
+            striking(20.0),
+            b.replace(mass=float(mass[i]), yaw_inertia=float(b.yaw_inertia[i])),
+            0.2,
+            friction=float(mu[i]),
+            **PLACE,
+        )
+        assert impact.normal_impulse[i] == pytest.approx(alone.normal_impulse, rel=1e-14)
+        assert impact.regime[i] == alone.regime

@@ -1,0 +1,234 @@
+"""Impact: its attributes, records that can be solved again, columns for a table, and states that chain."""
+
+import copy
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.fields import attributes
+from collisions.side import Side
+
+A = col.Vehicle(mass=1100.0, vx=20.0, vy=1.0, yaw_rate=0.1, yaw_inertia=1800.0, x=0.0, y=0.0, heading=0.0, name="A")
+B = col.Vehicle(mass=950.0, vy=5.0, yaw_rate=0.2, yaw_inertia=1500.0, x=3.0, y=0.4, heading="90 deg")
+PINNED = col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=3.0, y=0.4, pivot=(3.0, -2.0))
+MANY = np.linspace(0.0, 1.0, 5)
+
+
+def scenes():
+    """One impact of every kind: solver, law, rule, barrier, pivot, batch."""
+    place = {"normal": 0.1, "point": (1.7, 0.3)}
+    straight = A.replace(vy=0.0, yaw_rate=0.0)
+    yield col.linear_central(straight, B.replace(vy=0.0, yaw_rate=0.0), 0.3)
+    yield col.linear_central(straight, col.Vehicle.barrier(), MANY)
+    yield col.oblique_central(A.replace(yaw_rate=0.0), B.replace(yaw_rate=0.0), 0.3, normal=(3, 1), friction=0.2)
+    yield col.eccentric(A, B, 0.3, friction=math.inf, **place)
+    yield col.eccentric(A, B, 0.3, friction=0.1, law="kudlich-slibar", **place)
+    yield col.eccentric(A, B, 0.3, impulse_ratio=0.05, **place)
+    yield col.eccentric(A, PINNED, 0.3, critical_fraction=0.5, **place)
+    yield col.eccentric(A, col.Vehicle.barrier(), MANY * 0.3, friction=np.array([[0.1], [0.9]]), **place)
+
+
+SCENES = list(scenes())
+
+
+@pytest.mark.parametrize("impact", SCENES, ids=[f"{i}-{s.model}" for i, s in enumerate(SCENES)])
+def test_records_are_strict_json_and_solve_again_to_the_same_bits(impact):
+    """to_dict through JSON without NaN or Infinity, and from_dict equal in every input and result."""
+    text = json.dumps(impact.to_dict(), allow_nan=False)
+    again = col.Impact.from_dict(json.loads(text))
+    assert again == impact
+    assert again.a.after == impact.a.after
+    assert json.dumps(again.to_dict(), allow_nan=False) == text
+
+
+@pytest.mark.parametrize("impact", SCENES, ids=[f"{i}-{s.model}" for i, s in enumerate(SCENES)])
+def test_pickles_and_copies(impact):
+    """Equal, and arrays stay locked."""
+    for twin in (pickle.loads(pickle.dumps(impact)), copy.deepcopy(impact)):
+        assert twin == impact
+        if isinstance(impact.energy_loss, np.ndarray):
+            for array in (twin.energy_loss, twin.a.after.vx, twin.a.delta_v, twin.restitution):
+                assert not array.flags.writeable
+
+
+@pytest.mark.parametrize("impact", SCENES, ids=[f"{i}-{s.model}" for i, s in enumerate(SCENES)])
+def test_every_attribute_has_the_shape_of_the_batch(impact):
+    """Scalars stay Python floats from door to answer; in a batch every number has the broadcast shape or is an input."""
+    shape = np.shape(impact.status)
+    for owner, kind in ((impact, col.Impact), (impact.a, Side), (impact.b, Side)):
+        for name in attributes(kind):
+            value = getattr(owner, name)
+            unit = vars(kind)[name].unit
+            if unit is None or value is None:
+                continue
+            for part in value if isinstance(value, tuple) else (value,):
+                if shape == ():
+                    assert type(part) is float, name
+                elif name not in ("restitution", "friction", "point", "normal", "normal_angle"):
+                    assert np.shape(part) in (shape, ()), name
+
+
+def test_columns_are_flat_and_of_one_length():
+    """One list a number, one value a case, nothing nested: what a table takes."""
+    for impact in SCENES:
+        columns = impact.to_columns()
+        assert {len(column) for column in columns.values()} == {np.size(impact.status)}
+        assert all(type(v) in (float, int, str, bool) for column in columns.values() for v in column)
+        np.testing.assert_array_equal(
+            columns["a.after.vx"], np.ravel(np.broadcast_to(impact.a.after.vx, np.shape(impact.status)))
+        )
+
+
+def test_a_record_that_is_none():
+    """Anything else is refused with what it should be."""
+    record = SCENES[0].to_dict()
+    for broken in (
+        {},
+        {**record, "format": "other"},
+        {**record, "inputs": {}},
+        [],
+        {**record, "inputs": {**record["inputs"], "a": {}}},
+    ):
+        with pytest.raises(col.InputError):
+            col.Impact.from_dict(broken)
+
+
+def test_refused_cases_survive_a_record():
+    """NaN results and statuses of a batch come back; so does a single case answered with NaN."""
+    with pytest.warns(col.CollisionsWarning):
+        impact = col.linear_central(col.Vehicle(mass=1.0, vx=np.array([1.0, -1.0])), col.Vehicle(mass=1.0), 0.5)
+    with pytest.warns(col.CollisionsWarning):
+        assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
+    one = col.linear_central(col.Vehicle(mass=1.0, vx=-1.0), col.Vehicle(mass=1.0), 0.5, on_failure="nan")
+    assert col.Impact.from_dict(one.to_dict()) == one
+
+
+def test_frozen():
+    """Nothing can be set, and an Impact is not made by hand."""
+    with pytest.raises(AttributeError):
+        SCENES[0].restitution = 0.5
+    with pytest.raises(AttributeError):
+        SCENES[0].anything = 0.5
+    with pytest.raises(AttributeError):
+        SCENES[0].a.delta_v = 0.5
+    with pytest.raises(AttributeError):
+        del SCENES[0].restitution
+    with pytest.raises(TypeError, match="linear_central"):
+        col.Impact()
+    with pytest.raises(TypeError):
+        hash(SCENES[0])
+
+
+def test_repr_and_tables():
+    """One line with units, and a table for notebooks, of every kind of impact."""
+    for impact in SCENES:
+        assert impact.model in repr(impact)
+        assert "m/s" in repr(impact)
+        assert "<table>" in impact._repr_html_()
+        assert "delta_v" in impact.a._repr_html_()
+        assert "after" in repr(impact.b)
+
+
+def test_states_chain():
+    """The state after one impact is the state before the next: three cars in a row, plastic, share the momentum."""
+    a, b, c = (col.Vehicle(mass=1000.0, vx=v) for v in (30.0, 0.0, 0.0))
+    first = col.linear_central(a, b, 0.0)
+    second = col.linear_central(first.b.after, c, 0.0)
+    third = col.linear_central(first.a.after, second.b.after.replace(mass=2000.0), 0.0)
+    assert third.a.after.vx == pytest.approx(10.0, rel=1e-15)
+    struck = col.eccentric(A, PINNED, 0.3, friction=0.2, normal=0.1, point=(1.7, 0.3)).b.after
+    again = col.eccentric(A.replace(vx=40.0), struck, 0.3, friction=0.2, normal=0.1, point=(1.7, 0.3))
+    assert again.b.after.pivot == PINNED.pivot
+
+
+@pytest.mark.parametrize(
+    ("force", "heading", "pdof", "clock"),
+    [
+        ((-1, 0), 0, 0, 12),
+        ((1, 0), 0, 180, 6),
+        ((0, 1), 0, 90, 3),
+        ((0, -1), 0, -90, 9),
+        ((0, -1), 90, 0, 12),
+        ((1, 0), 180, 0, 12),
+        ((-1, 1), 0, 45, 2),
+        ((-math.cos(math.radians(31)), math.sin(math.radians(31))), 0, 31, 1),
+        ((-math.cos(math.radians(29)), -math.sin(math.radians(29))), 0, -29, 11),
+    ],
+)
+def test_pdof(force, heading, pdof, clock):
+    """0 from straight ahead, positive clockwise (from the right), in (-180, 180]; worked out by hand for each direction."""
+    b = col.Vehicle(mass=1.0, heading=f"{heading} deg")
+    a = col.Vehicle(mass=1.0, vx=float(force[0]), vy=float(force[1]))
+    side = col.linear_central(a, b, 0.5, normal=tuple(map(float, force))).b
+    assert math.degrees(side.pdof) == pytest.approx(pdof, abs=1e-12)
+    assert side.pdof_clock == clock
+    assert side.pdof > -math.pi
+
+
+def test_what_needs_a_heading_is_none_without_one():
+    """Never taken from the direction of travel."""
+    side = SCENES[1].b
+    assert side.pdof is side.delta_v_forward is side.delta_v_left is side.pdof_clock is None
+
+
+def test_own_axes_and_recorder_sign():
+    """Struck from its right side a vehicle is pushed to its left: delta_v_left is positive, a recorder would print it negative."""
+    b = col.Vehicle(mass=1000.0, heading="90 deg")
+    side = col.linear_central(col.Vehicle(mass=1000.0, vx=-10.0), b, 0.0, normal="180 deg").b
+    assert side.delta_v_left == pytest.approx(5.0, rel=1e-15)
+    assert side.delta_v_forward == pytest.approx(0.0, abs=1e-15)
+    assert side.pdof == pytest.approx(math.pi / 2, rel=1e-15)
+
+
+def test_ees():
+    """Shares of the energy absorbed at the end of compression; a share outside 0 to 1 is refused."""
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=2000.0), 0.5)
+    ees_a, ees_b = impact.ees("30 %")
+    assert 0.5 * (1000.0 * ees_a**2 + 2000.0 * ees_b**2) == pytest.approx(impact.energy_absorbed, rel=1e-14)
+    assert 0.5 * 1000.0 * ees_a**2 == pytest.approx(0.3 * impact.energy_absorbed, rel=1e-14)
+    assert impact.energy_absorbed * (1 - 0.5**2) == pytest.approx(impact.energy_loss_normal, rel=1e-14)
+    assert col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle.barrier(), 0.5).ees(1.0) == (20.0, 0.0)
+    with pytest.raises(col.InputError, match="share_a"):
+        impact.ees(1.5)
+    with pytest.raises(TypeError):
+        impact.ees()
+
+
+def test_linear_attributes():
+    """The linear model has no tangent: ratios 0, frictionless, no law, no point."""
+    impact = SCENES[0]
+    assert impact.regime == "frictionless"
+    assert impact.critical_impulse_ratio == impact.impulse_ratio == 0.0
+    assert impact.law is impact.point is impact.choice is None
+    assert impact.kind == "elastoplastic"
+    assert SCENES[1].kind.tolist() == ["plastic", *["elastoplastic"] * 3, "elastic"]
+
+
+def test_regimes():
+    """Sticking, sliding, frictionless, given: as the contact went."""
+    place = {"normal": 0.1, "point": (1.7, 0.3)}
+    assert col.eccentric(A, B, 0.3, friction=0.0, **place).regime == "frictionless"
+    assert col.eccentric(A, B, 0.3, friction=0.01, **place).regime == "sliding"
+    assert col.eccentric(A, B, 0.3, friction=math.inf, **place).regime == "sticking"
+    assert col.eccentric(A, B, 0.3, critical_fraction=1.0, **place).regime == "given"
+    assert col.eccentric(A, B, 0.3, impulse_ratio=0.0, **place).friction is None
+    many = col.eccentric(A, B, 0.3, friction=np.array([0.0, 0.01, math.inf]), **place)
+    assert many.regime.tolist() == ["frictionless", "sliding", "sticking"]
+
+
+def test_exact_zeros():
+    """Slip after sticking, loss of an elastic impact, delta-V of a barrier: exact, not rounded."""
+    place = {"normal": 0.1, "point": (1.7, 0.3)}
+    for rule in ({"friction": math.inf}, {"critical_fraction": 1.0}):
+        assert col.eccentric(A, B, 0.3, **rule, **place).slip_after == 0.0
+        returned = col.eccentric(A, B, 0.3, law="kudlich-slibar", **rule, **place)
+        assert returned.slip_after == -0.3 * returned.slip_before
+    assert col.eccentric(A, B, 1.0, friction=0.0, **place).energy_loss == 0.0
+    assert col.eccentric(A, B, 1.0, friction=math.inf, law="kudlich-slibar", **place).energy_loss == 0.0
+    wall = col.eccentric(A, col.Vehicle.barrier(vx=-2.0), 0.3, friction=0.4, **place)
+    assert wall.b.delta_v == wall.b.delta_yaw_rate == 0.0
+    assert wall.common_velocity == pytest.approx(-2.0 * math.cos(0.1), rel=1e-15)

@@ -1,0 +1,406 @@
+"""The promises of section 5 of the numerics note, output by output, against a reference in 60 digits, over its extremes.
+
+Every bound is the promise itself, in eps = 2^-52 of the scale the note names. One case is solved alone (math) and in a batch (numpy).
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from reference import EPS, Answer, Body, Scene, evaluate
+from scenes import FAMILIES, LAWS, RULES, cases, solved, solved_together
+
+import collisions as col
+
+COUNT = 120
+FLAT_COUNT = 50
+GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in RULES]
+group = pytest.mark.parametrize(("family", "law", "rule"), GROUPS)
+way = pytest.mark.parametrize("way", ["alone", "in a batch"])
+
+_READ = (
+    "closing_speed", "slip_before", "slip_after", "separation_speed", "normal_impulse", "tangential_impulse",
+    "compression_impulse", "restitution_impulse", "effective_mass", "energy_loss", "momentum_residual", "common_velocity",
+)  # fmt: skip
+_READ_SIDE = (
+    "delta_vx", "delta_vy", "delta_yaw_rate", "after.vx", "after.vy", "after.yaw_rate", "impulse_x", "impulse_y",
+    "pivot_impulse_x", "pivot_impulse_y", "pdof",
+)  # fmt: skip
+
+
+def _followed(thing: Any, path: str) -> Any:
+    for part in path.split("."):
+        thing = getattr(thing, part)
+    return thing
+
+
+PATHS = (*_READ, *(f"{side}.{path}" for side in "ab" for path in _READ_SIDE))
+
+
+def _outputs(impact: col.Impact) -> dict[str, Any]:
+    """Every output a promise is about, as plain floats or lists of them."""
+    found = {path: _followed(impact, path) for path in PATHS}
+    return {path: value.tolist() if isinstance(value, np.ndarray) else value for path, value in found.items()}
+
+
+@cache
+def _answers(model: str, family: str, law: str, rule: str, way: str) -> list[tuple[Scene, Answer, dict[str, float]]]:
+    """Scenes of a family, the reference answers, and those of the package."""
+    known = cases(family, law, rule, COUNT) if model == "eccentric" else oblique_cases(family, law, rule)
+    if way == "alone":
+        found = [_outputs(solved(model, scene)) for scene, _ in known]
+    else:
+        columns = _outputs(solved_together(model, [scene for scene, _ in known]))
+        found = [{path: values[i] for path, values in columns.items()} for i in range(len(known))]
+    return [(scene, answer, outputs) for (scene, answer), outputs in zip(known, found, strict=True)]
+
+
+@cache
+def oblique_cases(family: str, law: str, rule: str) -> list[tuple[Scene, Answer]]:
+    """The scenes of a family as point masses: no spin, and contact where the centres of mass are."""
+
+    def point_mass(body: Body) -> Body:
+        return replace(body, spin=0.0, x=0.0, y=0.0, pivot=None)
+
+    found = []
+    for scene, _ in cases(family, law, rule, COUNT)[:FLAT_COUNT]:
+        flat = replace(scene, a=point_mass(scene.a), b=point_mass(scene.b), point=(0.0, 0.0))
+        answer = evaluate(flat)
+        if answer.refused == "separating":
+            turned = tuple(-part for part in flat.normal) if isinstance(flat.normal, tuple) else flat.normal - math.pi
+            flat = replace(flat, normal=turned)
+            answer = evaluate(flat)
+        if not answer.refused:
+            found.append((flat, answer))
+    return found
+
+
+# --- Measuring ----------------------------------------------------------------------------------------------------------------
+
+
+def apart(*pairs: tuple[float, Any]) -> float:
+    """Length of the vector between outputs and reference values, subtracted in its digits; NaN counts as infinitely far."""
+    if any(math.isnan(value) for value, _ in pairs):
+        return math.inf
+    return math.hypot(*(float(known - value) for value, known in pairs))
+
+
+Measured = list[tuple[str, float, float]]  # output, error, what is promised
+
+
+def check(
+    answers: list[tuple[Scene, Answer, dict[str, float]]], measure: Callable[[Scene, Answer, dict[str, float]], Measured]
+) -> None:
+    """Fail with the worst case, how far it is beyond the promise, and the scene that gives it."""
+    worst, story = 0.0, "nothing was measured"
+    assert answers, story
+    for scene, answer, outputs in answers:
+        for output, error, promise in measure(scene, answer, outputs):
+            if error > promise * worst:
+                worst = float(error / promise) if promise else math.inf
+                story = f"{output} is off by {worst:.3g} of what is promised: {scene}"
+    assert worst <= 1.0, story
+
+
+def closing_and_slip(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """Closing speed and slip: 4 eps S_U; separation: the closing speed times e, and one rounding."""
+    promise = 4 * EPS * float(answer.s_u)
+    return [
+        ("closing_speed", apart((outputs["closing_speed"], answer.closing)), promise),
+        ("slip_before", apart((outputs["slip_before"], answer.slip)), promise),
+        (
+            "separation_speed",
+            apart((outputs["separation_speed"], scene.restitution * answer.closing)),
+            promise + EPS * float(answer.closing),
+        ),
+    ]
+
+
+def impulses(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """The impulse and its two parts: 8 eps kappa S_P, the vector as a whole and in scene axes."""
+    promise = 8 * EPS * float(answer.spread)
+    whole = 1 + answer.pn.context.mpf(scene.restitution)
+    found = [
+        ("P", apart((outputs["normal_impulse"], answer.pn), (outputs["tangential_impulse"], answer.pt)), promise),
+        ("Pc", apart((outputs["compression_impulse"], answer.pn / whole)), promise),
+        ("Pr", apart((outputs["restitution_impulse"], scene.restitution * answer.pn / whole)), promise),
+    ]
+    for side in "ab":
+        half = getattr(answer, side)
+        pairs = (outputs[f"{side}.impulse_x"], half.impulse_x), (outputs[f"{side}.impulse_y"], half.impulse_y)
+        found.append((f"{side}.impulse", apart(*pairs), promise))
+    return found
+
+
+def velocities(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """v' : 8 eps (|v| + a kappa S_P), w' : 8 eps (|w| + b |r| kappa S_P); for pinned bodies a is read as d b |r|.
+
+    delta-V is v' of the body seen from a frame in which it stood before: the same promise without |v|.
+    """
+    found = []
+    for side in "ab":
+        half, body = getattr(answer, side), getattr(scene, side)
+        spun = float(half.b * half.r * answer.spread)
+        moved = float(half.arm) * spun if body.pivot else float(half.a * answer.spread)
+        dv = apart((outputs[f"{side}.delta_vx"], half.dvx), (outputs[f"{side}.delta_vy"], half.dvy))
+        v = apart((outputs[f"{side}.after.vx"], half.vx), (outputs[f"{side}.after.vy"], half.vy))
+        found += [
+            (f"{side}.delta_v", dv, 8 * EPS * moved),
+            (f"{side}.after.v", v, 8 * EPS * (float(half.speed) + moved)),
+            (f"{side}.delta_yaw_rate", apart((outputs[f"{side}.delta_yaw_rate"], half.dw)), 8 * EPS * spun),
+            (f"{side}.after.yaw_rate", apart((outputs[f"{side}.after.yaw_rate"], half.w)), 8 * EPS * (abs(body.spin) + spun)),
+        ]
+    return found
+
+
+def losses(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """Energy loss, against the difference of the kinetic energies: 8 eps (|loss_n| + |loss_t| + kappa S_P S_U)."""
+    promise = 8 * EPS * float(abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * answer.s_u)
+    return [("energy_loss", apart((outputs["energy_loss"], answer.loss)), promise)]
+
+
+def pivots(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """Impulse of the pivot: 8 eps (|R| + (1 + m d b |r|) kappa S_P); exactly 0 without a pivot."""
+    found = []
+    for side in "ab":
+        half, body = getattr(answer, side), getattr(scene, side)
+        error = apart((outputs[f"{side}.pivot_impulse_x"], half.pivot_x), (outputs[f"{side}.pivot_impulse_y"], half.pivot_y))
+        promise = 0.0
+        if body.pivot:
+            size = math.hypot(half.pivot_x, half.pivot_y)
+            promise = 8 * EPS * (size + float((1 + body.mass * half.arm * half.b * half.r) * answer.spread))
+        found.append((f"{side}.pivot_impulse", error, promise))
+    return found
+
+
+def directions(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """PDOF: 8 eps (pi/2 + kappa S_P / |P|) rad, counted the short way round."""
+    promise = 8 * EPS * (math.pi / 2 + float(answer.spread) / math.hypot(answer.pn, answer.pt))
+    found = []
+    for side in "ab":
+        turn = abs(float(getattr(answer, side).pdof - outputs[f"{side}.pdof"]))
+        if turn > math.pi:
+            turn = abs(
+                float(
+                    getattr(answer, side).pdof
+                    - outputs[f"{side}.pdof"]
+                    + math.copysign(1, outputs[f"{side}.pdof"]) * 2 * mpmath.pi
+                )
+            )
+        found.append((f"{side}.pdof", turn, promise))
+    return found
+
+
+def balances(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+    """Sum of m dv: 4 eps |P|; sum of m (v' - v): 1 eps of its terms; angular momentum about c: 8 eps of its terms.
+
+    Summed here in fractions, so that only what the package returned is measured; over free finite bodies. A term of the angular
+    momentum is |r| m |dv| or I |dw|: taken by components it would depend on how the scene axes lie.
+    """
+    size = math.hypot(outputs["normal_impulse"], outputs["tangential_impulse"])
+    found = [("momentum_residual", outputs["momentum_residual"], 4 * EPS * size)]
+    bodies = [(side, getattr(scene, side)) for side in "ab"]
+    if any(body.pivot is not None or math.isinf(body.mass) for _, body in bodies):
+        return found
+    left: dict[str, Fraction] = {name: Fraction(0) for name in ("dvx", "dvy", "vx", "vy", "turn")}
+    speeds = turns = 0.0
+    rotating = not any(math.isinf(body.inertia) for _, body in bodies)
+    for side, body in bodies:
+        mass = Fraction(body.mass)
+        changes = {axis: Fraction(outputs[f"{side}.delta_v{axis}"]) for axis in "xy"}
+        for axis in "xy":
+            left[f"dv{axis}"] += mass * changes[axis]
+            left[f"v{axis}"] += mass * (Fraction(outputs[f"{side}.after.v{axis}"]) - Fraction(getattr(body, f"v{axis}")))
+        ended = math.hypot(outputs[f"{side}.after.vx"], outputs[f"{side}.after.vy"])
+        speeds += body.mass * (math.hypot(body.vx, body.vy) + ended)
+        if rotating:
+            lever_x, lever_y = body.x - scene.point[0], body.y - scene.point[1]
+            spun = Fraction(body.inertia) * Fraction(outputs[f"{side}.delta_yaw_rate"])
+            left["turn"] += mass * (Fraction(lever_x) * changes["y"] - Fraction(lever_y) * changes["x"]) + spun
+            turns += math.hypot(lever_x, lever_y) * body.mass * math.hypot(*map(float, changes.values())) + abs(float(spun))
+    found.append(("sum m dv", math.hypot(left["dvx"], left["dvy"]), 4 * EPS * size))
+    found.append(("sum m (v' - v)", math.hypot(left["vx"], left["vy"]), EPS * speeds))
+    if rotating:
+        found.append(("angular momentum", abs(float(left["turn"])), 8 * EPS * turns))
+    return found
+
+
+PROMISES = [closing_and_slip, impulses, velocities, losses, pivots, directions, balances]
+promised = pytest.mark.parametrize("measure", PROMISES, ids=lambda measure: measure.__name__)
+
+
+@group
+@way
+@promised
+def test_eccentric_keeps_its_promises(family: str, law: str, rule: str, way: str, measure: Any) -> None:
+    """Every output of the eccentric model is within its promise of the reference in every family, alone and in a batch."""
+    check(_answers("eccentric", family, law, rule, way), measure)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("law", LAWS)
+@way
+def test_slip_after_is_exact_where_the_contact_sticks(family: str, law: str, way: str) -> None:
+    """A sticking contact ends with a slip of exactly 0 ("brach") or exactly -e times the initial one ("kudlich-slibar")."""
+    kept = 0
+    for scene, answer, outputs in _answers("eccentric", family, law, "friction", way):
+        if answer.regime == "sticking" and math.isinf(scene.value):
+            wanted = 0.0 if law == "brach" else -scene.restitution * outputs["slip_before"]
+            assert outputs["slip_after"] == wanted, scene
+            kept += 1
+    assert kept > 0
+
+
+FLAT_FAMILIES = [family for family in FAMILIES if "pinned" not in family and family not in ("levers 1e-9 or 1e9", "map grid")]
+
+
+@pytest.mark.parametrize("family", FLAT_FAMILIES)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("rule", RULES)
+@way
+def test_oblique_central_keeps_its_promises(family: str, law: str, rule: str, way: str) -> None:
+    """The oblique central model is within the planar promises, whose kappa is 1 for bodies that do not turn."""
+    answers = _answers("oblique_central", family, law, rule, way)
+    for measure in PROMISES:
+        check(answers, measure)
+
+
+# --- The linear model ------------------------------------------------------------------------------------------------------------
+
+
+@cache
+def linear_cases() -> list[Scene]:
+    """Bodies on the x axis over the families that a linear impact can have; half of them point the other way.
+
+    The masses span 1e100, so their kinetic energies need 400 digits before their difference has any.
+    """
+    rng = random.Random("linear")
+    found = []
+    for i in range(600):
+        kind = ("traffic", "mass ratio", "60 +- 1e-9", "1e8 + 1e-6", "barrier", "tiny", "huge")[i % 7]
+        mass_a, mass_b = rng.uniform(700.0, 3000.0), rng.uniform(700.0, 3000.0)
+        va, vb = rng.uniform(-40.0, 40.0), rng.uniform(-40.0, 40.0)
+        if kind == "mass ratio":
+            mass_b = mass_a * 10.0 ** rng.uniform(-12, 12)
+        elif kind == "60 +- 1e-9":
+            va, vb = 60.0 + rng.uniform(0.0, 1e-9), 60.0 - rng.uniform(0.0, 1e-9)
+        elif kind == "1e8 + 1e-6":
+            va, vb = 1e8 + 1e-6 * rng.random(), 1e8 - 1e-6 * rng.random()
+        elif kind == "barrier":
+            mass_b, vb = math.inf, rng.choice((0.0, vb))
+            if rng.random() < 0.5:
+                mass_a, mass_b, va, vb = mass_b, mass_a, vb, va
+        elif kind == "tiny":
+            mass_a, va, vb = mass_a * 1e-100, va * 1e-50, vb * 1e-50
+        elif kind == "huge":
+            mass_a, va, vb = mass_a * 1e100, va * 1e20, vb * 1e20
+        if va == vb:
+            continue
+        e = rng.choice((0.0, 1.0, rng.random(), 10.0 ** rng.uniform(-12, -1), 1.0 - 10.0 ** rng.uniform(-12, -1)))
+        normal = (1.0, 0.0) if va > vb else (-1.0, 0.0)
+        a, b = Body(mass_a, math.inf, vx=va), Body(mass_b, math.inf, vx=vb)
+        found.append(Scene(a, b, e, normal, (0.0, 0.0), "friction", 0.0, "brach"))
+    return found
+
+
+@way
+def test_linear_central_keeps_its_promises(way: str) -> None:
+    """Central dv, J, Jc, Jr and reduced mass 4 eps relative, loss 6, separation and closing 1, v' 5 eps (|v| + |dv|)."""
+    scenes = linear_cases()
+    if way == "alone":
+        found = [_outputs(solved("linear_central", scene)) for scene in scenes]
+    else:
+        columns = _outputs(solved_together("linear_central", scenes))
+        found = [{path: values[i] for path, values in columns.items()} for i in range(len(scenes))]
+
+    def measure(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
+        whole = 1 + answer.pn.context.mpf(scene.restitution)
+        relative = [
+            ("closing_speed", answer.closing, 1),
+            ("separation_speed", scene.restitution * answer.closing, 1),
+            ("normal_impulse", answer.pn, 4),
+            ("compression_impulse", answer.pn / whole, 4),
+            ("restitution_impulse", scene.restitution * answer.pn / whole, 4),
+            ("effective_mass", 1 / answer.k_nn, 4),
+            ("energy_loss", answer.loss, 6),
+            ("a.delta_vx", answer.a.dvx, 4),
+            ("b.delta_vx", answer.b.dvx, 4),
+        ]
+        found = [(path, apart((outputs[path], known)), times * EPS * abs(float(known))) for path, known, times in relative]
+        # At e = 1 the loss is exactly 0, which is asked for below; the reference finds the rounding of its 400 digits.
+        found = [item for item in found if item[0] != "energy_loss" or scene.restitution != 1.0]
+        for side in "ab":
+            half = getattr(answer, side)
+            error = apart((outputs[f"{side}.after.vx"], half.vx), (outputs[f"{side}.after.vy"], half.vy))
+            found.append((f"{side}.after.v", error, 5 * EPS * float(half.speed + abs(half.dvx))))
+        return found
+
+    check([(scene, evaluate(scene, 400), outputs) for scene, outputs in zip(scenes, found, strict=True)], measure)
+    for scene, outputs in zip(scenes, found, strict=True):
+        if scene.restitution == 1.0:
+            assert outputs["energy_loss"] == 0.0, scene
+
+
+# --- The switch between sticking and sliding ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_values_are_continuous_across_the_stick_slide_switch(law: str) -> None:
+    """With the friction within 2 ulp of the critical ratio the label is anybody's, the values keep their promises."""
+    rng = random.Random(f"switch {law}")
+    found, labels = [], set()
+    for scene, answer in cases("traffic", law, "friction", COUNT):
+        if answer.no_slip is None or answer.no_slip[0] <= 0 or answer.no_slip[1] == 0:
+            continue
+        critical = float(abs(answer.critical))
+        for _ in range(rng.randrange(3)):
+            critical = math.nextafter(critical, rng.choice((0.0, math.inf)))
+        edge = replace(scene, value=critical)
+        impact = solved("eccentric", edge)
+        known = evaluate(edge)
+        labels.add((impact.regime, known.regime))
+        found.append((edge, known, _outputs(impact)))
+    assert len(found) > COUNT // 2
+    assert len(labels) > 1
+    for measure in (impulses, velocities, losses):
+        check(found, measure)
+
+
+# --- The reference itself --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("law", LAWS)
+def test_sixty_digits_are_enough(family: str, law: str) -> None:
+    """The reference agrees with itself at 120 digits to 1e-6 of an eps, so its own rounding is not measured."""
+    for rule in RULES:
+        for scene, answer in cases(family, law, rule, COUNT)[:10]:
+            better = evaluate(scene, 120)
+            assert better.regime == answer.regime
+            loss_scale = abs(better.loss_n) + abs(better.loss_t) + better.spread * better.s_u
+            for got, wanted, scale in (
+                (answer.pn, better.pn, better.spread),
+                (answer.pt, better.pt, better.spread),
+                (answer.loss, better.loss, loss_scale),
+                (answer.a.dw, better.a.dw, better.a.b * better.a.r * better.spread),
+            ):
+                assert abs(got - wanted) <= 1e-6 * EPS * scale, scene
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("rule", RULES)
+def test_kelvin_gives_the_kinetic_energy_difference(family: str, law: str, rule: str) -> None:
+    """In the reference eq 7 (energy before minus after) equals (1-e) g Pn/2 - Pt (s+s')/2, as section 1 says."""
+    for scene, answer in cases(family, law, rule, COUNT)[:20]:
+        scale = abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * answer.s_u
+        assert abs(answer.loss - (answer.loss_n + answer.loss_t)) <= 1e-6 * EPS * scale, scene

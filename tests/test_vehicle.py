@@ -1,0 +1,180 @@
+"""Vehicle: what it holds, what it works out, and what it refuses when it is made."""
+
+import copy
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import collisions as col
+
+INF = math.inf
+
+
+def code_of(call):
+    """The code of the error a call raises."""
+    with pytest.raises(col.CollisionsError) as caught:
+        call()
+    return caught.value.code
+
+
+def test_frozen_and_keyword_only():
+    """No field can be set, none is positional, and there is no room for a misspelt one."""
+    vehicle = col.Vehicle(mass=1.0)
+    with pytest.raises(AttributeError):
+        vehicle.mass = 2.0
+    with pytest.raises(TypeError):
+        col.Vehicle(1.0)
+    with pytest.raises(TypeError):
+        col.Vehicle(mass=1.0, velocity=3.0)
+
+
+def test_equality_is_by_value_and_there_is_no_hash():
+    """Arrays and NaN included; a name counts, how a number was written does not."""
+    assert col.Vehicle(mass="1 kg") == col.Vehicle(mass=1)
+    assert col.Vehicle(mass=1.0) != col.Vehicle(mass=1.0, name="B")
+    assert col.Vehicle(mass=1.0) != 1.0
+    many = {"mass": np.array([1.0, np.nan]), "pivot": None}
+    assert col.Vehicle(**many) == col.Vehicle(**many)
+    assert col.Vehicle(mass=np.array([1.0, 2.0])) != col.Vehicle(mass=np.array([1.0, 2.0, 3.0]))
+    with pytest.raises(TypeError):
+        hash(col.Vehicle(mass=1.0))
+
+
+def test_copies_and_pickles_are_equal_and_locked():
+    """Through pickle and deepcopy, texts kept, arrays still locked."""
+    vehicle = col.Vehicle(mass="1000 kg", vx=np.array([1.0, 2.0]), x=0, y=0, yaw_rate=0.5, yaw_inertia=1e3, pivot=None)
+    for twin in (pickle.loads(pickle.dumps(vehicle)), copy.deepcopy(vehicle), copy.copy(vehicle)):
+        assert twin == vehicle
+        assert twin._given == vehicle._given
+        assert not twin.vx.flags.writeable
+
+
+@pytest.mark.parametrize("field", ["mass", "yaw_inertia"])
+@pytest.mark.parametrize("value", [0, -1.0, -INF, "-5 kg", "0 kg*m**2"])
+def test_masses_and_inertias_are_positive(field, value):
+    """Zero and below are refused with the field and the value; inf is allowed."""
+    if isinstance(value, str) and ("m**2" in value) != (field == "yaw_inertia"):
+        value = -1.0
+    with pytest.raises(col.InputError, match=rf"{field} must be > 0 \(inf allowed\)") as caught:
+        col.Vehicle(**{"mass": 1.0, field: value})
+    assert caught.value.code == "not_positive"
+    assert getattr(col.Vehicle(**{"mass": 1.0, field: INF}), field) == INF
+
+
+@pytest.mark.parametrize("field", ["vx", "vy", "yaw_rate", "x", "y", "heading"])
+@pytest.mark.parametrize("value", [INF, -INF, math.nan])
+def test_motion_and_place_are_finite(field, value):
+    """Only masses and inertias may be infinite; NaN is nothing."""
+    assert code_of(lambda: col.Vehicle(**{"mass": 1.0, field: value})) == "not_finite"
+    assert code_of(lambda: col.Vehicle(mass=math.nan)) == "not_finite"
+
+
+def test_a_missing_mass_is_named():
+    """None is not a mass."""
+    with pytest.raises(col.MissingInputError, match="mass is missing"):
+        col.Vehicle(mass=None)
+    with pytest.raises(col.InputError, match="vx is None"):
+        col.Vehicle(mass=1.0, vx=None)
+    with pytest.raises(col.InputError, match="name must be a text"):
+        col.Vehicle(mass=1.0, name=3)
+
+
+def test_barrier():
+    """Neither moves nor turns; may be given a name and a place."""
+    wall = col.Vehicle.barrier()
+    assert wall.mass == wall.yaw_inertia == INF
+    assert wall.kinetic_energy == 0.0
+    assert wall.momentum == (0.0, 0.0)
+    assert col.Vehicle.barrier(name="pole", x=1.0).x == 1.0
+    assert wall.replace(vx=1.0).kinetic_energy == INF
+    assert wall.replace(vx=-1.0).momentum == (-INF, 0.0)
+
+
+def test_from_speed_is_exact_at_quarter_turns():
+    """Course 90 deg gives vx exactly 0; both ways of giving the velocity at once are refused."""
+    vehicle = col.Vehicle.from_speed(mass=1.0, speed="36 km/h", course="90 deg")
+    assert (vehicle.vx, vehicle.vy) == (0.0, 10.0)
+    assert vehicle._given == {"speed": "36 km/h", "course": "90 deg"}
+    assert col.Vehicle.from_speed(mass=1.0, speed=5.0, course=(3, 4)).vx == 3.0
+    assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=5.0, course=0.0, vx=3.0)) == "speed_twice"
+    many = col.Vehicle.from_speed(mass=1.0, speed=np.array([1.0, 2.0]), course="180 deg")
+    assert many.vx.tolist() == [-1.0, -2.0]
+
+
+def test_speed_and_course():
+    """Magnitude and direction of the velocity; a standing vehicle has no course."""
+    vehicle = col.Vehicle(mass=2.0, vx=-3.0, vy=4.0)
+    assert vehicle.speed == 5.0
+    assert vehicle.course == math.atan2(4.0, -3.0)
+    assert vehicle.kinetic_energy == 25.0
+    assert math.isnan(col.Vehicle(mass=1.0).course)
+    assert col.Vehicle(mass=1.0, vx=-1.0, vy=-0.0).course == math.pi
+    many = col.Vehicle(mass=1.0, vx=np.array([3.0, 0.0]), vy=4.0)
+    assert many.speed.tolist() == [5.0, 4.0]
+    assert many.course[1] == math.pi / 2
+
+
+def test_the_kinetic_energy_of_a_turning_body_needs_its_inertia():
+    """Never taken as zero."""
+    turning = col.Vehicle(mass=2.0, vx=1.0, yaw_rate=2.0)
+    with pytest.raises(col.MissingInputError, match="yaw_inertia"):
+        _ = turning.kinetic_energy
+    assert turning.replace(yaw_inertia=3.0).kinetic_energy == 7.0
+
+
+def test_points_on_the_vehicle():
+    """Forward and left, or distance and angle from the heading, counter-clockwise."""
+    vehicle = col.Vehicle(mass=1.0, x=10.0, y=5.0, heading="90 deg")
+    assert vehicle.point(forward=2.0, left="1 m") == pytest.approx((9.0, 7.0), abs=1e-15)
+    assert vehicle.point(distance=2.0, angle="-90 deg") == pytest.approx((12.0, 5.0), abs=1e-15)
+    for arguments in (
+        {},
+        {"distance": 1.0},
+        {"forward": 1.0, "distance": 1.0},
+        {"forward": 1.0, "distance": 1.0, "angle": 0.0},
+    ):
+        assert code_of(lambda arguments=arguments: vehicle.point(**arguments)) == "bad_point"
+    for field in ("x", "heading"):
+        with pytest.raises(col.MissingInputError, match=f"no {field}"):
+            vehicle.replace(**{field: None}).point(forward=1.0)
+
+
+def test_velocity_at_needs_a_position_only_to_turn():
+    """A body that does not turn moves alike everywhere."""
+    assert col.Vehicle(mass=1.0, vx=2.0).velocity_at((5.0, 5.0)) == (2.0, 0.0)
+    with pytest.raises(col.MissingInputError, match="no x"):
+        col.Vehicle(mass=1.0, yaw_rate=1.0).velocity_at((5.0, 5.0))
+    assert col.Vehicle(mass=1.0, yaw_rate=1.0, x=5.0, y=4.0).velocity_at((5.0, 5.0)) == (-1.0, 0.0)
+
+
+def test_a_pinned_velocity_is_worked_out():
+    """Yaw rate times arm, counter-clockwise; worked out again by replace; refused when it disagrees."""
+    pinned = col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=2.0, y=0.0, yaw_rate=3.0, pivot=(0.0, 0.0))
+    assert (pinned.vx, pinned.vy) == (0.0, 6.0)
+    assert pinned.replace(yaw_rate=1.0).vy == 2.0
+    assert pinned.replace(vy=6.0 * (1 + 1e-10)).vy == 6.0
+    assert pinned.replace(pivot=None).vy == 6.0
+    with pytest.raises(col.InputError, match=r"gives \(-?0, 6\) m/s") as caught:
+        pinned.replace(vy=6.1)
+    assert caught.value.code == "pinned_velocity"
+
+
+def test_a_pin_needs_a_position_and_finite_mass():
+    """A pinned body turns about a place, so it has one, and a mass and inertia that can turn."""
+    body = {"mass": 1.0, "yaw_inertia": 1.0, "x": 1.0, "y": 0.0, "pivot": (0.0, 0.0)}
+    assert code_of(lambda: col.Vehicle(**{**body, "x": None})) == "missing_position"
+    assert code_of(lambda: col.Vehicle(**{**body, "mass": INF})) == "pinned_infinite"
+    assert code_of(lambda: col.Vehicle(**{**body, "yaw_inertia": INF})) == "pinned_infinite"
+    assert code_of(lambda: col.Vehicle(**{**body, "pivot": (0.0, math.nan)})) == "not_finite"
+
+
+def test_repr_and_table_carry_units():
+    """What is printed says which unit it is in, and leaves out what was not given."""
+    vehicle = col.Vehicle(mass=1000, vx=np.array([1.0, 2.0]), name="<A>")
+    assert repr(vehicle) == "Vehicle(mass=1000 kg, vx=array(2,) 1 to 2 m/s, name='<A>')"
+    html = vehicle._repr_html_()
+    assert "1000 kg" in html
+    assert "<A>" not in html
+    assert "&lt;A&gt;" in html
