@@ -21,8 +21,8 @@ from scenes import FAMILIES, LAWS, RULES, cases, solved, solved_together
 
 import collisions as col
 
-COUNT = 120
-FLAT_COUNT = 50
+COUNT = 100
+FLAT_COUNT = 40
 GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in RULES]
 group = pytest.mark.parametrize(("family", "law", "rule"), GROUPS)
 way = pytest.mark.parametrize("way", ["alone", "in a batch"])

@@ -142,7 +142,6 @@ def refuse_pivots(model: str, a: Vehicle, b: Vehicle) -> None:
 
 
 def answer(
-    solver: Callable[..., Impact],
     kernel: Callable[..., tuple[Any, ...]],
     inputs: tuple[Any, ...],
     settings: tuple[Any, ...],
@@ -163,7 +162,7 @@ def answer(
     if not (plain and question.a._given is None and question.b._given is None):
         shape = _shape(question)
         if shape is not None:
-            return _batch(solver, kernel, inputs, settings, question, scope, shape, on_failure, threads, progress)
+            return _batch(kernel, inputs, settings, question, scope, shape, on_failure, threads, progress)
     raw = kernel(*inputs, *settings)
     fault = scope[0](*scope[1]) if scope is not None else codes.OK
     if fault or raw[0]:
@@ -178,18 +177,7 @@ def answer(
     return build(question, raw)
 
 
-def ask(solver: Callable[..., Impact], asked: Asked, **options: Any) -> Impact:
-    """The same question again, to the same solver."""
-    arguments: dict[str, Any] = {"normal": asked.normal, **options}
-    if asked.law is not None:
-        arguments |= {asked.rule: asked.bound, "law": asked.law}
-    if asked.point is not None:
-        arguments["point"] = asked.point
-    return solver(asked.a, asked.b, asked.restitution, **arguments)
-
-
 def _batch(
-    solver: Callable[..., Impact],
     kernel: Callable[..., tuple[Any, ...]],
     inputs: tuple[Any, ...],
     settings: tuple[Any, ...],
@@ -211,7 +199,7 @@ def _batch(
     refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
     if refused:
         if on_failure == "raise":
-            raise _first_refusal(solver, asked, status)
+            raise _first_refusal(asked, status)
         _warn_of_refusals(status, refused)
     gaining = status == codes.ENERGY_GAIN
     if gaining.any():
@@ -272,7 +260,7 @@ def _value_checks(asked: Asked, eps: float) -> list[Check]:
     return found
 
 
-def _first_refusal(solver: Callable[..., Impact], asked: Asked, status: Any) -> CollisionsError:
+def _first_refusal(asked: Asked, status: Any) -> CollisionsError:
     """The error of the first refused case, found by asking for it alone."""
     index = tuple(int(i) for i in np.argwhere(status > codes.ENERGY_GAIN)[0])
     place = f"case {index if len(index) != 1 else index[0]}: "
@@ -294,7 +282,7 @@ def _first_refusal(solver: Callable[..., Impact], asked: Asked, status: Any) -> 
             bound=lane(asked.bound),
             point=lane(asked.point),
         )
-        ask(solver, one)
+        one.ask()
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
     outcome = Status(status[index])

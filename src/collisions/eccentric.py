@@ -9,7 +9,7 @@ import numpy as np
 
 from .arguments import Law, OnFailure, Progress, answer, read
 from .errors import MissingInputError
-from .impact import Impact
+from .impact import SOLVERS, Impact
 from .kernels.eccentric import eccentric as kernel
 from .units import Input, Pair
 from .vehicle import Vehicle, missing
@@ -96,7 +96,6 @@ def eccentric(
             argument="point",
         )
     return answer(
-        eccentric,
         kernel,
         (e, *n, bound, *contact, *_body(a, "a", contact), *_body(b, "b", contact)),
         (rule, law, a.pivot is not None, b.pivot is not None),
@@ -120,3 +119,6 @@ def _body(vehicle: Vehicle, label: str, contact: tuple[Any, Any]) -> tuple[Any, 
         x, y = contact
     pivot_x, pivot_y = vehicle.pivot or (0.0, 0.0)
     return mass, inertia, vehicle.vx, vehicle.vy, spin, x, y, pivot_x, pivot_y
+
+
+SOLVERS["eccentric"] = eccentric

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .errors import Status
+from .errors import InputError, Status
 from .fields import Quantities, attributes, derived, hypot, lock, numeric, same, show, table
 from .kernels import codes
 from .kernels.select import select
+from .records import from_record, to_columns, to_record
 from .side import Side
 from .units import UNIT_INTERVAL, Door, Input, Value
 from .vehicle import Vehicle, angle_of
 
 _AT = {name: index for index, name in enumerate(codes.OUTPUTS)}
+
+
+# The solver of each model, entered by the module that defines it.
+SOLVERS: dict[str, Callable[..., Impact]] = {}
 
 
 class Asked(NamedTuple):
@@ -31,6 +36,15 @@ class Asked(NamedTuple):
     bound: Value
     law: str | None
     point: tuple[Value, Value] | None
+
+    def ask(self, **options: Any) -> Impact:
+        """Put the question to its solver again."""
+        arguments: dict[str, Any] = {"normal": self.normal, **options}
+        if self.law is not None:
+            arguments |= {self.rule: self.bound, "law": self.law}
+        if self.point is not None:
+            arguments["point"] = self.point
+        return SOLVERS[self.model](self.a, self.b, self.restitution, **arguments)
 
 
 class Impact:
@@ -292,22 +306,23 @@ class Impact:
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
-        from .records import impact_to_dict
-
-        return impact_to_dict(self)
+        return to_record(self)
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
-        from .records import impact_from_dict
-
-        return impact_from_dict(record)
+        question, refused = from_record(record)
+        if question["model"] not in SOLVERS:
+            raise InputError(
+                f"record was made by {question['model']!r}; known are {', '.join(SOLVERS)}",
+                code="bad_record",
+                argument="record",
+            )
+        return Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
-        from .records import impact_to_columns
-
-        return impact_to_columns(self)
+        return to_columns(self)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):

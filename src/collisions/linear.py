@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .arguments import OnFailure, Progress, answer, read, refuse_pivots
-from .impact import Impact
+from .impact import SOLVERS, Impact
 from .kernels import codes
 from .kernels.linear import linear_central as kernel
 from .kernels.linear import outside_linear
@@ -76,7 +76,6 @@ def linear_central(
     nx, ny = n
     vx_a, vy_a, vx_b, vy_b = a.vx, a.vy, b.vx, b.vy
     return answer(
-        linear_central,
         kernel,
         (e, nx, ny, a.mass, vx_a, vy_a, b.mass, vx_b, vy_b),
         (),
@@ -87,3 +86,6 @@ def linear_central(
         threads,
         progress,
     )
+
+
+SOLVERS["linear_central"] = linear_central

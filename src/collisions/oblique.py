@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .arguments import Law, OnFailure, Progress, answer, read, refuse_pivots
-from .impact import Impact
+from .impact import SOLVERS, Impact
 from .kernels.oblique import oblique_central as kernel
 from .kernels.oblique import outside_central
 from .units import Input, Pair
@@ -79,7 +79,6 @@ def oblique_central(
     if a.pivot is not None or b.pivot is not None:
         refuse_pivots("oblique_central", a, b)
     return answer(
-        oblique_central,
         kernel,
         (e, n[0], n[1], bound, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),
         (rule, law),
@@ -90,3 +89,6 @@ def oblique_central(
         threads,
         progress,
     )
+
+
+SOLVERS["oblique_central"] = oblique_central

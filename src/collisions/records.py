@@ -1,38 +1,30 @@
-"""Results as plain data: nested records for strict JSON that can be solved again, and flat columns for a table."""
+"""Results as plain data: nested records for strict JSON that can be asked again, and flat columns for a table."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from .arguments import ask
-from .eccentric import eccentric
 from .errors import InputError, Status
 from .fields import attributes
-from .impact import Asked, Impact
-from .linear import linear_central
-from .oblique import oblique_central
 from .side import Side
 from .vehicle import Vehicle
 
 _FORMAT = "collisions impact 1"
-_SOLVERS: dict[str, Callable[..., Impact]] = {
-    "linear_central": linear_central,
-    "oblique_central": oblique_central,
-    "eccentric": eccentric,
-}
 _STATE = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading", "pivot", "name")
-_NAMED_INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
+_NUMBERS = ("restitution", "normal", "bound", "point")
+_LABELS = ("model", "rule", "law")
+_INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
-def impact_to_dict(impact: Impact) -> dict[str, Any]:
-    """Inputs to solve it again from, and every result to read."""
+def to_record(impact: Any) -> dict[str, Any]:
+    """Inputs to ask it again from, and every result to read."""
     asked = impact._asked
-    inputs = {name: _plain(getattr(asked, name)) for name in asked._fields if name not in ("a", "b")}
-    results = {name: _plain(value) for name, value in _results(impact, Impact) if name not in asked._fields}
+    inputs = {name: _plain(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
+    results = {name: _plain(value) for name, value in _results(impact) if name not in inputs}
     return {
         "format": _FORMAT,
         "inputs": {**inputs, "a": _state(asked.a), "b": _state(asked.b)},
@@ -40,45 +32,42 @@ def impact_to_dict(impact: Impact) -> dict[str, Any]:
     }
 
 
-def impact_from_dict(record: Mapping[str, Any]) -> Impact:
-    """Asks the solver again what the record says it was asked."""
+def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool]:
+    """The question of a record by its parts, and whether some of its cases had been refused."""
     try:
         if record["format"] != _FORMAT:
-            raise InputError(
-                f"record['format'] must be {_FORMAT!r}, got {record['format']!r}", code="bad_record", argument="record"
-            )
+            raise _bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
         inputs = record["inputs"]
-        solver = _SOLVERS[inputs["model"]]
-        sides: dict[str, Any] = {
-            side: Vehicle(**{name: _number(value) for name, value in inputs[side].items() if value is not None})
-            for side in "ab"
-        }
-        numbers: dict[str, Any] = {name: _number(inputs[name]) for name in ("restitution", "normal", "bound", "point")}
-        asked = Asked(model=inputs["model"], rule=inputs["rule"], law=inputs["law"], **sides, **numbers)
-        options = {"on_failure": "nan"} if np.any(np.asarray(_number(record["results"]["status"])) > Status.ENERGY_GAIN) else {}
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
+        for side in "ab":
+            state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
+            question[side] = Vehicle(**state, name=inputs[side]["name"])
+        refused = bool(np.any(np.asarray(_number(record["results"]["status"])) > Status.ENERGY_GAIN))
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(
-            f"record is not what Impact.to_dict() gives: {type(error).__name__} {error}", code="bad_record", argument="record"
-        ) from error
-    return ask(solver, asked, **options)
+        raise _bad_record(f"{type(error).__name__} {error}") from error
+    return question, refused
 
 
-def impact_to_columns(impact: Impact) -> dict[str, list[Any]]:
+def to_columns(impact: Any) -> dict[str, list[Any]]:
     """One list a number, named by the path that leads to it; every list has one value a case."""
     columns: dict[str, Any] = {}
-    for name, value in _results(impact, Impact):
+    for name, value in _results(impact):
         _add(columns, name, value)
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in ("before", "after", "at_compression"):
             vehicle = getattr(side, moment)
             for name in _STATE:
                 _add(columns, f"{label}.{moment}.{name}", getattr(vehicle, name))
-        for name, value in _results(side, Side):
+        for name, value in _results(side):
             _add(columns, f"{label}.{name}", value)
     shape = np.shape(impact._raw[0])
     return {name: np.broadcast_to(np.asarray(value), shape).reshape(-1).tolist() for name, value in columns.items()}
+
+
+def _bad_record(why: str) -> InputError:
+    return InputError(f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record")
 
 
 def _add(columns: dict[str, Any], name: str, value: Any) -> None:
@@ -89,13 +78,13 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
         columns[name] = value.label if isinstance(value, Status) else value
 
 
-def _results(owner: Any, kind: type[Any]) -> list[tuple[str, Any]]:
-    found = [(name, getattr(owner, name)) for name in attributes(kind)]
+def _results(owner: Any) -> list[tuple[str, Any]]:
+    found = [(name, getattr(owner, name)) for name in attributes(type(owner))]
     return [(name, value) for name, value in found if not isinstance(value, (Vehicle, Side))]
 
 
 def _side(side: Side) -> dict[str, Any]:
-    found = {name: _plain(value) for name, value in _results(side, Side)}
+    found = {name: _plain(value) for name, value in _results(side)}
     return {**found, "after": _state(side.after), "at_compression": _state(side.at_compression)}
 
 
@@ -127,4 +116,4 @@ def _number(value: Any) -> Any:
     if isinstance(value, Mapping):
         numbers = [_number(part) for part in value["values"]]
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
-    return _NAMED_INFINITIES.get(value, value) if isinstance(value, str) else value
+    return _INFINITIES.get(value, value) if isinstance(value, str) else value
