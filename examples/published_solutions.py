@@ -106,9 +106,10 @@ for test in ("4363", "4474"):
         check(f"{test} {row['vehicle']}, delta-V", delta_v, float(row["published_delta_v_mph"]), 0.2, "mph")
         check(f"{test} {row['vehicle']}, yaw rate", turn, published_turn, 1.0, "deg/s")
     ratio, published_ratio = impact.critical_impulse_ratio, one["published_critical_impulse_ratio"]
+    closing, relative = impact.q.closing_speed.m_as("mph"), impact.q.relative_speed.m_as("mph")
     print(
-        f"{'':<6}critical impulse ratio {published_ratio} published, {ratio:.3f} ours; closing speed at the contact"
-        f" {impact.q.closing_speed.m_as('mph'):.1f} mph, relative speed of the centres {impact.q.relative_speed.m_as('mph'):.1f} mph"
+        f"{'':<6}critical impulse ratio {published_ratio} published, {ratio:.3f} ours; "
+        f"closing speed at the contact {closing:.1f} mph, relative speed of the centres {relative:.1f} mph"
     )
     check(f"{test}, critical ratio", ratio, float(published_ratio), 0.005, "")
 

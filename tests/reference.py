@@ -232,10 +232,7 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         else:
             base = v
         ended = base[0] + change[0], base[1] + change[1]
-        if math.isinf(body.mass):
-            energy = dot(force, base)
-        else:
-            energy = num(body.mass) * (dot(ended, ended) - dot(base, base)) / 2
+        energy = dot(force, base) if math.isinf(body.mass) else num(body.mass) * (dot(ended, ended) - dot(base, base)) / 2
         if math.isinf(body.inertia):
             energy += (r[k][0] * force[1] - r[k][1] * force[0]) * w
         else:

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
-from reference import SINGULAR, Answer, Body, Scene, evaluate
 
 import collisions as col
+from reference import SINGULAR, Answer, Body, Scene, evaluate
 
 LAWS = ("brach", "kudlich-slibar")
 RULES = ("friction", "impulse_ratio", "critical_fraction")
@@ -158,10 +158,10 @@ def cases(family: str, law: str, rule: str, count: int) -> list[tuple[Scene, Ans
 
 def vehicle(body: Body, **changes: Any) -> col.Vehicle:
     """The Vehicle of a body."""
-    given = dict(
-        mass=body.mass, yaw_inertia=body.inertia, vx=body.vx, vy=body.vy, yaw_rate=body.spin,
-        x=body.x, y=body.y, heading=body.heading, pivot=body.pivot,
-    )  # fmt: skip
+    given = {
+        "mass": body.mass, "yaw_inertia": body.inertia, "vx": body.vx, "vy": body.vy, "yaw_rate": body.spin,
+        "x": body.x, "y": body.y, "heading": body.heading, "pivot": body.pivot,
+    }  # fmt: skip
     if body.pivot is not None:
         given["vx"] = given["vy"] = 0.0
     return col.Vehicle(**{**given, **changes})
@@ -244,7 +244,7 @@ def bodies(draw: Any, constraint: str = "free", turning: bool = True) -> Body:
 
 @st.composite
 def impacts(
-    draw: Any, constraint: str = "free", law: str = "brach", rule: str = "friction", value: Any = None, turning: bool = True
+    draw: Any, constraint: str = "free", law: str = "brach", rule: str = "friction", value: float | None = None, turning: bool = True
 ) -> Scene:
     """A closing scene. The normal is turned round where it would not close; what the law still refuses is left to the test."""
     which, _, kind = constraint.partition(" ")
@@ -252,5 +252,6 @@ def impacts(
     b = draw(bodies(kind if which == "B" else "free", turning))
     point = (draw(PLACES), draw(PLACES))
     angle = draw(ANGLES)
-    scene = Scene(a, b, draw(RESTITUTIONS), angle, point, rule, draw(VALUES[rule] if value is None else value), law)
+    found = draw(VALUES[rule]) if value is None else value
+    scene = Scene(a, b, draw(RESTITUTIONS), angle, point, rule, found, law)
     return scene if _closing(scene) > 0.0 else replace(scene, normal=angle - math.copysign(math.pi, angle))

@@ -101,8 +101,7 @@ def test_refused_cases_survive_a_record():
     """NaN results and statuses of a batch come back; so does a single case answered with NaN."""
     with pytest.warns(col.CollisionsWarning):
         impact = col.linear_central(col.Vehicle(mass=1.0, vx=np.array([1.0, -1.0])), col.Vehicle(mass=1.0), 0.5)
-    with pytest.warns(col.CollisionsWarning):
-        assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
+    assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
     one = col.linear_central(col.Vehicle(mass=1.0, vx=-1.0), col.Vehicle(mass=1.0), 0.5, on_failure="nan")
     assert col.Impact.from_dict(one.to_dict()) == one
 

@@ -7,6 +7,7 @@ itself is rounded on the way (a scene turned by any angle), ``NUDGED`` allows fo
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -16,12 +17,13 @@ import pint
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+
+import collisions as col
 from reference import EPS, Answer, Body, Scene, evaluate
 from scenes import (
     ANGLES,
     CONSTRAINTS,
     LAWS,
-    PLACES,
     RULES,
     SPEEDS,
     VALUES,
@@ -29,14 +31,11 @@ from scenes import (
     impacts,
     solved,
     solved_together,
-    vehicle,
 )
-
-import collisions as col
 
 # The same examples in every run; as many for a property as for one crossed with every model, law and constraint together.
 physics = settings(deadline=None, max_examples=100, derandomize=True, database=None)
-crossed = settings(physics, max_examples=40)
+crossed = settings(physics, max_examples=20)
 
 TWICE = 2.0
 # Data moved by 1.5 eps each (two products and a sum): 1.5 from the velocities, 1.5 from n in the closing speed, and 2 (1.5 + 1.5)
@@ -46,7 +45,15 @@ NUDGED = TWICE + 9.0 / 8.0
 MODELS = [("eccentric", constraint) for constraint in CONSTRAINTS] + [
     (model, constraint) for model in ("oblique_central", "linear_central") for constraint in ("free", "A fixed", "B fixed")
 ]
-every_model = pytest.mark.parametrize(("model", "constraint"), MODELS, ids=" ".join)
+
+
+def crossing(pairs: list[tuple[str, str]]) -> Any:
+    """Every pair of model and constraint as a test of its own."""
+    return pytest.mark.parametrize(("model", "constraint"), pairs, ids=map(", ".join, pairs))
+
+
+PLANAR = [pair for pair in MODELS if pair[0] != "linear_central"]
+every_model = crossing(MODELS)
 every_law = pytest.mark.parametrize("law", LAWS)
 every_constraint = pytest.mark.parametrize("constraint", CONSTRAINTS)
 
@@ -54,6 +61,11 @@ every_constraint = pytest.mark.parametrize("constraint", CONSTRAINTS)
 def point_mass(body: Body) -> Body:
     """The body as the central models see it: no spin, no lever, no pivot."""
     return replace(body, spin=0.0, x=0.0, y=0.0, pivot=None)
+
+
+def flat(scene: Scene) -> Scene:
+    """The scene as the central models see it."""
+    return replace(scene, a=point_mass(scene.a), b=point_mass(scene.b), point=(0.0, 0.0))
 
 
 @st.composite
@@ -67,7 +79,7 @@ def questions(draw: Any, model: str, constraint: str, law: str) -> tuple[Scene, 
         rule = draw(st.sampled_from(RULES))
         scene = draw(impacts(constraint, law, rule, turning=model == "eccentric"))
         if model == "oblique_central":
-            scene = replace(scene, a=point_mass(scene.a), b=point_mass(scene.b), point=(0.0, 0.0))
+            scene = flat(scene)
     answer = evaluate(scene)
     assume(answerable(answer))
     return scene, answer
@@ -122,7 +134,12 @@ def contact_velocity(impact: col.Impact, state: str, scene: Scene) -> tuple[floa
 
 
 def assert_same(
-    one: col.Impact, two: col.Impact, scene: Scene, answer: Answer, promises: float = TWICE, turned: tuple[float, float] = (1.0, 0.0)
+    one: col.Impact,
+    two: col.Impact,
+    scene: Scene,
+    answer: Answer,
+    promises: float = TWICE,
+    turned: tuple[float, float] = (1.0, 0.0),
 ) -> None:
     """Two answers agree to so many promises; ``turned`` are cosine and sine of the angle the second scene is turned by."""
     c, s = turned
@@ -192,7 +209,9 @@ def test_the_contact_impulse_has_no_moment_about_the_contact(constraint: str, la
             moment = px * Fraction(side.pivot_impulse_y) - py * Fraction(side.pivot_impulse_x)
             # The error of R: 8 eps (|R| + (1 + m d b |r|) kappa S_P), times its lever; dv and dw with theirs.
             size = math.hypot(side.pivot_impulse_x, side.pivot_impulse_y)
-            allowed += 8 * EPS * math.hypot(px, py) * (size + float((1 + body.mass * half.arm * half.b * half.r) * answer.spread))
+            allowed += (
+                8 * EPS * math.hypot(px, py) * (size + float((1 + body.mass * half.arm * half.b * half.r) * answer.spread))
+            )
             of_turn = float(half.b * half.r) * impulse_error(answer)
             allowed += (body.mass * math.hypot(rx, ry) * float(half.arm) + body.inertia) * of_turn
         assert abs(float(orbital + spun - moment)) <= allowed, name
@@ -230,7 +249,9 @@ def test_the_work_on_the_two_bodies_sums_to_the_loss(model: str, constraint: str
     impact = solved(model, scene)
     # Each is F.(u + du/2): F to its promise times the velocity, and the velocity to its own times F.
     speeds = sum(
-        float(half.speed) + math.hypot(scene.point[0] - body.x, scene.point[1] - body.y) * abs(body.spin) + float(half.mobility * answer.spread)
+        float(half.speed)
+        + math.hypot(scene.point[0] - body.x, scene.point[1] - body.y) * abs(body.spin)
+        + float(half.mobility * answer.spread)
         for half, body in ((answer.a, scene.a), (answer.b, scene.b))
     )
     error = impulse_error(answer) * speeds + float(answer.spread) * contact_error(scene, answer)
@@ -296,32 +317,27 @@ def test_the_impulse_stays_in_the_friction_cone(model: str, constraint: str, law
         assert impact.tangential_impulse * left <= 0.0
 
 
-@every_constraint
-@pytest.mark.parametrize("model", ["eccentric", "oblique_central"])
+@crossing(PLANAR)
 @crossed
 @given(data=st.data())
 def test_no_energy_is_gained(model: str, constraint: str, data: Any) -> None:
     """With Coulomb friction under "kudlich-slibar", and without friction under both laws, the loss is never below 0."""
-    assume(model == "eccentric" or "pinned" not in constraint)
     law = data.draw(st.sampled_from(LAWS))
     value = 0.0 if law == "brach" else None
     scene = data.draw(impacts(constraint, law, "friction", value, turning=model == "eccentric"))
-    assume(answerable(evaluate(scene if model == "eccentric" else flat(scene))))
+    if model == "oblique_central":
+        scene = flat(scene)
+    assume(answerable(evaluate(scene)))
     impact = solved(model, scene)
     assert impact.energy_loss >= 0.0
     assert impact.ok
-
-
-def flat(scene: Scene) -> Scene:
-    """The scene as the central models see it."""
-    return replace(scene, a=point_mass(scene.a), b=point_mass(scene.b), point=(0.0, 0.0))
 
 
 # --- One scene, described in several ways ---------------------------------------------------------------------------------------
 
 
 @every_law
-@pytest.mark.parametrize(("model", "constraint"), [pair for pair in MODELS if "pinned" not in pair[1]], ids=" ".join)
+@crossing([pair for pair in MODELS if "pinned" not in pair[1]])
 @crossed
 @given(data=st.data())
 def test_a_common_velocity_changes_nothing(model: str, constraint: str, law: str, data: Any) -> None:
@@ -365,7 +381,7 @@ def turned(scene: Scene, c: float, s: float) -> Scene:
 
 
 @every_law
-@pytest.mark.parametrize(("model", "constraint"), [pair for pair in MODELS if pair[0] != "linear_central"], ids=" ".join)
+@crossing(PLANAR)
 @crossed
 @given(data=st.data())
 def test_a_quarter_turn_of_the_scene_changes_nothing(model: str, constraint: str, law: str, data: Any) -> None:
@@ -453,6 +469,9 @@ US = {
 }
 
 
+FACTORS = dict(US.values())
+
+
 def in_us_units(body: Body, form: Any) -> dict[str, Any]:
     """Fields of a Vehicle in US units, the numbers those of the body; ``form`` makes a text or a Quantity of number and unit."""
     fields = {"mass": body.mass, "yaw_inertia": body.inertia, "vx": body.vx, "vy": body.vy, "x": body.x, "y": body.y}
@@ -463,56 +482,218 @@ def in_us_units(body: Body, form: Any) -> dict[str, Any]:
 @physics
 @given(data=st.data())
 def test_the_unit_system_changes_nothing(law: str, data: Any) -> None:
-    """US texts and Quantities of another registry, converted by hand, and plain SI numbers give one and the same impact."""
+    """US texts and Quantities of another registry are the SI numbers found by hand, and solve to the last bit as those numbers."""
     scene, _ = data.draw(questions("eccentric", "free", law))
-    foot, mph = Fraction("0.3048"), Fraction("0.44704")
-    contact = [float(Fraction(part) * foot) for part in scene.point]
-    options = {scene.rule: scene.value, "law": law}
-    texts, quantities, plain = [], [], []
-    for body in (scene.a, scene.b):
-        texts.append(col.Vehicle(**in_us_units(body, lambda value, unit: f"{value!r} {unit}"), yaw_rate=body.spin))
-        quantities.append(col.Vehicle(**in_us_units(body, FOREIGN.Quantity), yaw_rate=body.spin))
-        exact = in_us_units(body, lambda value, unit: Fraction(value) * next(f for u, f in US.values() if u == unit))
-        plain.append(col.Vehicle(**{name: float(value) for name, value in exact.items()}, yaw_rate=body.spin))
-        for vehicles in (texts, quantities):
-            for name, value in exact.items():
-                # One product and the factor's own rounding; a square of feet has two more.
-                assert abs(Fraction(getattr(vehicles[-1], name)) - value) <= 2 * Fraction(EPS) * abs(value), name
-    question = {"normal": scene.normal, **options}
+    options = {"normal": scene.normal, scene.rule: scene.value, "law": law, "on_failure": "nan"}
     feet = tuple(f"{part!r} ft" for part in scene.point)
-    from_texts = ask(texts, scene.restitution, point=feet, **question)
-    from_quantities = ask(quantities, scene.restitution, point=FOREIGN.Quantity(scene.point, "ft"), **question)
-    again = [col.Vehicle(**{name: getattr(v, name) for name in (*US, "yaw_rate")}) for v in texts]
-    # Units end at the door: the numbers behind it, given as they are, are the same question to the last bit.
-    if from_texts is None:
-        assume(False)
-    assert from_texts.normal_impulse == ask(again, scene.restitution, point=from_texts.point, **question).normal_impulse
-    assert from_texts.point == pytest.approx(contact, rel=2 * EPS, abs=0)
-    bodies = [
-        Body(v.mass, v.yaw_inertia, v.vx, v.vy, v.yaw_rate, v.x, v.y) for v in plain
-    ]
-    si = replace(scene, a=bodies[0], b=bodies[1], point=(contact[0], contact[1]))
-    answer = evaluate(si)
+    for form, point in (
+        (lambda value, unit: f"{value!r} {unit}", feet),
+        (FOREIGN.Quantity, FOREIGN.Quantity(np.array(scene.point), "ft")),
+    ):
+        given_so = [col.Vehicle(**in_us_units(body, form), yaw_rate=body.spin) for body in (scene.a, scene.b)]
+        for body, found in zip((scene.a, scene.b), given_so, strict=True):
+            exact = in_us_units(body, lambda value, unit: Fraction(value) * FACTORS[unit])
+            for name, value in exact.items():
+                # The factor's own rounding and the product, with one more product in pounds times square feet: 1.5 eps.
+                assert abs(Fraction(getattr(found, name)) - value) <= Fraction(1.5 * EPS) * abs(value), name
+        plain = [col.Vehicle(**{name: getattr(v, name) for name in (*US, "yaw_rate")}) for v in given_so]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.EnergyGainWarning)
+            one = col.eccentric(*given_so, scene.restitution, point=point, **options)
+            two = col.eccentric(*plain, scene.restitution, point=one.point, **options)
+        for at, was in zip(one.point, scene.point, strict=True):
+            assert abs(Fraction(at) - Fraction(was) * FACTORS["ft"]) <= Fraction(EPS) * abs(Fraction(at))
+        assert one.status == two.status
+        if one.refused:
+            continue
+        for path in ("normal_impulse", "energy_loss"):
+            assert getattr(one, path) == getattr(two, path)
+        assert one.a.after == two.a.after
+        # On the way out: the factor's rounding and the division.
+        wanted = float(Fraction(one.a.after.vx) / FACTORS["mph"])
+        assert one.a.after.q.vx.m_as("mph") == pytest.approx(wanted, rel=2 * EPS, abs=0)
+
+
+# --- One model in place of another ----------------------------------------------------------------------------------------------
+
+
+@every_law
+@pytest.mark.parametrize("because", ["the levers are zero", "the inertias are infinite"])
+@crossed
+@given(data=st.data())
+def test_eccentric_equals_oblique_central(because: str, law: str, data: Any) -> None:
+    """With zero levers, or bodies that cannot turn, the eccentric model is the oblique central one, whatever the friction."""
+    rule = data.draw(st.sampled_from(RULES))
+    scene = data.draw(impacts("free", law, rule, turning=False))
+    a, b = scene.a, scene.b
+    if because == "the levers are zero":
+        a, b = (replace(body, x=scene.point[0], y=scene.point[1]) for body in (a, b))
+    else:
+        a, b = (replace(body, inertia=math.inf) for body in (a, b))
+    scene = replace(scene, a=a, b=b)
+    answer = evaluate(scene)
     assume(answerable(answer))
-    # Velocities and positions are rounded before they are subtracted here, by 2 eps of themselves and not of their differences.
-    largest = max(abs(v) for o in bodies for v in (o.vx, o.vy)) + max(abs(o.spin) for o in bodies) * _reach(si)
-    moved = 2 * EPS * (4 * largest / float(answer.s_u) + 8 * _reach(si) / _shortest(si, answer))
-    allowed = TWICE * impulse_error(answer) + moved * float(answer.spread)
-    expected = solved("eccentric", si)
-    for other in (from_texts, from_quantities):
-        assert abs(other.normal_impulse - expected.normal_impulse) <= allowed
-        assert abs(other.tangential_impulse - expected.tangential_impulse) <= allowed
-    # And on the way out.
-    assert from_texts.a.after.q.vx.m_as("mph") == pytest.approx(float(Fraction(from_texts.a.after.vx) / mph), rel=4 * EPS, abs=0)
+    assert_same(solved("eccentric", scene), solved("oblique_central", scene), scene, answer)
 
 
-def ask(vehicles: list[col.Vehicle], restitution: float, **question: Any) -> Any:
-    """The impact of two vehicles, or None if the bodies do not close; that the model gains energy is not the matter here."""
-    import warnings
+def along_the_normal(data: Any, law: str, value: float) -> Scene:
+    """Contact on the line through both centres of mass, which is the normal: r_t = 0 exactly, with levers that are not 0."""
+    scene = data.draw(impacts("free", law, "friction", value, turning=False))
+    ahead, behind = (data.draw(st.integers(8, 96)) / 32.0 for _ in "ab")
+    quarter = data.draw(st.sampled_from([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]))
+    px, py = scene.point
+    a = replace(scene.a, x=px - ahead * quarter[0], y=py - ahead * quarter[1])
+    b = replace(scene.b, x=px + behind * quarter[0], y=py + behind * quarter[1])
+    scene = replace(scene, a=a, b=b, normal=quarter)
+    closing = quarter[0] * (a.vx - b.vx) + quarter[1] * (a.vy - b.vy)
+    assume(closing != 0.0)
+    if closing < 0.0:
+        # The velocities exchanged close where these part.
+        scene = replace(scene, a=replace(a, vx=b.vx, vy=b.vy), b=replace(b, vx=a.vx, vy=a.vy))
+    return scene
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", col.EnergyGainWarning)
-        try:
-            return col.eccentric(*vehicles, restitution, **question)
-        except col.CollisionsError:
-            return None
+
+@every_law
+@physics
+@given(data=st.data())
+def test_a_central_line_of_impact_without_friction_needs_no_levers(law: str, data: Any) -> None:
+    """With r_t = 0 and no friction the eccentric model equals the oblique central one, and nothing turns."""
+    scene = along_the_normal(data, law, 0.0)
+    answer = evaluate(scene)
+    one = solved("eccentric", scene)
+    assert_same(one, solved("oblique_central", scene), scene, answer)
+    assert one.a.delta_yaw_rate == one.b.delta_yaw_rate == 0.0
+
+
+@every_law
+@physics
+@given(data=st.data())
+def test_friction_on_a_lever_along_the_normal_turns_the_bodies(law: str, data: Any) -> None:
+    """With r_t = 0 and friction the models differ: the tangential impulse turns the cars, and less of it ends the slip."""
+    scene = along_the_normal(data, law, math.inf)
+    answer = evaluate(scene)
+    assume(abs(answer.slip) > 1e-3 * answer.s_u)
+    one, two = solved("eccentric", scene), solved("oblique_central", scene)
+    # K is diagonal: Pt is the same change of slip over a + sum b r_n^2 here and over a there.
+    share = float((answer.a.a + answer.b.a) / answer.k_tt)
+    assert share < 0.99
+    assert one.tangential_impulse == pytest.approx(share * two.tangential_impulse, rel=0, abs=TWICE * impulse_error(answer))
+    assert abs(one.tangential_impulse) < abs(two.tangential_impulse)
+    for side in "ab":
+        half, found = getattr(answer, side), getattr(one, side)
+        # The torque of Pt on a lever r_n ahead of A and behind B is of one sign on both.
+        assert found.delta_yaw_rate * one.tangential_impulse < 0.0
+        wanted = float(half.b * half.r) * abs(one.tangential_impulse)
+        assert abs(found.delta_yaw_rate) == pytest.approx(wanted, rel=0, abs=float(half.b * half.r) * impulse_error(answer))
+
+
+@every_law
+@pytest.mark.parametrize("constraint", ["free", "A fixed", "B fixed"])
+@crossed
+@given(data=st.data())
+def test_oblique_central_equals_linear_central_in_line(constraint: str, law: str, data: Any) -> None:
+    """Without motion across the normal there is no slip to rub, so any friction gives the linear answer."""
+    scene, answer = data.draw(questions("linear_central", constraint, law))
+    value = data.draw(VALUES["friction"])
+    assert_same(solved("linear_central", scene), solved("oblique_central", replace(scene, value=value)), scene, answer)
+
+
+# --- The two laws -----------------------------------------------------------------------------------------------------------------
+
+
+@st.composite
+def sticking_twice(draw: Any, constraint: str, law: str) -> tuple[Scene, Answer, Scene, Answer]:
+    """A scene that closes and sticks with friction=inf under two normals."""
+    first = draw(impacts(constraint, law, "friction", math.inf))
+    second = replace(first, normal=first.normal + draw(st.floats(-0.8, 0.8)))
+    answers = evaluate(first), evaluate(second)
+    assume(all(answerable(answer) for answer in answers))
+    return first, answers[0], second, answers[1]
+
+
+def scene_impulse(impact: col.Impact) -> tuple[float, float]:
+    """Impulse on B in scene axes."""
+    return impact.b.impulse_x, impact.b.impulse_y
+
+
+@every_constraint
+@crossed
+@given(data=st.data())
+def test_kudlich_slibar_sticking_does_not_know_the_normal(constraint: str, data: Any) -> None:
+    """Under "kudlich-slibar" the impulse that stops all motion of the contact is the same whatever the normal."""
+    first, one, second, two = data.draw(sticking_twice(constraint, "kudlich-slibar"))
+    (x1, y1), (x2, y2) = (scene_impulse(solved("eccentric", scene)) for scene in (first, second))
+    assert math.hypot(x1 - x2, y1 - y2) <= impulse_error(one) + impulse_error(two)
+
+
+@every_constraint
+@crossed
+@given(data=st.data())
+def test_brach_sticking_knows_the_normal(constraint: str, data: Any) -> None:
+    """Under "brach" it changes with the normal as restitution along it does: K (P1 - P2) = e (g1 n1 - g2 n2)."""
+    first, one, second, two = data.draw(sticking_twice(constraint, "brach"))
+    impacts_found = solved("eccentric", first), solved("eccentric", second)
+    (x1, y1), (x2, y2) = map(scene_impulse, impacts_found)
+    (n1, n2), e = (impact.normal for impact in impacts_found), first.restitution
+    wanted = [e * (float(one.closing) * n1[i] - float(two.closing) * n2[i]) for i in (0, 1)]
+    assume(math.hypot(*wanted) > 1e-3 * float(one.s_u))
+    # K takes each error of P to at most tr times it; n and g, found again here, are within 8 eps S_U.
+    c, s = n1
+    trace = float(one.k_nn + one.k_tt)
+    dn, dt = c * (x1 - x2) + s * (y1 - y2), c * (y1 - y2) - s * (x1 - x2)
+    found_n, found_t = float(one.k_nn) * dn + float(one.k_nt) * dt, float(one.k_nt) * dn + float(one.k_tt) * dt
+    error = impulse_error(one) + impulse_error(two)
+    allowed = trace * error + 8 * EPS * float(one.s_u) + 4 * EPS * trace * math.hypot(dn, dt)
+    assert math.hypot(found_n - (c * wanted[0] + s * wanted[1]), found_t - (c * wanted[1] - s * wanted[0])) <= allowed
+    assert math.hypot(x1 - x2, y1 - y2) > 100 * error
+
+
+@crossing(PLANAR)
+@crossed
+@given(data=st.data())
+def test_the_laws_agree_without_friction_and_without_restitution(model: str, constraint: str, data: Any) -> None:
+    """Frictionless, or at e = 0 with any friction, "brach" and "kudlich-slibar" are one law."""
+    frictionless = data.draw(st.booleans())
+    scene = data.draw(impacts(constraint, "brach", "friction", 0.0 if frictionless else None, turning=model == "eccentric"))
+    if model == "oblique_central":
+        scene = flat(scene)
+    if not frictionless:
+        scene = replace(scene, restitution=0.0)
+    answer = evaluate(scene)
+    assume(answerable(answer))
+    assert_same(solved(model, scene), solved(model, replace(scene, law="kudlich-slibar")), scene, answer)
+
+
+@physics
+@given(data=st.data())
+def test_the_laws_differ_where_a_contact_sticks_and_restores(data: Any) -> None:
+    """With slip, restitution and enough friction the slip ends at 0 under "brach" and at -e times itself under the other."""
+    scene = data.draw(impacts("free", "brach", "friction", math.inf))
+    other = replace(scene, law="kudlich-slibar")
+    answers = evaluate(scene), evaluate(other)
+    assume(all(answerable(answer) for answer in answers))
+    assume(scene.restitution > 1e-3 and abs(answers[0].slip) > 1e-3 * answers[0].s_u)
+    one, two = solved("eccentric", scene), solved("eccentric", other)
+    assert one.slip_after == 0.0
+    assert two.slip_after == -scene.restitution * two.slip_before != 0.0
+    assert math.hypot(*np.subtract(scene_impulse(one), scene_impulse(two))) > 100 * impulse_error(answers[0])
+
+
+# --- Refusal ----------------------------------------------------------------------------------------------------------------------
+
+
+@every_law
+@every_model
+@crossed
+@given(data=st.data())
+def test_separating_bodies_are_refused_with_their_speed(model: str, constraint: str, law: str, data: Any) -> None:
+    """With the normal turned round the bodies part: NoImpactError, code separating, with the negative closing speed."""
+    scene, answer = data.draw(questions(model, constraint, law))
+    n = scene.normal if isinstance(scene.normal, tuple) else (math.cos(scene.normal), math.sin(scene.normal))
+    with pytest.raises(col.NoImpactError, match="from A into B") as caught:
+        solved(model, replace(scene, normal=(-n[0], -n[1])))
+    assert caught.value.code == "separating"
+    assert caught.value.closing_speed < 0.0
+    # The promise of the closing speed, 4 eps S_U; the normal given here is rounded from the angle, which is 1 eps of S_U.
+    assert abs(caught.value.closing_speed + float(answer.closing)) <= 5 * EPS * float(answer.s_u)
+    assert solved(model, replace(scene, normal=(-n[0], -n[1])), on_failure="nan").status.label == "separating"

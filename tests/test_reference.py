@@ -16,10 +16,10 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from reference import EPS, Answer, Body, Scene, evaluate
-from scenes import FAMILIES, LAWS, RULES, cases, solved, solved_together
 
 import collisions as col
+from reference import EPS, Answer, Body, Scene, evaluate
+from scenes import FAMILIES, LAWS, RULES, cases, solved, solved_together
 
 COUNT = 100
 FLAT_COUNT = 40

@@ -130,6 +130,25 @@ def test_the_jamming_limit_is_named():
     assert below.normal_impulse > 0
 
 
+def test_all_that_is_missing_is_named_at_once():
+    """One error for a caller who gave masses and velocities only."""
+    with pytest.raises(col.MissingInputError) as caught:
+        col.eccentric(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=900.0), 0.1, friction=0.5, **SCENE)
+    for side in "ab":
+        for field in ("yaw_inertia", "x", "y"):
+            assert f"{side} has no {field}" in str(caught.value)
+
+
+def test_no_negative_zeros():
+    """A frictionless contact has a tangential impulse, ratio and loss of 0, not -0, whichever way it slips."""
+    for vy in (7.0, -7.0, 0.0):
+        impact = col.oblique_central(car(vx=15.0), STRUCK.replace(vy=vy), 0.1, normal=0.0, friction=0.0)
+        turned = col.eccentric(car(vx=15.0), STRUCK.replace(vy=vy), 0.1, friction=0.0, **SCENE)
+        for found in (impact, turned):
+            for value in (found.tangential_impulse, found.impulse_ratio, found.energy_loss_tangential):
+                assert math.copysign(1.0, value) == 1.0
+
+
 def test_the_closing_speed_comes_with_the_refusal():
     """NoImpactError carries it as a number."""
     with pytest.raises(col.NoImpactError) as caught:
@@ -190,7 +209,7 @@ def test_a_refused_case_of_a_batch(status, changes):
         assert np.isnan(getattr(impact, name)).tolist() == [False, True], name
     assert np.isnan(impact.a.after.vx).tolist() == [False, True]
     assert impact.regime[1] == impact.kind[1] == ""
-    with pytest.raises(col.CollisionsError, match="^case 1: ") as raised:
+    with pytest.raises(col.CollisionsError, match=r"^case 1: ") as raised:
         col.eccentric(a, b, e, on_failure="raise", **scene)
     alone = raised.value.code
     assert alone == wanted.label
@@ -208,6 +227,8 @@ def test_a_single_case_may_be_answered_with_nan():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         impact = col.linear_central(car(vx=-5.0), STRUCK, 0.1, on_failure="nan")
+        many = col.linear_central(car(vx=np.array([5.0, -5.0])), STRUCK, 0.1, on_failure="nan")
+    assert np.isnan(many.energy_loss).tolist() == [False, True]
     assert impact.status is col.Status.SEPARATING
     assert not impact.ok
     assert math.isnan(impact.a.after.vx)

@@ -200,7 +200,8 @@ def _batch(
     if refused:
         if on_failure == "raise":
             raise _first_refusal(asked, status)
-        _warn_of_refusals(status, refused)
+        if on_failure is None:
+            _warn_of_refusals(status, refused)
     gaining = status == codes.ENERGY_GAIN
     if gaining.any():
         most = float(-raw[codes.OUTPUTS.index("energy_loss")][gaining].min())

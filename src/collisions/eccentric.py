@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from math import inf
 from typing import Any
 
 import numpy as np
 
 from .arguments import Law, OnFailure, Progress, answer, read
-from .errors import MissingInputError
+from .errors import InputError, MissingInputError
 from .impact import SOLVERS, Impact
 from .kernels.eccentric import eccentric as kernel
-from .units import Input, Pair
+from .units import Door, Input, Pair
 from .vehicle import Vehicle, missing
 
 
@@ -89,15 +88,11 @@ def eccentric(
     (3648.6, 12162)
     """
     e, n, rule, bound, contact, plain = read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law)
-    if contact is None:
-        raise MissingInputError(
-            "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
-            code="missing_point",
-            argument="point",
-        )
+    if contact is None or _lacks(a) or _lacks(b):
+        raise _all_missing(a, b, contact)
     return answer(
         kernel,
-        (e, *n, bound, *contact, *_body(a, "a", contact), *_body(b, "b", contact)),
+        (e, *n, bound, *contact, *_body(a, contact), *_body(b, contact)),
         (rule, law, a.pivot is not None, b.pivot is not None),
         ("eccentric", a, b, e, n, rule, bound, law, contact),
         plain,
@@ -108,17 +103,43 @@ def eccentric(
     )
 
 
-def _body(vehicle: Vehicle, label: str, contact: tuple[Any, Any]) -> tuple[Any, ...]:
-    """The numbers of one body; a fixed one that stands still or slides without turning needs no position."""
-    mass, inertia, spin, x, y = vehicle.mass, vehicle.yaw_inertia, vehicle.yaw_rate, vehicle.x, vehicle.y
-    if inertia is None:
-        raise missing(vehicle, "yaw_inertia", "eccentric", label)
+def _lacks(vehicle: Vehicle) -> tuple[str, ...]:
+    """The fields that are missing; a fixed body that stands still or slides without turning needs no position."""
+    if vehicle.yaw_inertia is not None and vehicle.x is not None and vehicle.y is not None:
+        return ()
+    fixed = (
+        np.isinf(vehicle.mass)
+        & np.isinf(0.0 if vehicle.yaw_inertia is None else vehicle.yaw_inertia)
+        & np.equal(vehicle.yaw_rate, 0.0)
+    )
+    needed = ("yaw_inertia",) if np.all(fixed) else ("yaw_inertia", "x", "y")
+    return tuple(name for name in needed if getattr(vehicle, name) is None)
+
+
+def _all_missing(a: Vehicle, b: Vehicle, contact: Any) -> InputError:
+    """One error that names everything the model lacks."""
+    door = Door()
+    if contact is None:
+        door.refuse(
+            MissingInputError(
+                "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
+                code="missing_point",
+                argument="point",
+            )
+        )
+    for label, vehicle in (("a", a), ("b", b)):
+        for name in _lacks(vehicle):
+            door.refuse(missing(vehicle, name, "eccentric", label))
+    return door.error()
+
+
+def _body(vehicle: Vehicle, contact: tuple[Any, Any]) -> tuple[Any, ...]:
+    """The numbers of one body; one without a position has no lever that matters."""
+    x, y = vehicle.x, vehicle.y
     if x is None or y is None:
-        if not np.all(np.equal(mass, inf) & np.equal(inertia, inf) & np.equal(spin, 0.0)):
-            raise missing(vehicle, "x" if x is None else "y", "eccentric", label)
         x, y = contact
     pivot_x, pivot_y = vehicle.pivot or (0.0, 0.0)
-    return mass, inertia, vehicle.vx, vehicle.vy, spin, x, y, pivot_x, pivot_y
+    return vehicle.mass, vehicle.yaw_inertia, vehicle.vx, vehicle.vy, vehicle.yaw_rate, x, y, pivot_x, pivot_y
 
 
 SOLVERS["eccentric"] = eccentric

@@ -37,7 +37,8 @@ def linear_central(
     normal : angle [rad] or tuple (nx, ny), optional
         Direction from A into B; the x axis if not given.
     on_failure : {None, "raise", "nan"}, optional
-        What to do with a case that cannot be answered: None raises for a single case and gives NaN with a status in a batch.
+        What to do with a case that cannot be answered. None: a single case raises, in a batch it is NaN with a status and one
+        warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a warning.
     threads : int, optional
         Threads for a batch.
     progress : callable, optional

@@ -21,14 +21,14 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
     closing = raw[_AT["closing_speed"]]
     if status in (Status.SEPARATING, Status.GRAZING):
         nx, ny = asked.normal
-        motion = "move apart along the normal" if closing < 0.0 else "do not approach along the normal"
-        return NoImpactError(
-            f"no impact: the bodies {motion}, closing speed {closing + 0.0:.6g} m/s; the normal must point from A into B, "
-            f"given ({nx:.4g}, {ny:.4g}); if A and B were meant the other way round, write "
-            f"normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})",
-            code=label,
-            closing_speed=closing,
-        )
+        facing = f"the normal must point from A into B, given ({nx:.4g}, {ny:.4g})"
+        if status is Status.SEPARATING:
+            what = f"move apart along the normal, closing speed {closing:.6g} m/s; {facing}"
+            hint = f"if A and B were meant the other way round, write normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})"
+        else:
+            what = f"neither approach nor part along the normal, closing speed 0 m/s; {facing}"
+            hint = "give the speeds just before contact, or the normal of the surfaces that met"
+        return NoImpactError(f"no impact: the bodies {what}; {hint}", code=label, closing_speed=closing)
     if status is Status.IMMOVABLE:
         return NoSolutionError(
             "nothing can yield along the normal: both bodies are fixed there (infinite masses, or a line of impact through the "

@@ -104,15 +104,17 @@ class Door:
         return math.nan
 
     def close(self) -> None:
-        if not self.problems:
-            return
+        if self.problems:
+            raise self.error()
+
+    def error(self) -> InputError:
         first = self.problems[0]
         if len(self.problems) == 1:
-            raise first
+            return first
         kinds = {type(problem) for problem in self.problems}
         kind = kinds.pop() if len(kinds) == 1 else InputError
         text = "\n".join(f"- {problem}" for problem in self.problems)
-        raise kind(f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems))
+        return kind(f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems))
 
     def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
         """A float or a locked float array in the given SI unit; scalars are checked against the domain."""

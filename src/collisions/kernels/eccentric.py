@@ -102,7 +102,7 @@ def eccentric(
     # The impulse that ends with the slip a sticking contact keeps.
     kept = sticking_slip(restitution, law)
     change_n = (1.0 + restitution) * closing
-    change_t = -(1.0 - kept) * slip
+    change_t = 0.0 - (1.0 - kept) * slip
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace

@@ -28,7 +28,7 @@ def energy_losses(
     ``mobility`` is P.K P, ``slip_change`` what the slip after differs by from that of a sticking contact.
     """
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
-    loss_t = -0.5 * tangential * slip_sum
+    loss_t = 0.0 - 0.5 * tangential * slip_sum
     if law == KUDLICH_SLIBAR and rule == FRICTION:
         # Every term is >= 0: the compression impulse's own work, and friction over the slip left at the end of compression.
         loss = (0.5 * (1.0 - restitution) * mobility + abs(tangential * slip_change)) / (1.0 + restitution)

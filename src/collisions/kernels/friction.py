@@ -29,7 +29,8 @@ def tangential_rule(rule: str, value: Any, no_slip_n: Any, no_slip_t: Any) -> tu
     if rule == FRICTION:
         matters = value > 0.0
         sticks = matters & pushes & (abs(no_slip_t) <= value * no_slip_n)
-        return sticks, select(no_slip_t < 0.0, -value, value), matters, (value == inf) & (no_slip_n <= 0.0)
+        # Adding 0 turns the -0 of a frictionless contact into 0.
+        return sticks, select(no_slip_t < 0.0, -value, value) + 0.0, matters, (value == inf) & (no_slip_n <= 0.0)
     if rule == CRITICAL_FRACTION:
         matters = value > 0.0
         ratio = value * (no_slip_t / select(pushes, no_slip_n, 1.0))

@@ -44,7 +44,7 @@ def oblique_central(
     slip = nx * uy - ny * ux
     kept = sticking_slip(restitution, law)
     change_n = (1.0 + restitution) * closing
-    no_slip_t = -(1.0 - kept) * slip
+    no_slip_t = 0.0 - (1.0 - kept) * slip
     sticks, ratio, _, pulls = tangential_rule(rule, tangential, change_n, no_slip_t)
     change_t = select(sticks, no_slip_t, ratio * change_n)
 
