@@ -47,7 +47,7 @@ class Scene:
     law: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Half:
     """What one body had of it; ``a`` and ``b`` are its 1/m (0 if pinned) and 1/I, ``r`` and ``arm`` lengths of its levers."""
 
@@ -71,7 +71,7 @@ class Half:
     mobility: Any
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Answer:
     """What the reference found; ``refused`` is None or the label of section 9, and ``spread`` is kappa times S_P."""
 

@@ -244,7 +244,12 @@ def bodies(draw: Any, constraint: str = "free", turning: bool = True) -> Body:
 
 @st.composite
 def impacts(
-    draw: Any, constraint: str = "free", law: str = "brach", rule: str = "friction", value: float | None = None, turning: bool = True
+    draw: Any,
+    constraint: str = "free",
+    law: str = "brach",
+    rule: str = "friction",
+    value: float | None = None,
+    turning: bool = True,
 ) -> Scene:
     """A closing scene. The normal is turned round where it would not close; what the law still refuses is left to the test."""
     which, _, kind = constraint.partition(" ")

@@ -13,10 +13,10 @@ from functools import cache
 from typing import Any
 
 import pytest
-from reference import EPS, Answer, Body, Scene
-from scenes import cases, solved
 
 import collisions as col
+from reference import EPS, Answer, Body, Scene
+from scenes import cases, solved
 
 
 @cache
@@ -130,7 +130,9 @@ def test_kinds_of_impact() -> None:
         assert impact.kind == ("elastic" if e == 1.0 else "plastic" if e == 0.0 else "elastoplastic")
         # What is absorbed at the end of compression is what a plastic impact would lose; (1 - e^2) of it is lost.
         wanted = (1.0 - e) * (1.0 + e) * impact.energy_absorbed
-        assert impact.energy_loss == pytest.approx(wanted, rel=10 * EPS, abs=0)  # two losses of 6 eps at most, less what they share
+        assert impact.energy_loss == pytest.approx(
+            wanted, rel=10 * EPS, abs=0
+        )  # two losses of 6 eps at most, less what they share
         if e == 1.0:
             assert impact.energy_loss == 0.0
     assert kinds == {"elastic", "plastic", "elastoplastic"}
@@ -177,7 +179,7 @@ def test_eq_9_oblique_central_impact() -> None:
 
 @cache
 def eccentric() -> tuple[tuple[Scene, Answer, col.Impact], ...]:
-    """Frictionless eccentric impacts of cars in traffic, with e = 0 left out where the paper divides by it nowhere."""
+    """Frictionless eccentric impacts in traffic, on map coordinates and against a body that is fixed or cannot turn."""
     found = []
     for family in ("traffic", "map grid", "barrier"):
         for scene, answer in cases(family, "brach", "friction", 100):

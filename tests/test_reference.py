@@ -13,7 +13,6 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -185,18 +184,12 @@ def pivots(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
 def directions(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
     """PDOF: 8 eps (pi/2 + kappa S_P / |P|) rad, counted the short way round."""
     promise = 8 * EPS * (math.pi / 2 + float(answer.spread) / math.hypot(answer.pn, answer.pt))
+    whole_turn = 2 * answer.pn.context.pi
     found = []
     for side in "ab":
-        turn = abs(float(getattr(answer, side).pdof - outputs[f"{side}.pdof"]))
-        if turn > math.pi:
-            turn = abs(
-                float(
-                    getattr(answer, side).pdof
-                    - outputs[f"{side}.pdof"]
-                    + math.copysign(1, outputs[f"{side}.pdof"]) * 2 * mpmath.pi
-                )
-            )
-        found.append((f"{side}.pdof", turn, promise))
+        turn = abs(getattr(answer, side).pdof - outputs[f"{side}.pdof"])
+        error = float(min(turn, abs(whole_turn - turn)))
+        found.append((f"{side}.pdof", math.inf if math.isnan(error) else error, promise))
     return found
 
 
