@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -85,6 +86,14 @@ def test_single_precision_stays_single_only_if_every_array_is():
     mixed = solve(v, np.array([0.2, 0.2]))
     assert mixed.energy_loss.dtype == np.float64
     np.testing.assert_allclose(mixed.energy_loss, double.energy_loss, rtol=1e-15)
+
+
+def test_single_precision_angles_in_degrees():
+    """Degrees keep the precision of their array, and the normal of the result can be given again to the same bits."""
+    degrees = pint.Quantity(np.linspace(-60.0, 60.0, 241, dtype=np.float32), "deg")
+    impact = col.oblique_central(col.Vehicle(mass=1.0, vx=3.0), col.Vehicle(mass=1.0), 0.1, normal=degrees, friction=0.0)
+    assert impact.normal[0].dtype == impact.energy_loss.dtype == np.float32
+    assert col.Impact.from_dict(impact.to_dict()) == impact
 
 
 def test_blocks_and_threads_change_no_bit():

@@ -1,9 +1,11 @@
 """Impact: its attributes, records that can be solved again, columns for a table, and states that chain."""
 
 import copy
+import gc
 import json
 import math
 import pickle
+import weakref
 
 import numpy as np
 import pytest
@@ -78,6 +80,8 @@ def test_columns_are_flat_and_of_one_length():
         columns = impact.to_columns()
         assert {len(column) for column in columns.values()} == {np.size(impact.status)}
         assert all(type(v) in (float, int, str, bool) for column in columns.values() for v in column)
+        assert columns["status"] == ["ok"] * np.size(impact.status)
+        assert impact._asked.rule in columns
         np.testing.assert_array_equal(
             columns["a.after.vx"], np.ravel(np.broadcast_to(impact.a.after.vx, np.shape(impact.status)))
         )
@@ -104,6 +108,19 @@ def test_refused_cases_survive_a_record():
     assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
     one = col.linear_central(col.Vehicle(mass=1.0, vx=-1.0), col.Vehicle(mass=1.0), 0.5, on_failure="nan")
     assert col.Impact.from_dict(one.to_dict()) == one
+
+
+def test_a_batch_is_freed_with_its_last_reference():
+    """No cycle keeps the arrays until the collector happens to run."""
+    impact = col.linear_central(col.Vehicle(mass=1.0, vx=np.array([1.0, 2.0])), col.Vehicle(mass=1.0), 0.5)
+    kept = weakref.ref(impact.a.after.vx)
+    assert impact.b.delta_v.shape == (2,)
+    gc.disable()
+    try:
+        del impact
+        assert kept() is None
+    finally:
+        gc.enable()
 
 
 def test_frozen():

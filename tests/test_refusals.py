@@ -164,6 +164,63 @@ def test_residues_of_rounding_are_no_transverse_motion():
     assert impact.a.after.speed == pytest.approx(10.0 * (1 - 0.55), rel=1e-14)
 
 
+def test_linear_impacts_chain_along_any_normal():
+    """What the first impact leaves across the normal is rounding, also where it cancels the motion along it."""
+    generator = np.random.default_rng(11)
+    for angle, e, mass in generator.uniform((-3, 0.9, 900), (3, 1.0, 1100), (300, 3)):
+        first = col.Vehicle.from_speed(mass=1000.0, speed=20.0, course=float(angle))
+        done = col.linear_central(first, col.Vehicle(mass=float(mass)), float(e), normal=float(angle))
+        assert col.linear_central(first, done.a.after, 0.1, normal=float(angle)).ok
+
+
+def test_overflow_is_not_called_immovable():
+    """Levers and mobilities beyond floats say that the answer is out of range."""
+    for changes in ({"mass": 1e-308, "yaw_inertia": 1e-308}, {"x": -1e200}):
+        with pytest.raises(col.InputError) as caught:
+            col.eccentric(car(vx=15.0, **changes), STRUCK, 0.1, friction=0.5, **SCENE)
+        assert caught.value.code == "out_of_range"
+
+
+def test_wrong_and_missing_arguments_are_named_together():
+    """A bad restitution, no point and no position: one error; wrong units among them make it a UnitsError."""
+    with pytest.raises(col.InputError) as caught:
+        col.eccentric(STRIKING.replace(x=None), STRUCK, 2.0, friction=-1.0, normal=0.0, point=None)
+    for part in ("restitution", "friction", "point is None", "a has no x"):
+        assert part in str(caught.value)
+    with pytest.raises(col.UnitsError):
+        col.Vehicle(mass="5 m", vx=math.nan)
+
+
+def test_shapes_that_do_not_match_anywhere():
+    """ShapeError with both shapes, wherever two arrays meet."""
+    s2, s3 = np.array([1.0, 2.0]), np.array([1.0, 2.0, 3.0])
+    many = col.linear_central(col.Vehicle(mass=1.0, vx=s2), col.Vehicle(mass=1.0), 0.1)
+    for call in (
+        lambda: col.linear_central(col.Vehicle(mass=1.0, vx=1.0), col.Vehicle(mass=1.0), 0.1, normal=(s2, s3)),
+        lambda: col.Vehicle.from_speed(mass=1.0, speed=s2, course=s3),
+        lambda: col.Vehicle(mass=1.0, vx=s2, vy=s3),
+        lambda: col.Vehicle(mass=1.0, yaw_inertia=1.0, x=s2, y=0.0, pivot=(s3, 0.0)),
+        lambda: col.Vehicle(mass=1.0, x=s2, y=0.0, heading=0.0).point(forward=s3),
+        lambda: col.Vehicle(mass=1.0, x=0.0, y=0.0).velocity_at((s2, s3)),
+        lambda: many.a.delta_v_at((s3, 0.0)),
+        lambda: many.ees(s3 / 3.0),
+    ):
+        with pytest.raises(col.ShapeError, match=r"\(2,\).*\(3,\)|\(3,\).*\(2,\)"):
+            call()
+
+
+def test_the_state_of_a_refused_case_is_refused():
+    """NaN does not turn; it is named for what it is."""
+    refused = col.linear_central(car(vx=-5.0), STRUCK, 0.1, on_failure="nan")
+    assert refused.kind == refused.regime == ""
+    assert math.isnan(refused.a.after.kinetic_energy)
+    with pytest.raises(col.InputError, match="vx is NaN"):
+        col.linear_central(refused.a.after, STRUCK, 0.1)
+    with pytest.warns(col.CollisionsWarning):
+        many = col.linear_central(car(vx=np.array([-5.0, 5.0])), STRUCK, 0.1)
+    assert np.isnan(many.b.after.kinetic_energy).tolist() == [True, False]
+
+
 def test_a_barrier_needs_no_position():
     """A body of infinite mass and inertia that does not turn has no lever that matters."""
     assert col.eccentric(STRIKING, col.Vehicle.barrier(), 0.1, friction=0.5, **SCENE).b.delta_v == 0.0

@@ -404,6 +404,35 @@ def test_results_come_back_in_the_callers_registry():
     assert "vx" in dir(a.q)
 
 
+def test_methods_of_q_give_quantities():
+    """Their bare results would silently lose the unit; what is no quantity is not offered."""
+    a = col.Vehicle(mass=1000.0, vx=20.0, x=0.0, y=0.0, heading=0.0, yaw_inertia=1500.0)
+    impact = col.eccentric(a, a.replace(vx=0.0, x=4.0), 0.1, normal=0.0, point=(2.0, 0.5), friction=0.5)
+    for pair in (a.q.velocity_at((1.0, 1.0)), impact.a.q.delta_v_at((1.0, 1.0)), impact.q.ees(0.5)):
+        assert all(part.check("[length] / [time]") for part in pair)
+    assert a.q.point(forward=1.0)[0].m_as("cm") == pytest.approx(100.0, rel=1e-15)
+    with pytest.raises(AttributeError, match=r"without \.q"):
+        a.q.replace(mass=1.0)
+
+
+@pytest.mark.parametrize("given", ["0.25 turn", "5400 arcmin", "324000 arcsecond", "100 grade"])
+def test_other_angles_are_reduced_like_degrees(given):
+    """A quarter turn is exactly (0, 1) in every unit but the radian, which cannot hold one."""
+    vehicle = col.Vehicle.from_speed(mass=1.0, speed=2.0, course=given)
+    assert (vehicle.vx, vehicle.vy) == (0.0, 2.0)
+
+
+def test_a_friction_without_end_as_a_text():
+    """ "inf" is one plain number; nonsense is answered with an example of a number."""
+    a, b = col.Vehicle(mass=1.0, vx=1.0), col.Vehicle(mass=1.0)
+    assert col.oblique_central(a, b, 0.1, normal=0.0, friction="inf").friction == math.inf
+    with pytest.raises(col.UnitsError, match=r"one plain number, such as 0\.4"):
+        col.oblique_central(a, b, 0.1, normal=0.0, friction="rough")
+    with pytest.raises(col.UnitsError) as caught:
+        col.Vehicle(mass="5 m")
+    assert "force" not in str(caught.value)
+
+
 def test_every_declared_unit_is_one_pint_knows():
     """Units live once, in the metadata; each of them converts to itself."""
     registry = pint.get_application_registry()

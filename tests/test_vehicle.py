@@ -1,8 +1,10 @@
 """Vehicle: what it holds, what it works out, and what it refuses when it is made."""
 
 import copy
+import dataclasses
 import math
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -24,6 +26,9 @@ def test_frozen_and_keyword_only():
     vehicle = col.Vehicle(mass=1.0)
     with pytest.raises(AttributeError):
         vehicle.mass = 2.0
+    for name in ("speed", "nonsense", "_given"):
+        with pytest.raises(AttributeError):
+            setattr(vehicle, name, 3.0)
     with pytest.raises(TypeError):
         col.Vehicle(1.0)
     with pytest.raises(TypeError):
@@ -101,6 +106,29 @@ def test_from_speed_is_exact_at_quarter_turns():
     assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=5.0, course=0.0, vx=3.0)) == "speed_twice"
     many = col.Vehicle.from_speed(mass=1.0, speed=np.array([1.0, 2.0]), course="180 deg")
     assert many.vx.tolist() == [-1.0, -2.0]
+
+
+def test_the_dataclass_tools_work():
+    """fields, asdict and replace of the dataclasses module see the public fields and nothing else."""
+    vehicle = col.Vehicle(mass="1000 kg", vx=1.0)
+    assert [f.name for f in dataclasses.fields(vehicle)][:2] == ["mass", "vx"]
+    assert "_given" not in dataclasses.asdict(vehicle)
+    assert dataclasses.replace(vehicle, mass=2.0).mass == 2.0
+
+
+def test_a_replaced_vehicle_is_suspected_only_of_what_changed():
+    """A heading of 720 deg, once given with its unit, is not taken for degrees later."""
+    vehicle = col.Vehicle(mass=1.0, heading="720 deg", yaw_rate="4000 deg/s")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert vehicle.replace(vx=2.0).heading == vehicle.heading
+    with pytest.warns(col.SuspectUnitsWarning):
+        vehicle.replace(heading=30)
+
+
+def test_a_speed_is_not_negative():
+    """Backwards is another course, not another sign."""
+    assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=-5.0, course=0.0)) == "negative_speed"
 
 
 def test_speed_and_course():

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from .directions import direction, from_radians
-from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, ShapeError, Status
+from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
 from .impact import Asked, Impact, build
 from .kernels import checks, codes
 from .kernels.batch import Check, solve_lanes
 from .kernels.select import verdict
 from .refusals import refusal
-from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, callers_level
+from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, callers_level
 from .vehicle import DOMAINS, Vehicle
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
@@ -61,6 +61,7 @@ def read(
     impulse_ratio: Any,
     critical_fraction: Any,
     law: Any,
+    known: Sequence[InputError] = (),
 ) -> Read:
     """The shared arguments as numbers. What the door would hand on unchanged passes at once; the door names what is wrong."""
     if (
@@ -70,7 +71,9 @@ def read(
         and type(friction) is float
         and friction >= 0.0
         and impulse_ratio is critical_fraction is None
+        and type(law) is str
         and (law == codes.BRACH or law == codes.KUDLICH_SLIBAR)
+        and not known
         and (
             point is None
             or (
@@ -86,6 +89,7 @@ def read(
         if type(normal) is float and -6.0 < normal < 6.0:
             return _as_read(Read, (restitution, from_radians(normal), codes.FRICTION, friction, point, True))
     door = Door()
+    door.problems.extend(known)
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             door.refuse(
@@ -99,7 +103,7 @@ def read(
     unit = direction(door, normal, "normal")
     contact = None if point is None else door.pair(point, "m", "point")
     rule, bound = _tangential(door, (friction, impulse_ratio, critical_fraction))
-    if law not in codes.LAWS:
+    if not isinstance(law, str) or law not in codes.LAWS:
         door.refuse(
             InputError(
                 f"law must be 'brach' (no slip at separation) or 'kudlich-slibar' (no slip at the end of compression), "
@@ -130,15 +134,19 @@ def _tangential(door: Door, values: tuple[Any, Any, Any]) -> tuple[str, Any]:
     return codes.FRICTION, math.nan
 
 
-def refuse_pivots(model: str, a: Vehicle, b: Vehicle) -> None:
-    """The central models know no constraint."""
-    for label, vehicle in (("a", a), ("b", b)):
-        if vehicle.pivot is not None:
-            raise InputError(
-                f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
-                code="pinned",
-                argument="pivot",
-            )
+def pivots(model: str, a: Any, b: Any) -> Sequence[InputError]:
+    """The refusals of pinned bodies, which the central models cannot hold."""
+    if type(a) is type(b) is Vehicle and a.pivot is None and b.pivot is None:
+        return ()
+    return [
+        InputError(
+            f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
+            code="pinned",
+            argument="pivot",
+        )
+        for label, vehicle in (("a", a), ("b", b))
+        if getattr(vehicle, "pivot", None) is not None
+    ]
 
 
 def answer(
@@ -160,7 +168,7 @@ def answer(
         _check_options(on_failure, threads, progress)
     question = _as_asked(Asked, asked)
     if not (plain and question.a._given is None and question.b._given is None):
-        shape = _shape(question)
+        shape = broadcast(dict(_values(question)))
         if shape is not None:
             return _batch(kernel, inputs, settings, question, scope, shape, on_failure, threads, progress)
     raw = kernel(*inputs, *settings)
@@ -220,18 +228,6 @@ def _values(asked: Asked) -> list[tuple[str, Any]]:
         if vehicle.pivot is not None:
             found += [(f"{label}.pivot[{i}]", part) for i, part in enumerate(vehicle.pivot)]
     return found
-
-
-def _shape(asked: Asked) -> tuple[int, ...] | None:
-    """The shape all arrays broadcast to; None when there is none, so that the case is a single one."""
-    arrays = [(name, value) for name, value in _values(asked) if isinstance(value, np.ndarray)]
-    if not arrays:
-        return None
-    try:
-        return np.broadcast_shapes(*(value.shape for _, value in arrays))
-    except ValueError:
-        shapes = ", ".join(f"{name} {value.shape}" for name, value in arrays)
-        raise ShapeError(f"these arrays do not broadcast together: {shapes}", code="bad_shape") from None
 
 
 def _value_checks(asked: Asked, eps: float) -> list[Check]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .errors import InputError, ShapeError
-from .units import Door
+from .units import Door, broadcast
 
 # A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a result stays the same bits.
 _UNIT_LENGTH = 2.0**-52
@@ -24,6 +24,10 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
             return math.nan, math.nan
         count = len(door.problems)
         vx, vy = (door.number(part, "", f"{argument}[{i}]") for i, part in enumerate(value))
+        try:
+            broadcast({f"{argument}[0]": vx, f"{argument}[1]": vy})
+        except ShapeError as problem:
+            door.refuse(problem)
         return normalised(door, vx, vy, argument) if len(door.problems) == count else (math.nan, math.nan)
     if isinstance(value, list):
         door.refuse(
@@ -89,7 +93,6 @@ def from_degrees(degrees: Any) -> tuple[Any, Any]:
         rest = (turn - 90.0 * quarters) * (math.pi / 180.0)
         c, s = xp.cos(rest), xp.sin(rest)
         # cos and sin of the quarter turns themselves: 0, 1 or -1.
-        quarters = quarters % 4.0
-        qc = (quarters == 0.0) * 1.0 - (quarters == 2.0) * 1.0
-        qs = (quarters == 1.0) * 1.0 - (quarters == 3.0) * 1.0
+        qc = abs(quarters % 4.0 - 2.0) - 1.0
+        qs = abs((quarters + 3.0) % 4.0 - 2.0) - 1.0
         return c * qc - s * qs + 0.0, s * qc + c * qs + 0.0

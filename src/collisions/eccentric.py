@@ -10,7 +10,7 @@ from .arguments import Law, OnFailure, Progress, answer, read
 from .errors import InputError, MissingInputError
 from .impact import SOLVERS, Impact
 from .kernels.eccentric import eccentric as kernel
-from .units import Door, Input, Pair
+from .units import Input, Pair
 from .vehicle import Vehicle, missing
 
 
@@ -87,12 +87,12 @@ def eccentric(
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
     """
-    e, n, rule, bound, contact, plain = read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law)
-    if contact is None or _lacks(a) or _lacks(b):
-        raise _all_missing(a, b, contact)
+    e, n, rule, bound, contact, plain = read(
+        a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, _missing(a, b, point)
+    )
     return answer(
         kernel,
-        (e, *n, bound, *contact, *_body(a, contact), *_body(b, contact)),
+        (e, *n, bound, *(contact or ()), *_body(a, contact), *_body(b, contact)),
         (rule, law, a.pivot is not None, b.pivot is not None),
         ("eccentric", a, b, e, n, rule, bound, law, contact),
         plain,
@@ -103,37 +103,28 @@ def eccentric(
     )
 
 
-def _lacks(vehicle: Vehicle) -> tuple[str, ...]:
-    """The fields that are missing; a fixed body that stands still or slides without turning needs no position."""
-    if vehicle.yaw_inertia is not None and vehicle.x is not None and vehicle.y is not None:
-        return ()
-    fixed = (
-        np.isinf(vehicle.mass)
-        & np.isinf(0.0 if vehicle.yaw_inertia is None else vehicle.yaw_inertia)
-        & np.equal(vehicle.yaw_rate, 0.0)
-    )
-    needed = ("yaw_inertia",) if np.all(fixed) else ("yaw_inertia", "x", "y")
-    return tuple(name for name in needed if getattr(vehicle, name) is None)
-
-
-def _all_missing(a: Vehicle, b: Vehicle, contact: Any) -> InputError:
-    """One error that names everything the model lacks."""
-    door = Door()
-    if contact is None:
-        door.refuse(
+def _missing(a: Any, b: Any, point: Any) -> list[InputError]:
+    """What the model needs and was not given; a fixed body that does not turn needs no position."""
+    found: list[InputError] = []
+    if point is None:
+        found.append(
             MissingInputError(
                 "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
                 code="missing_point",
                 argument="point",
             )
         )
-    for label, vehicle in (("a", a), ("b", b)):
-        for name in _lacks(vehicle):
-            door.refuse(missing(vehicle, name, "eccentric", label))
-    return door.error()
+    for label, body in (("a", a), ("b", b)):
+        if type(body) is not Vehicle or (body.yaw_inertia is not None and body.x is not None and body.y is not None):
+            continue
+        inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
+        fixed = np.all(np.isinf(body.mass) & np.isinf(inertia) & np.equal(body.yaw_rate, 0.0))
+        needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
+        found += [missing(body, name, "eccentric", label) for name in needed if getattr(body, name) is None]
+    return found
 
 
-def _body(vehicle: Vehicle, contact: tuple[Any, Any]) -> tuple[Any, ...]:
+def _body(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
     """The numbers of one body; one without a position has no lever that matters."""
     x, y = vehicle.x, vehicle.y
     if x is None or y is None:

@@ -13,6 +13,8 @@ from .errors import Status
 from .units import Value, to_quantity
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
+_ARRAYS = (None,)
 
 
 class Derived(Generic[T]):
@@ -32,13 +34,17 @@ class Derived(Generic[T]):
         if owner is None:
             return self
         cache = getattr(owner, "_cache", None)
-        if cache is None:
-            return self.work_out(owner)
-        try:
+        if cache is not None and self.name in cache:
             return cache[self.name]
-        except KeyError:
-            value = cache[self.name] = lock(self.work_out(owner))
-            return value
+        if type(getattr(owner, "_raw", _ARRAYS)[0]) is int:
+            value = self.work_out(owner)
+        else:
+            # Refused cases are NaN or infinite, and numpy need not say so again.
+            with np.errstate(all="ignore"):
+                value = lock(self.work_out(owner))
+        if cache is not None:
+            cache[self.name] = value
+        return value
 
     def __set__(self, owner: Any, value: Any) -> None:
         raise AttributeError(f"{self.name} is worked out and cannot be set")
@@ -47,6 +53,16 @@ class Derived(Generic[T]):
 def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:
     """Declares an attribute that is worked out, in the given SI unit."""
     return partial(Derived, unit)
+
+
+def returns(unit: str) -> Callable[[F], F]:
+    """Declares the SI unit of what a method returns."""
+
+    def declare(method: F) -> F:
+        method.unit = unit  # type: ignore[attr-defined]
+        return method
+
+    return declare
 
 
 def unit_of(kind: type[Any], name: str) -> str | None:
@@ -60,7 +76,7 @@ def unit_of(kind: type[Any], name: str) -> str | None:
 
 
 class Quantities:
-    """The same attributes as the owner's, with their units."""
+    """The same attributes as the owner's, and what its methods return, with their units."""
 
     __slots__ = ("_owner",)
 
@@ -72,6 +88,10 @@ class Quantities:
             raise AttributeError(name)
         value = getattr(self._owner, name)
         unit = unit_of(type(self._owner), name)
+        if callable(value):
+            if unit is None:
+                raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")
+            return lambda *args, **kwargs: to_quantity(value(*args, **kwargs), unit)
         if value is None or unit is None:
             return getattr(value, "q", value)
         return to_quantity(value, unit)

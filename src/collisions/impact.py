@@ -9,16 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import InputError, Status
-from .fields import Quantities, attributes, derived, hypot, lock, numeric, same, show, table
+from .fields import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .kernels import codes
+from .kernels.checks import outside_unit_interval
 from .kernels.select import select
 from .records import from_record, to_columns, to_record
 from .side import Side
-from .units import UNIT_INTERVAL, Door, Input, Value
+from .units import UNIT_INTERVAL, Door, Input, Value, broadcast
 from .vehicle import Vehicle, angle_of
-
-_AT = {name: index for index, name in enumerate(codes.OUTPUTS)}
-
 
 # The solver of each model, entered by the module that defines it.
 SOLVERS: dict[str, Callable[..., Impact]] = {}
@@ -71,12 +69,12 @@ class Impact:
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self, 0)
+        return Side(self._asked, self._raw, 0)
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self, 1)
+        return Side(self._asked, self._raw, 1)
 
     @derived()
     def model(self) -> str:
@@ -220,6 +218,7 @@ class Impact:
         """Energy taken up along the normal at the end of compression [J], part of which restitution gives back."""
         return 0.5 * (self.closing_speed * self.compression_impulse)
 
+    @returns("m/s")
     def ees(self, share_a: Input) -> tuple[Value, Value]:
         """Energy equivalent speeds (A, B) [m/s] when A took up this share of ``energy_absorbed`` and B the rest.
 
@@ -235,8 +234,11 @@ class Impact:
         """
         door = Door()
         share = door.number(share_a, "", "share_a", UNIT_INTERVAL)
+        if isinstance(share, np.ndarray) and outside_unit_interval(share).any():
+            door.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
         door.close()
         energy = self.energy_absorbed
+        broadcast({"share_a": share, "energy_absorbed": energy})
         xp = numeric(energy, share)
         return xp.sqrt(2.0 * (share * energy) / self.a.before.mass), xp.sqrt(
             2.0 * ((1.0 - share) * energy) / self.b.before.mass
@@ -262,12 +264,12 @@ class Impact:
         e = self._answered(self.restitution)
         if isinstance(e, np.ndarray):
             return np.where(e == 1.0, "elastic", np.where(e == 0.0, "plastic", np.where(np.isnan(e), "", "elastoplastic")))
-        return "elastic" if e == 1.0 else "plastic" if e == 0.0 else "elastoplastic"
+        return "" if self.refused else "elastic" if e == 1.0 else "plastic" if e == 0.0 else "elastoplastic"
 
     @derived()
     def regime(self) -> Any:
         """How the tangential impulse came about: "frictionless", "sliding", "sticking", or "given" with a ratio."""
-        rule, bound, sticks = self._asked.rule, self._asked.bound, self._raw[_AT["sticks"]]
+        rule, bound, sticks = self._asked.rule, self._asked.bound, self._raw[codes.AT["sticks"]]
         if isinstance(sticks, np.ndarray):
             if rule != codes.FRICTION:
                 found = np.full(sticks.shape, "given", dtype="U12")
@@ -275,8 +277,8 @@ class Impact:
                 moving = np.where(np.equal(bound, 0.0), "frictionless", "sliding")
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
             return np.where(self.refused, "", found)
-        if rule != codes.FRICTION:
-            return "given"
+        if self.refused or rule != codes.FRICTION:
+            return "" if self.refused else "given"
         return "sticking" if sticks else "frictionless" if bound == 0.0 else "sliding"
 
     @derived()
@@ -296,7 +298,7 @@ class Impact:
         return self._raw[0] > codes.ENERGY_GAIN
 
     def _output(self, name: str) -> Value:
-        value: Value = self._raw[_AT[name]]
+        value: Value = self._raw[codes.AT[name]]
         return value
 
     def _answered(self, value: Any) -> Value:
@@ -351,7 +353,7 @@ class Impact:
         rows = [
             (name, show(value, vars(Impact)[name].unit))
             for name in attributes(Impact)
-            if (value := _plain(self, name)) is not None
+            if (value := _own(self, name)) is not None
         ]
         for label, side in (("a", self.a), ("b", self.b)):
             rows += [(f"{label}.{name}", text) for name, text in side._rows()]
@@ -375,7 +377,7 @@ def _rebuild(asked: Asked, raw: tuple[Any, ...]) -> Impact:
     return build(lock(asked), lock(raw))
 
 
-def _plain(impact: Impact, name: str) -> Any:
+def _own(impact: Impact, name: str) -> Any:
     value = getattr(impact, name)
     return None if isinstance(value, Side) else value
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .arguments import OnFailure, Progress, answer, read, refuse_pivots
+from .arguments import OnFailure, Progress, answer, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels import codes
 from .kernels.linear import linear_central as kernel
@@ -71,9 +71,9 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    e, n, rule, bound, _, plain = read(a, b, restitution, normal, None, 0.0, None, None, codes.BRACH)
-    if a.pivot is not None or b.pivot is not None:
-        refuse_pivots("linear_central", a, b)
+    e, n, rule, bound, _, plain = read(
+        a, b, restitution, normal, None, 0.0, None, None, codes.BRACH, pivots("linear_central", a, b)
+    )
     nx, ny = n
     vx_a, vy_a, vx_b, vy_b = a.vx, a.vy, b.vx, b.vy
     return answer(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .arguments import Law, OnFailure, Progress, answer, read, refuse_pivots
+from .arguments import Law, OnFailure, Progress, answer, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels.oblique import oblique_central as kernel
 from .kernels.oblique import outside_central
@@ -75,9 +75,9 @@ def oblique_central(
     >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
     (3.464, -3.0, 2.0)
     """
-    e, n, rule, bound, _, plain = read(a, b, restitution, normal, None, friction, impulse_ratio, critical_fraction, law)
-    if a.pivot is not None or b.pivot is not None:
-        refuse_pivots("oblique_central", a, b)
+    e, n, rule, bound, _, plain = read(
+        a, b, restitution, normal, None, friction, impulse_ratio, critical_fraction, law, pivots("oblique_central", a, b)
+    )
     return answer(
         kernel,
         (e, n[0], n[1], bound, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),

@@ -10,11 +10,12 @@ import numpy as np
 
 from .errors import InputError, Status
 from .fields import attributes
+from .kernels import codes
 from .side import Side
-from .vehicle import Vehicle
+from .vehicle import NAMES, Vehicle
 
 _FORMAT = "collisions impact 1"
-_STATE = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading", "pivot", "name")
+_NOTHING = dict.fromkeys(NAMES)
 _NUMBERS = ("restitution", "normal", "bound", "point")
 _LABELS = ("model", "rule", "law")
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
@@ -23,8 +24,8 @@ _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 def to_record(impact: Any) -> dict[str, Any]:
     """Inputs to ask it again from, and every result to read."""
     asked = impact._asked
-    inputs = {name: _plain(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
-    results = {name: _plain(value) for name, value in _results(impact) if name not in inputs}
+    inputs = {name: _strict(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
+    results = {name: _strict(value) for name, value in _results(impact) if name not in inputs}
     return {
         "format": _FORMAT,
         "inputs": {**inputs, "a": _state(asked.a), "b": _state(asked.b)},
@@ -39,9 +40,11 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool]:
             raise _bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
         inputs = record["inputs"]
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
+        if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
+            raise _bad_record(f"its model is {question['model']!r} and its rule {question['rule']!r}")
         for side in "ab":
             state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
-            question[side] = Vehicle(**state, name=inputs[side]["name"])
+            question[side] = Vehicle._of_numbers({**_NOTHING, **state, "name": inputs[side]["name"]})
         refused = bool(np.any(np.asarray(_number(record["results"]["status"])) > Status.ENERGY_GAIN))
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         if isinstance(error, InputError):
@@ -55,10 +58,12 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
     columns: dict[str, Any] = {}
     for name, value in _results(impact):
         _add(columns, name, value)
+    columns["status"] = np.array([status.label for status in Status])[impact._raw[0]]
+    columns[impact._asked.rule] = impact._asked.bound
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in ("before", "after", "at_compression"):
             vehicle = getattr(side, moment)
-            for name in _STATE:
+            for name in NAMES:
                 _add(columns, f"{label}.{moment}.{name}", getattr(vehicle, name))
         for name, value in _results(side):
             _add(columns, f"{label}.{name}", value)
@@ -75,7 +80,7 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
         for part, axis in zip(value, "xy", strict=True):
             columns[f"{name}.{axis}"] = part
     elif value is not None:
-        columns[name] = value.label if isinstance(value, Status) else value
+        columns[name] = value
 
 
 def _results(owner: Any) -> list[tuple[str, Any]]:
@@ -84,24 +89,24 @@ def _results(owner: Any) -> list[tuple[str, Any]]:
 
 
 def _side(side: Side) -> dict[str, Any]:
-    found = {name: _plain(value) for name, value in _results(side)}
+    found = {name: _strict(value) for name, value in _results(side)}
     return {**found, "after": _state(side.after), "at_compression": _state(side.at_compression)}
 
 
 def _state(vehicle: Vehicle) -> dict[str, Any]:
-    return {name: _plain(getattr(vehicle, name)) for name in _STATE}
+    return {name: _strict(getattr(vehicle, name)) for name in NAMES}
 
 
-def _plain(value: Any) -> Any:
+def _strict(value: Any) -> Any:
     """Only what strict JSON knows: an infinity and NaN by name, an array with its precision, a pair as a list."""
     if isinstance(value, np.ndarray):
         return {
             "dtype": str(value.dtype),
             "shape": list(value.shape),
-            "values": [_plain(v) for v in value.reshape(-1).tolist()],
+            "values": [_strict(v) for v in value.reshape(-1).tolist()],
         }
     if isinstance(value, tuple):
-        return [_plain(part) for part in value]
+        return [_strict(part) for part in value]
     if isinstance(value, Status):
         return int(value)
     if isinstance(value, float) and not math.isfinite(value):
@@ -110,7 +115,7 @@ def _plain(value: Any) -> Any:
 
 
 def _number(value: Any) -> Any:
-    """What ``_plain`` wrote, read again."""
+    """What ``_strict`` wrote, read again."""
     if isinstance(value, list):
         return tuple(_number(part) for part in value)
     if isinstance(value, Mapping):

@@ -10,15 +10,20 @@ import numpy as np
 from .errors import CollisionsError, InputError, NoImpactError, NoSolutionError, Status
 from .impact import Asked
 from .kernels import codes
-
-_AT = {name: index for index, name in enumerate(codes.OUTPUTS)}
+from .vehicle import DOMAINS
 
 
 def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
     """The error of a single case whose status is not an answer."""
     status = Status(raw[0])
     label = status.label
-    closing = raw[_AT["closing_speed"]]
+    for side, body in (("a", asked.a), ("b", asked.b)):
+        for name in DOMAINS:
+            if getattr(body, name) != getattr(body, name):
+                return InputError(
+                    f"{side}.{name} is NaN: the state of a case that was refused", code="not_finite", argument=name
+                )
+    closing = raw[codes.AT["closing_speed"]]
     if status in (Status.SEPARATING, Status.GRAZING):
         nx, ny = asked.normal
         facing = f"the normal must point from A into B, given ({nx:.4g}, {ny:.4g})"
@@ -44,13 +49,13 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
     if status is Status.NO_SLIP_PULLS:
         return NoSolutionError(
             f"{asked.rule} = {asked.bound:g} asks for a contact without slip, which here needs the bodies to pull at each "
-            f"other (no-slip impulse along the normal {raw[_AT['no_slip_normal']]:.6g} N s); give a finite friction=, or "
+            f"other (no-slip impulse along the normal {raw[codes.AT['no_slip_normal']]:.6g} N s); give a finite friction=, or "
             f"impulse_ratio=",
             code=label,
         )
     if status is Status.RATIO_JAMS:
-        coupling = raw[_AT["coupling"]]
-        limit = -1.0 / (raw[_AT["effective_mass"]] * coupling) if coupling else math.copysign(math.inf, asked.bound)
+        coupling = raw[codes.AT["coupling"]]
+        limit = -1.0 / (raw[codes.AT["effective_mass"]] * coupling) if coupling else math.copysign(math.inf, asked.bound)
         side = "less" if limit > 0.0 else "greater"
         return NoSolutionError(
             f"impulse_ratio = {asked.bound:g} jams the bodies: at {limit:.6g} the normal impulse grows without end; "

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .directions import from_radians
-from .fields import Quantities, attributes, derived, hypot, show, table
-from .units import Door, Pair, Value
+from .fields import Quantities, attributes, derived, hypot, returns, show, table
+from .kernels import codes
+from .units import Door, Pair, Value, broadcast
 from .vehicle import Vehicle, angle_of
 
 if TYPE_CHECKING:
-    from .impact import Impact
+    from .impact import Asked
 
 
 class Side:
@@ -23,18 +24,18 @@ class Side:
     PDOF. Values are floats, or arrays in a batch.
     """
 
-    __slots__ = ("_cache", "_impact", "_index")
+    __slots__ = ("_asked", "_cache", "_index", "_raw")
 
-    def __init__(self, impact: Impact, index: int) -> None:
-        self._impact = impact
+    def __init__(self, asked: Asked, raw: tuple[Any, ...], index: int) -> None:
+        # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
+        self._asked = asked
+        self._raw = raw
         self._index = index
         self._cache: dict[str, Any] = {}
 
     def _change(self) -> tuple[Value, Value, Value]:
-        output = self._impact._output
-        if self._index:
-            return output("delta_vx_b"), output("delta_vy_b"), output("delta_yaw_rate_b")
-        return output("delta_vx_a"), output("delta_vy_a"), output("delta_yaw_rate_a")
+        first = codes.AT["delta_vx_b"] if self._index else codes.AT["delta_vx_a"]
+        return self._raw[first], self._raw[first + 1], self._raw[first + 2]
 
     @property
     def q(self) -> Any:
@@ -44,7 +45,7 @@ class Side:
     @derived()
     def before(self) -> Vehicle:
         """The vehicle just before contact."""
-        return self._impact._asked.b if self._index else self._impact._asked.a
+        return self._asked.b if self._index else self._asked.a
 
     @derived()
     def after(self) -> Vehicle:
@@ -56,7 +57,7 @@ class Side:
     def at_compression(self) -> Vehicle:
         """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
         before, (dvx, dvy, dw) = self.before, self._change()
-        whole = 1.0 + self._impact.restitution
+        whole = 1.0 + self._asked.restitution
         return before._moved(before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
 
     @derived("m/s")
@@ -134,7 +135,7 @@ class Side:
     def kinetic_energy_change(self) -> Value:
         """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
         before, dv = self.before, self._change()
-        place = self._impact.point
+        place = self._asked.point
         ux, uy = (before.vx, before.vy) if place is None else before.velocity_at(place)
         dux, duy = (dv[0], dv[1]) if place is None else self.delta_v_at(place)
         return self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
@@ -149,6 +150,7 @@ class Side:
         """Impulse of the pivot on this vehicle along scene y [N*s]; 0 for a body that is not pinned."""
         return self._pivot_impulse(self.delta_vy, self.impulse_y)
 
+    @returns("m/s")
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
         """Change of velocity (x, y) [m/s] of the place of the vehicle that is at a scene point.
 
@@ -157,13 +159,12 @@ class Side:
         door = Door()
         px, py = door.pair(point, "m", "point")
         door.close()
+        broadcast({"point[0]": px, "point[1]": py, "delta_vx": self.delta_vx})
         turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
         return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
-        nx, ny = self._impact.normal
-        normal, tangential = self._impact.normal_impulse, self._impact.tangential_impulse
-        x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
+        x, y = self._raw[codes.AT["impulse_x"]], self._raw[codes.AT["impulse_y"]]
         return (x, y) if self._index else (-x, -y)
 
     def _own_axes(self, x: Value, y: Value) -> tuple[Value | None, Value | None]:

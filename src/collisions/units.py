@@ -9,7 +9,7 @@ import math
 import re
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 from weakref import WeakKeyDictionary
 
@@ -54,19 +54,35 @@ _EXAMPLES = {
     "kg*m**2": "1800 (kg m2), '1800 kg*m**2', '1330 slug*ft**2' or '1330 lbf*ft*s**2'",
     "m": "2.1 (m), '2.1 m' or '7 ft'",
     "rad": "1.57 (rad) or '90 deg'",
-    "": "a plain number",
+    "degree": "90 (deg)",
+    "": "0.4",
 }
 _TURNS_OF_A_SCENE = 2.0 * math.pi * (1.0 + 1e-9)
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": _TURNS_OF_A_SCENE, "rad/s": 20.0}
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
-_COUNTS = ("hertz", "becquerel", "count", "counts_per_second", "percent", "permille", "ppm", "bit", "byte", "neper", "bel")
+_COUNTS = (
+    "hertz",
+    "becquerel",
+    "count",
+    "counts_per_second",
+    "percent",
+    "permille",
+    "ppm",
+    "bit",
+    "byte",
+    "neper",
+    "bel",
+    "steradian",
+)
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s)", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$)", re.ASCII)
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = re.compile(rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*")
 _LONGEST_TEXT = 60
+# Read in degrees, which can be reduced exactly; radians cannot.
+_ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 
 _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
@@ -95,7 +111,8 @@ def _registry() -> Any:
 class Door:
     """Reads the arguments of one call; ``close`` raises one error that names every wrong one."""
 
-    def __init__(self) -> None:
+    def __init__(self, trusted: Collection[str] = ()) -> None:
+        self.trusted = trusted
         self.problems: list[InputError] = []
         self.texts: dict[str, str] = {}
 
@@ -112,9 +129,13 @@ class Door:
         if len(self.problems) == 1:
             return first
         kinds = {type(problem) for problem in self.problems}
-        kind = kinds.pop() if len(kinds) == 1 else InputError
+        kind = kinds.pop() if len(kinds) == 1 else UnitsError if UnitsError in kinds else InputError
         text = "\n".join(f"- {problem}" for problem in self.problems)
-        return kind(f"{len(self.problems)} arguments cannot be used:\n{text}", code=first.code, problems=tuple(self.problems))
+        return kind(
+            f"{len(self.problems)} arguments cannot be used:\n{text}",
+            code=next((problem.code for problem in self.problems if type(problem) is kind), "several_arguments"),
+            problems=tuple(self.problems),
+        )
 
     def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
         """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
@@ -130,7 +151,7 @@ class Door:
             problem_found = _outside(read, domain, argument, value)
             if problem_found is not None:
                 return self.refuse(problem_found)
-        if not text:
+        if not text and argument not in self.trusted:
             _warn_if_implausible(read, unit, argument)
         return read
 
@@ -158,19 +179,29 @@ class Door:
         """An angle, and whether it is in degrees: those are handed on as given, so that they can be reduced exactly."""
         try:
             quantity = _parse(value, "rad", argument) if isinstance(value, str) else value
-            if is_quantity(quantity) and _is_degree(quantity):
-                # Asked for only to refuse what cannot be an angle in the same words as everywhere else.
-                magnitude = _plain(quantity.magnitude, argument)
-                if isinstance(magnitude, float):
-                    self.texts[argument] = value.strip() if isinstance(value, str) else f"{magnitude!r} degree"
-                if not isinstance(magnitude, np.ndarray):
-                    problem_found = _outside(magnitude, FINITE, argument, value)
-                    if problem_found is not None:
-                        raise problem_found
-                return magnitude, True
+            if is_quantity(quantity) and dict(quantity._units) in [{name: 1} for name in _ANGLES]:
+                degrees, text = _convert(quantity, "degree", argument, value)
+                problem_found = None if isinstance(degrees, np.ndarray) else _outside(degrees, FINITE, argument, value)
+                if problem_found is not None:
+                    raise problem_found
+                if text:
+                    self.texts[argument] = value.strip() if isinstance(value, str) else text
+                return degrees, True
         except InputError as problem:
             return self.refuse(problem), False
         return self.number(quantity, "rad", argument), False
+
+
+def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
+    """The shape the arrays among these go together to; None without any. ShapeError names them all."""
+    shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}
+    if not shapes:
+        return None
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise ShapeError(f"these arrays do not broadcast together: {listed}", code="bad_shape") from None
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
@@ -181,13 +212,13 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
         return _convert(_parse(value, unit, argument), unit, argument, value)[0], value.strip()
     if is_quantity(value):
         return _convert(value, unit, argument, value)
-    return _plain(value, argument), ""
+    return _plain(value, argument, unit), ""
 
 
-def _plain(value: Any, argument: str) -> Any:
+def _plain(value: Any, argument: str, unit: str) -> Any:
     """A float or a fresh float array from a number or an array without unit."""
     if isinstance(value, (bool, np.bool_)):
-        raise _not_a_number(value, argument)
+        raise _not_a_number(value, argument, unit)
     if isinstance(value, (int, float, np.integer, np.floating)):
         try:
             read = float(value)
@@ -201,10 +232,10 @@ def _plain(value: Any, argument: str) -> Any:
             )
         return read
     if isinstance(value, (list, tuple)):
-        value = _from_sequence(value, argument)
+        value = _from_sequence(value, argument, unit)
     elif not isinstance(value, np.ndarray):
         if not hasattr(value, "__array__") or hasattr(value, "units") or hasattr(value, "unit"):
-            raise _not_a_number(value, argument)
+            raise _not_a_number(value, argument, unit)
         value = np.asarray(value)
     if type(value) not in (np.ndarray, np.memmap):
         raise InputError(
@@ -227,7 +258,7 @@ def _plain(value: Any, argument: str) -> Any:
     return float(array) if array.ndim == 0 else array
 
 
-def _from_sequence(value: Sequence[Any], argument: str) -> Any:
+def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
     stack: list[Any] = [value]
     while stack:
         item = stack.pop()
@@ -241,7 +272,7 @@ def _from_sequence(value: Sequence[Any], argument: str) -> Any:
                 argument=argument,
             )
         elif isinstance(item, (bool, np.bool_)) or not isinstance(item, (int, float, np.number, np.ndarray)):
-            raise _not_a_number(item, argument)
+            raise _not_a_number(item, argument, unit)
     try:
         return np.array(value)
     except ValueError:
@@ -259,8 +290,9 @@ def _parse(text: str, unit: str, argument: str) -> Any:
     number = _NUMBER.match(stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
     if number is None or not (_UNIT.fullmatch(name) or (not name and not unit)):
+        how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
-            f"{argument}: cannot read {_shown(text)}; write one plain number and one unit, such as {_EXAMPLES[unit]}",
+            f"{argument}: cannot read {_shown(text)}; write {how}, such as {_EXAMPLES[unit]}",
             code="bad_units",
             argument=argument,
             text=text,
@@ -274,7 +306,7 @@ def _parse(text: str, unit: str, argument: str) -> Any:
 
 def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
     """The magnitude in the unit, and the quantity as a text."""
-    magnitude = _plain(quantity.magnitude, argument)
+    magnitude = _plain(quantity.magnitude, argument, unit)
     factor, name = _factor(quantity, unit, argument, given)
     text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
     if factor != 1.0:
@@ -317,10 +349,6 @@ def _is_of_another_kind(quantity: Any, unit: str) -> bool:
         units = quantity._REGISTRY.Unit
         return any(units(name).dimensionless and name not in _SPOKEN_PROPORTIONS for name in names)
     return unit in ("rad", "rad/s") and any(name.endswith(_COUNTS) for name in names)
-
-
-def _is_degree(quantity: Any) -> bool:
-    return dict(quantity._units) == {"degree": 1}
 
 
 def _outside(value: float, domain: str, argument: str, given: Any) -> InputError | None:
@@ -383,10 +411,10 @@ def callers_level() -> int:
     return level
 
 
-def _not_a_number(value: Any, argument: str) -> InputError:
+def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
     return InputError(
-        f"{argument} must be a number, an array, a Quantity or a text such as '80 km/h', got {_shown(value)} "
-        f"of type {type(value).__name__}",
+        f"{argument} must be a number, an array or a Quantity, such as {_EXAMPLES[unit]}; got {_shown(value)} of type "
+        f"{type(value).__name__}",
         code="not_a_number",
         argument=argument,
     )
@@ -397,12 +425,13 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) ->
     reason = f" ({error})" if error is not None else ""
     hint = ""
     text = str(given)
-    if unit == "kg":
+    is_timed = "[time]" in str(getattr(error, "dim1", ""))
+    if unit == "kg" and is_timed:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
-    elif unit == "rad/s" and ("hertz" in text or "Hz" in text):
-        hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
-    elif unit == "kg*m**2":
+    elif unit == "kg*m**2" and is_timed:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
+    elif unit == "rad/s" and error is None:
+        hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     return UnitsError(
         f"{argument}: {_shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {_EXAMPLES[unit]}",
         code="bad_units",

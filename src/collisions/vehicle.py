@@ -3,24 +3,33 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import FrozenInstanceError, dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
 from .directions import direction, from_radians
 from .errors import InputError, MissingInputError
-from .fields import Quantities, derived, hypot, lock, same, show, table
+from .fields import Quantities, derived, hypot, lock, returns, same, show, table
+from .kernels.checks import not_about_pivot
 from .kernels.select import select
 from .kernels.turning import turning_velocity
-from .units import FINITE, POSITIVE, Door, Input, Pair, Value
+from .units import FINITE, POSITIVE, Door, Input, Pair, Value, broadcast
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
 
 
+class _Written:
+    """How the fields given with a unit were written; None if all are plain floats, which the solvers need not look at again."""
+
+    __slots__ = ("_given",)
+
+    _given: dict[str, str] | None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, eq=False, repr=False)
-class Vehicle:
+class Vehicle(_Written):
     """One body in the road plane at one instant: what it weighs, where it is and how it moves.
 
     The state before an impact, and also the state after it, so that the result of one impact can be the start of the next.
@@ -69,8 +78,6 @@ class Vehicle:
     heading: Value | None = field(metadata={"unit": "rad", "domain": FINITE})
     pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
-    # How the fields given with a unit were written; None if all are plain floats, which the solvers need not look at again.
-    _given: dict[str, str] | None = field(metadata={"hidden": True})
 
     def __init__(
         self,
@@ -86,9 +93,8 @@ class Vehicle:
         pivot: Pair | None = None,
         name: str = "",
     ) -> None:
-        given: dict[str, str] | None = None
         if not (
-            # Six plain floats in order need none of the door; anything else goes through it.
+            # Plain floats in order need none of the door; anything else goes through it.
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
             and mass > 0.0
             and _isfinite(vx + vy)
@@ -100,9 +106,8 @@ class Vehicle:
             and pivot is None
             and type(name) is str
         ):
-            mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name, given = _through_the_door(
-                mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name
-            )
+            _fill(self, _through_the_door(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
+            return
         _set_mass(self, mass)
         _set_vx(self, vx)
         _set_vy(self, vy)
@@ -113,7 +118,7 @@ class Vehicle:
         _set_heading(self, heading)
         _set_pivot(self, pivot)
         _set_name(self, name)
-        _set_given(self, given)
+        _set_given(self, None)
 
     @classmethod
     def barrier(cls, **rest: Any) -> Vehicle:
@@ -146,8 +151,17 @@ class Vehicle:
             raise InputError("give either speed and course or vx and vy, not both", code="speed_twice", argument="speed")
         door = Door()
         magnitude = door.number(speed, "m/s", "speed")
+        if np.any(np.less(magnitude, 0.0)):
+            door.refuse(
+                InputError(
+                    f"speed must be >= 0, got {speed!r}; turn the course by 180 deg to go the other way",
+                    code="negative_speed",
+                    argument="speed",
+                )
+            )
         cx, cy = direction(door, course, "course")
         door.close()
+        broadcast({"speed": magnitude, "course": cx})
         vehicle = cls(**{**rest, "vx": magnitude * cx + 0.0, "vy": magnitude * cy + 0.0})
         if door.texts:
             _set_given(vehicle, {**(vehicle._given or {}), **door.texts})
@@ -161,15 +175,23 @@ class Vehicle:
         >>> Vehicle(mass=900.0).replace(yaw_inertia=1200.0)
         Vehicle(mass=900 kg, yaw_inertia=1200 kg*m**2)
         """
-        kept = {name: getattr(self, name) for name in _NAMES}
+        kept = {name: getattr(self, name) for name in NAMES}
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
             kept["vx"] = kept["vy"] = 0.0
-        vehicle = type(self)(**{**kept, **changes})
+        vehicle = self._of_numbers(kept, changes)
         if self._given:
             texts = {name: text for name, text in self._given.items() if name not in changes}
             if {"vx", "vy"} & changes.keys():
                 texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
             _set_given(vehicle, {**texts, **(vehicle._given or {})})
+        return vehicle
+
+    @classmethod
+    def _of_numbers(cls, numbers: dict[str, Any], changes: dict[str, Any] | None = None) -> Vehicle:
+        """A vehicle from SI numbers that a vehicle held before, whose size is beyond suspicion, and some new values."""
+        vehicle: Vehicle = object.__new__(cls)
+        trusted = numbers.keys() - (changes or {}).keys()
+        _fill(vehicle, _through_the_door(**{**numbers, **(changes or {})}, trusted=trusted))
         return vehicle
 
     def _moved(self, vx: Any, vy: Any, yaw_rate: Any) -> Vehicle:
@@ -223,11 +245,12 @@ class Vehicle:
             The body turns and its yaw inertia was not given.
         """
         energy = _product(self.mass, 0.5 * (self.vx * self.vx + self.vy * self.vy))
-        if np.all(np.equal(self.yaw_rate, 0.0)):
+        if self._rests(self.yaw_rate):
             return energy
         inertia = self._need("yaw_inertia", "kinetic_energy of a turning body")
         return energy + _product(inertia, 0.5 * (self.yaw_rate * self.yaw_rate))
 
+    @returns("m")
     def point(
         self,
         *,
@@ -268,9 +291,11 @@ class Vehicle:
             ahead = 0.0 if forward is _ABSENT else door.number(forward, "m", "forward")
             aside = 0.0 if left is _ABSENT else door.number(left, "m", "left")
         door.close()
+        broadcast({"x": x, "y": y, "heading": heading, "forward": ahead, "left": aside})
         hx, hy = from_radians(heading)
         return x + (ahead * hx - aside * hy), y + (ahead * hy + aside * hx)
 
+    @returns("m/s")
     def velocity_at(self, point: Pair) -> tuple[Value, Value]:
         """Velocity (x, y) [m/s] of the place of the body that is at a scene point.
 
@@ -287,16 +312,20 @@ class Vehicle:
         door = Door()
         px, py = door.pair(point, "m", "point")
         door.close()
+        broadcast({"point[0]": px, "point[1]": py} | {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")})
         turn_x, turn_y = self._turn_at(self.yaw_rate, px, py, "velocity_at")
         return self.vx + turn_x, self.vy + turn_y
 
     def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:
         """What a yaw rate adds to the velocity at a scene point."""
-        resting = (yaw_rate == 0.0) | (yaw_rate != yaw_rate)
-        if resting is True or np.all(resting):
-            # Nothing turns, so no position is needed; NaN stays NaN.
+        if self._rests(yaw_rate):
             return yaw_rate, yaw_rate
         return turning_velocity(yaw_rate, px, py, self._need("x", purpose), self._need("y", purpose))
+
+    @staticmethod
+    def _rests(yaw_rate: Any) -> bool:
+        """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
+        return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
     def _need(self, name: str, purpose: str) -> Any:
         """The value of an optional field, or a MissingInputError that says what it is needed for."""
@@ -308,7 +337,7 @@ class Vehicle:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
             return NotImplemented
-        return all(same(getattr(self, name), getattr(other, name)) for name in _NAMES)
+        return all(same(getattr(self, name), getattr(other, name)) for name in NAMES)
 
     __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
 
@@ -321,39 +350,37 @@ class Vehicle:
     def _rows(self) -> Any:
         for f in fields(self):
             value = getattr(self, f.name)
-            if (
-                "hidden" in f.metadata
-                or value is None
-                or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET)
-            ):
+            if value is None or (type(value) in (float, str) and value in (0.0, "") and f.name in _QUIET):
                 continue
             yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in (*_NAMES, "_given")}
+        return {name: getattr(self, name) for name in (*NAMES, "_given")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for name, value in state.items():
             object.__setattr__(self, name, lock(value))
 
 
-_NAMES = tuple(f.name for f in fields(Vehicle) if "hidden" not in f.metadata)
+def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
+    raise FrozenInstanceError(f"a Vehicle is frozen: {name} cannot be set; write vehicle.replace({name}=...)")
+
+
+# The ones that dataclass makes fail with a TypeError for names that are no field, because of the slots.
+Vehicle.__setattr__ = Vehicle.__delattr__ = _refuse_setting  # type: ignore[assignment,method-assign]
+
+NAMES = tuple(f.name for f in fields(Vehicle))
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
-(
-    _set_mass,
-    _set_vx,
-    _set_vy,
-    _set_yaw_rate,
-    _set_yaw_inertia,
-    _set_x,
-    _set_y,
-    _set_heading,
-    _set_pivot,
-    _set_name,
-    _set_given,
-) = (getattr(Vehicle, f.name).__set__ for f in fields(Vehicle))
+_SETTERS = tuple(getattr(Vehicle, name).__set__ for name in (*NAMES, "_given"))
+_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, *_rest = _SETTERS
+_set_pivot, _set_name, _set_given = _rest
+
+
+def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
+    for setter, value in zip(_SETTERS, values, strict=True):
+        setter(vehicle, value)
 
 
 def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
@@ -391,26 +418,38 @@ def _product(weight: Value, motion: Value) -> Value:
 
 
 def _through_the_door(
-    mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any, heading: Any, pivot: Any, name: Any
+    mass: Any,
+    vx: Any,
+    vy: Any,
+    yaw_rate: Any,
+    yaw_inertia: Any,
+    x: Any,
+    y: Any,
+    heading: Any,
+    pivot: Any,
+    name: Any,
+    trusted: Any = (),
 ) -> tuple[Any, ...]:
     """Every field in SI, and the texts of those given with a unit; one error names all that cannot be used."""
-    door = Door()
+    door = Door(trusted)
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
-    if mass is None:
-        door.refuse(
-            MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
-        )
-    read = [
-        value if value is None else door.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
-        for value, f in zip(raw, fields(Vehicle), strict=False)
-    ]
-    for label, value in (("vx", vx), ("vy", vy), ("yaw_rate", yaw_rate)):
-        if value is None:
-            door.refuse(InputError(f"{label} is None; leave it out for 0", code="not_a_number", argument=label))
+    read = []
+    for value, f in zip(raw, fields(Vehicle), strict=False):
+        if value is not None:
+            value = door.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
+        elif f.name == "mass":
+            door.refuse(
+                MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
+            )
+        elif f.name in ("vx", "vy", "yaw_rate"):
+            door.refuse(InputError(f"{f.name} is None; leave it out for 0", code="not_a_number", argument=f.name))
+        read.append(value)
     if not isinstance(name, str):
         door.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
     pin = None if pivot is None else door.pair(pivot, "m", "pivot")
     door.close()
+    named = dict(zip(NAMES, read, strict=False))
+    broadcast(named if pin is None else {**named, "pivot[0]": pin[0], "pivot[1]": pin[1]})
     if pin is not None:
         read[1], read[2] = _pinned(pin, *read[:7])
     return (*read, pin, name, door.texts)
@@ -434,17 +473,17 @@ def _pinned(
                 code="missing_position",
                 argument=label,
             )
-    wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
-    if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
-        if (vx != 0.0 or vy != 0.0) and math.hypot(vx - wanted_x, vy - wanted_y) > 1e-9 * math.hypot(wanted_x, wanted_y):
-            raise InputError(
-                f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate times "
-                f"arm gives ({wanted_x:.10g}, {wanted_y:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
-                code="pinned_velocity",
-                argument="vx",
-            )
-        return wanted_x, wanted_y
-    resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
-    moved_x, moved_y = np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)
-    moved: tuple[Any, Any] = lock((moved_x, moved_y))
+    with np.errstate(all="ignore"):
+        wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
+        if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
+            if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
+                raise InputError(
+                    f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate "
+                    f"times arm gives ({wanted_x + 0.0:.10g}, {wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
+                    code="pinned_velocity",
+                    argument="vx",
+                )
+            return wanted_x, wanted_y
+        resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
+        moved: tuple[Any, Any] = lock((np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)))
     return moved

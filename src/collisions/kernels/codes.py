@@ -48,6 +48,8 @@ OUTPUTS = (
     "energy_loss_normal",
     "energy_loss_tangential",
     "energy_loss",
+    "impulse_x",
+    "impulse_y",
     "delta_vx_a",
     "delta_vy_a",
     "delta_yaw_rate_a",
@@ -55,3 +57,4 @@ OUTPUTS = (
     "delta_vy_b",
     "delta_yaw_rate_b",
 )
+AT = {name: index for index, name in enumerate(OUTPUTS)}

@@ -92,12 +92,14 @@ def eccentric(
     k_nt = -(brt_a * rn_a + brt_b * rn_b)
     trace = a + b_a * (rx_a * rx_a + ry_a * ry_a) + b_b * (rx_b * rx_b + ry_b * ry_b)
     threshold = (64.0 * eps) * (64.0 * eps) * trace
-    immovable = k_nn <= threshold
-    k_nn = select(immovable, 1.0, k_nn)
-    trace = select(immovable, 1.0, trace)
+    bounded = threshold - threshold == 0.0
+    yields = k_nn > threshold
+    immovable = bounded & (yields ^ True)
+    k_nn = select(yields, k_nn, 1.0)
+    trace = select(yields, trace, 1.0)
     cross = rx_a * ry_b - ry_a * rx_b
     determinant = a + ((b_a / trace) * cross) * (b_b * cross)
-    singular = determinant <= threshold
+    regular = determinant > threshold
 
     # The impulse that ends with the slip a sticking contact keeps.
     kept = sticking_slip(restitution, law)
@@ -106,7 +108,7 @@ def eccentric(
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
-    divisor = select(singular, 1.0, determinant)
+    divisor = select(regular, determinant, 1.0)
     no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divisor
     no_slip_t = no_slip_t_determinant / divisor
 
@@ -142,8 +144,9 @@ def eccentric(
     else:
         dvx_b, dvy_b = a_b * impulse_x, a_b * impulse_y
     total = normal + impulse_t + loss + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
-    stuck = singular & no_slip_matters
-    fine = (closing > 0.0) & (total - total == 0.0) & ((immovable | stuck | pulls | jams | gains) ^ True)
+    stuck = bounded & (regular ^ True) & no_slip_matters
+    finite = bounded & (total - total == 0.0)
+    fine = (closing > 0.0) & finite & ((immovable | stuck | pulls | jams | gains) ^ True)
     status = (
         OK
         if fine is True
@@ -154,12 +157,12 @@ def eccentric(
             (stuck, SINGULAR_CONTACT),
             (pulls, NO_SLIP_PULLS),
             (jams, RATIO_JAMS),
-            (total - total != 0.0, OUT_OF_RANGE),
+            (finite ^ True, OUT_OF_RANGE),
             (gains, ENERGY_GAIN),
         )
     )
     return (
         status, closing, slip, slip_after, normal, impulse_t, normal / (1.0 + restitution), no_slip_n, no_slip_t,
-        sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss,
+        sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss, impulse_x, impulse_y,
         dvx_a, dvy_a, spin_change_a, dvx_b, dvy_b, spin_change_b,
     )  # fmt: skip

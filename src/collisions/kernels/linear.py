@@ -40,7 +40,7 @@ def linear_central(
     )
     return (
         status, closing, 0.0, 0.0, normal, 0.0, compression, normal, 0.0, False, effective_mass, 0.0, loss, 0.0, loss,
-        nx * dvn_a, ny * dvn_a, 0.0, nx * dvn_b, ny * dvn_b, 0.0,
+        nx * normal, ny * normal, nx * dvn_a, ny * dvn_a, 0.0, nx * dvn_b, ny * dvn_b, 0.0,
     )  # fmt: skip
 
 
@@ -49,9 +49,7 @@ def outside_linear(
 ) -> Any:
     """Status of motion that the linear model cannot hold, 0 where there is none."""
     spins = (spin_a != 0.0) | (spin_b != 0.0)
-    # What rounding leaves of a motion along the normal is below 8 eps of the speed.
-    most = 8.0 * eps
-    across = (abs(nx * vy_a - ny * vx_a) > most * abs(nx * vx_a + ny * vy_a)) | (
-        abs(nx * vy_b - ny * vx_b) > most * abs(nx * vx_b + ny * vy_b)
-    )
+    # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
+    most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
+    across = (abs(nx * vy_a - ny * vx_a) > most) | (abs(nx * vy_b - ny * vx_b) > most)
     return OK if spins is False and across is False else verdict((spins, SPINNING), (across, TRANSVERSE))

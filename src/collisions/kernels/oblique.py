@@ -77,6 +77,7 @@ def oblique_central(
     return (
         status, closing, slip, slip_after, normal, impulse_t, effective_mass * closing, normal, effective_mass * no_slip_t,
         sticks, effective_mass, 0.0, loss_n, loss_t, loss,
+        effective_mass * change_x, effective_mass * change_y,
         -(share_a * change_x), -(share_a * change_y), 0.0, share_b * change_x, share_b * change_y, 0.0,
     )  # fmt: skip
 
