@@ -244,7 +244,7 @@ def eccentric():
     seen.plot([0, 0], [2.05, 3.3], color=GREY, lw=1, ls=":")
     label(seen, (0, 4.25), "PDOF 0\nfrom ahead", fontsize=10)
     label(seen, (3.2, 0), "+90°\nfrom the\nright", fontsize=10)
-    label(seen, (-3.2, 0), "−90°\nfrom the\nleft", fontsize=10)  # noqa: RUF001
+    label(seen, (-3.2, 0), "−90°\nfrom the\nleft", fontsize=10)
     label(seen, (0, -3.4), "180°\nfrom behind", fontsize=10)
     came = unit(90 - 50)
     arrow(seen, 3.5 * came, 0.25 * came, FORCE, 2.2)

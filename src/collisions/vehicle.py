@@ -479,7 +479,8 @@ def _pinned(
             if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
                 raise InputError(
                     f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate "
-                    f"times arm gives ({wanted_x + 0.0:.10g}, {wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct yaw_rate",
+                    f"times arm gives ({wanted_x + 0.0:.10g}, {wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct "
+                    f"yaw_rate",
                     code="pinned_velocity",
                     argument="vx",
                 )
