@@ -40,7 +40,7 @@ from strategies import (
 )
 
 EXAMPLES = int(os.environ.get("COLLISIONS_FUZZ", "0"))
-SECONDS = 5.0
+SECONDS = 60.0
 BUSY = 1e100  # beyond this, products of two numbers may leave the range of floats
 
 

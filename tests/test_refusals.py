@@ -65,6 +65,9 @@ REFUSALS = [
     ("bad_option", lambda: col.linear_central(car(vx=1.0), STRUCK, 0.1, threads=0), ["threads"]),
     ("bad_option", lambda: col.linear_central(car(vx=1.0), STRUCK, 0.1, progress=3), ["progress"]),
     ("out_of_range", lambda: col.linear_central(car(vx=1e200), STRUCK, 0.1), ["not a finite number"]),
+    ("out_of_range", lambda: pinned(x=1e308, pivot=(0.0, -3.4), yaw_rate=3.5), ["pinned", "too large"]),
+    ("out_of_range", lambda: col.oblique_central(col.Vehicle(mass=1e-204, vx=1e-30, vy=-1e308), car(vy=2.8), 0.04, normal=0.0, friction=3.1, law="kudlich-slibar"), ["not a finite number"]),
+    ("immovable", lambda: col.eccentric(col.Vehicle.barrier(), col.Vehicle(mass=INF, vx=-1e-200, vy=-0.1, yaw_inertia=4e-192, x=-1e-187, y=0.0), 1.0, normal=-2.45, critical_fraction=1.0, point=(0.0, 0.0)), ["nothing can yield"]),
 ]  # fmt: skip
 KINDS = {
     "bad_shape": col.ShapeError,

@@ -164,7 +164,7 @@ def answer(
 
     ``scope`` finds the motion that the model cannot hold; every other value has been checked at the door.
     """
-    if on_failure is not None or threads != 1 or progress is not None:
+    if on_failure is not None or type(threads) is not int or threads != 1 or progress is not None:
         _check_options(on_failure, threads, progress)
     question = _as_asked(Asked, asked)
     if not (plain and question.a._given is None and question.b._given is None):
@@ -314,7 +314,7 @@ def _warn_of_gain(what: str, gain: float) -> None:
 
 
 def _check_options(on_failure: Any, threads: Any, progress: Any) -> None:
-    if on_failure not in (None, "raise", "nan"):
+    if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
         raise InputError(
             f"on_failure must be None, 'raise' or 'nan', got {on_failure!r}", code="bad_option", argument="on_failure"
         )

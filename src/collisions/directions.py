@@ -70,7 +70,9 @@ def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
         scaled_length = np.hypot(scaled_x, scaled_y)
         divisor = np.where(scaled_length == 0.0, 1.0, scaled_length).astype(scaled_length.dtype)
         keep = abs(length - 1.0) <= np.finfo(length.dtype).eps
-        return np.where(keep, vx, scaled_x / divisor), np.where(keep, vy, scaled_y / divisor)
+        # A part that is not finite makes the whole vector NaN.
+        finite = np.where(np.isfinite(vx) & np.isfinite(vy), 0.0, np.nan).astype(length.dtype)
+        return np.where(keep, vx, scaled_x / divisor) + finite, np.where(keep, vy, scaled_y / divisor) + finite
 
 
 def from_radians(angle: Any) -> tuple[Any, Any]:

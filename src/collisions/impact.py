@@ -13,7 +13,7 @@ from .fields import Quantities, attributes, derived, hypot, lock, numeric, retur
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
-from .records import from_record, to_columns, to_record
+from .records import bad_record, from_record, to_columns, to_record
 from .side import Side
 from .units import UNIT_INTERVAL, Door, Input, Value, broadcast
 from .vehicle import Vehicle, angle_of
@@ -315,12 +315,11 @@ class Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
         question, refused = from_record(record)
         if question["model"] not in SOLVERS:
-            raise InputError(
-                f"record was made by {question['model']!r}; known are {', '.join(SOLVERS)}",
-                code="bad_record",
-                argument="record",
-            )
-        return Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
+            raise bad_record(f"its model is {question['model']!r}; known are {', '.join(SOLVERS)}")
+        try:
+            return Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
+        except TypeError as error:
+            raise bad_record(f"its inputs are not those of {question['model']}") from error
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""

@@ -36,20 +36,21 @@ def to_record(impact: Any) -> dict[str, Any]:
 def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool]:
     """The question of a record by its parts, and whether some of its cases had been refused."""
     try:
-        if record["format"] != _FORMAT:
-            raise _bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
+        if not isinstance(record["format"], str) or record["format"] != _FORMAT:
+            raise bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
         inputs = record["inputs"]
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
-            raise _bad_record(f"its model is {question['model']!r} and its rule {question['rule']!r}")
+            raise bad_record(f"its model is {question['model']!r} and its rule {question['rule']!r}")
         for side in "ab":
             state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
             question[side] = Vehicle._of_numbers({**_NOTHING, **state, "name": inputs[side]["name"]})
-        refused = bool(np.any(np.asarray(_number(record["results"]["status"])) > Status.ENERGY_GAIN))
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise _bad_record(f"{type(error).__name__} {error}") from error
+        status = record["results"]["status"]
+        refused = any(code > Status.ENERGY_GAIN for code in (status["values"] if isinstance(status, Mapping) else [status]))
+    except InputError:
+        raise
+    except Exception as error:
+        raise bad_record(f"{type(error).__name__} {error}") from error
     return question, refused
 
 
@@ -71,7 +72,7 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
     return {name: np.broadcast_to(np.asarray(value), shape).reshape(-1).tolist() for name, value in columns.items()}
 
 
-def _bad_record(why: str) -> InputError:
+def bad_record(why: str) -> InputError:
     return InputError(f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record")
 
 
@@ -119,6 +120,8 @@ def _number(value: Any) -> Any:
     if isinstance(value, list):
         return tuple(_number(part) for part in value)
     if isinstance(value, Mapping):
+        if value["dtype"] not in ("float32", "float64"):
+            raise bad_record(f"an array of {value['dtype']!r} is none that to_dict writes")
         numbers = [_number(part) for part in value["values"]]
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
     return _INFINITIES.get(value, value) if isinstance(value, str) else value

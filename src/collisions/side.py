@@ -160,8 +160,9 @@ class Side:
         px, py = door.pair(point, "m", "point")
         door.close()
         broadcast({"point[0]": px, "point[1]": py, "delta_vx": self.delta_vx})
-        turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
-        return self.delta_vx + turn_x, self.delta_vy + turn_y
+        with np.errstate(all="ignore"):
+            turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
+            return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._raw[codes.AT["impulse_x"]], self._raw[codes.AT["impulse_y"]]

@@ -81,6 +81,7 @@ _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = re.compile(rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*")
 _LONGEST_TEXT = 60
+_DEEPEST = 32  # dimensions of a nested list; numpy itself stops at 64
 # Read in degrees, which can be reduced exactly; radians cannot.
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 
@@ -157,13 +158,12 @@ class Door:
 
     def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
         """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
+        whole = value.magnitude if is_quantity(value) else value
         parts = value
-        if is_quantity(value):
-            parts = tuple(value) if np.shape(value.magnitude) == (2,) else None
-        elif isinstance(value, np.ndarray):
-            parts = tuple(value) if value.shape == (2,) else None
+        if isinstance(whole, np.ndarray):
+            parts = tuple(value) if whole.shape == (2,) and whole.dtype.kind in "fiu" else None
         if not isinstance(parts, (tuple, list)) or len(parts) != 2:
-            shape = f" of shape {np.shape(getattr(value, 'magnitude', value))}" if hasattr(value, "__array__") else ""
+            shape = f" of shape {whole.shape}" if isinstance(whole, np.ndarray) else ""
             self.refuse(
                 ShapeError(
                     f"{argument} must be a pair (x, y), got {_shown(value)}{shape}; for many points write "
@@ -217,7 +217,7 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
 
 def _plain(value: Any, argument: str, unit: str) -> Any:
     """A float or a fresh float array from a number or an array without unit."""
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, (bool, np.bool_, np.timedelta64)):
         raise _not_a_number(value, argument, unit)
     if isinstance(value, (int, float, np.integer, np.floating)):
         try:
@@ -236,7 +236,12 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
     elif not isinstance(value, np.ndarray):
         if not hasattr(value, "__array__") or hasattr(value, "units") or hasattr(value, "unit"):
             raise _not_a_number(value, argument, unit)
-        value = np.asarray(value)
+        try:
+            value = value.__array__()
+        except Exception as error:
+            raise _not_a_number(value, argument, unit) from error
+    if not isinstance(value, np.ndarray):
+        raise _not_a_number(value, argument, unit)
     if type(value) not in (np.ndarray, np.memmap):
         raise InputError(
             f"{argument} is a {type(value).__module__}.{type(value).__name__}, whose mask or unit would be lost; give a plain "
@@ -259,11 +264,13 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
 
 
 def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
-    stack: list[Any] = [value]
+    stack: list[tuple[Any, int]] = [(value, 0)]
     while stack:
-        item = stack.pop()
+        item, depth = stack.pop()
         if isinstance(item, (list, tuple)):
-            stack.extend(item)
+            if depth == _DEEPEST:
+                raise ShapeError(f"{argument} is nested too deeply; give an array", code="bad_shape", argument=argument)
+            stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
                 f"{argument} is a {type(value).__name__} with {_shown(item)} in it; put the unit on the whole: "
@@ -271,7 +278,9 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
                 code="bad_units",
                 argument=argument,
             )
-        elif isinstance(item, (bool, np.bool_)) or not isinstance(item, (int, float, np.number, np.ndarray)):
+        elif isinstance(item, (bool, np.bool_, np.timedelta64)) or not (
+            isinstance(item, (int, float, np.number)) or type(item) is np.ndarray
+        ):
             raise _not_a_number(item, argument, unit)
     try:
         return np.array(value)
@@ -310,9 +319,10 @@ def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, 
     factor, name = _factor(quantity, unit, argument, given)
     text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
     if factor != 1.0:
-        finite = isinstance(magnitude, float) and not math.isinf(magnitude)
-        magnitude *= factor
-        if finite and math.isinf(magnitude):
+        infinite = np.count_nonzero(np.isinf(magnitude))
+        with np.errstate(over="ignore"):
+            magnitude *= factor
+        if np.count_nonzero(np.isinf(magnitude)) > infinite:
             raise InputError(f"{argument} is too large: {_shown(given)}", code="out_of_range", argument=argument)
     return magnitude, text
 
@@ -329,14 +339,13 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
     in_context = bool(getattr(getattr(registry, "_active_ctx", None), "contexts", ()))
     if found is None or in_context:
         try:
-            zero, factor, two = (
-                float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0.0, 1.0, 2.0)
-            )
+            # Whole numbers, because a registry may count in Decimal.
+            zero, factor, two = (float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0, 1, 2))
+            found = factor, "" if quantity.unitless else f"{quantity.units}"
         except Exception as error:
             raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * factor or _is_of_another_kind(quantity, unit):
             raise _bad_units(given, unit, argument, None)
-        found = factor, "" if quantity.unitless else f"{quantity.units}"
         if not in_context:
             known[key] = found
     return found

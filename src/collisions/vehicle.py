@@ -162,7 +162,9 @@ class Vehicle(_Written):
         cx, cy = direction(door, course, "course")
         door.close()
         broadcast({"speed": magnitude, "course": cx})
-        vehicle = cls(**{**rest, "vx": magnitude * cx + 0.0, "vy": magnitude * cy + 0.0})
+        with np.errstate(all="ignore"):
+            vx, vy = magnitude * cx + 0.0, magnitude * cy + 0.0
+        vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if door.texts:
             _set_given(vehicle, {**(vehicle._given or {}), **door.texts})
         return vehicle
@@ -286,14 +288,16 @@ class Vehicle(_Written):
         if all(polar):
             length = door.number(distance, "m", "distance")
             c, s = direction(door, angle, "angle")
-            ahead, aside = length * c, length * s
+            with np.errstate(all="ignore"):
+                ahead, aside = length * c, length * s
         else:
             ahead = 0.0 if forward is _ABSENT else door.number(forward, "m", "forward")
             aside = 0.0 if left is _ABSENT else door.number(left, "m", "left")
         door.close()
         broadcast({"x": x, "y": y, "heading": heading, "forward": ahead, "left": aside})
         hx, hy = from_radians(heading)
-        return x + (ahead * hx - aside * hy), y + (ahead * hy + aside * hx)
+        with np.errstate(all="ignore"):
+            return x + (ahead * hx - aside * hy), y + (ahead * hy + aside * hx)
 
     @returns("m/s")
     def velocity_at(self, point: Pair) -> tuple[Value, Value]:
@@ -313,8 +317,9 @@ class Vehicle(_Written):
         px, py = door.pair(point, "m", "point")
         door.close()
         broadcast({"point[0]": px, "point[1]": py} | {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")})
-        turn_x, turn_y = self._turn_at(self.yaw_rate, px, py, "velocity_at")
-        return self.vx + turn_x, self.vy + turn_y
+        with np.errstate(all="ignore"):
+            turn_x, turn_y = self._turn_at(self.yaw_rate, px, py, "velocity_at")
+            return self.vx + turn_x, self.vy + turn_y
 
     def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:
         """What a yaw rate adds to the velocity at a scene point."""
@@ -476,6 +481,12 @@ def _pinned(
     with np.errstate(all="ignore"):
         wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
         if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
+            if not _isfinite(wanted_x + wanted_y):
+                raise InputError(
+                    "the velocity of this pinned body is too large for a float: check x, y, pivot and yaw_rate",
+                    code="out_of_range",
+                    argument="yaw_rate",
+                )
             if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
                 raise InputError(
                     f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate "
@@ -486,5 +497,6 @@ def _pinned(
                 )
             return wanted_x, wanted_y
         resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
-        moved: tuple[Any, Any] = lock((np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy)))
+        moved_x, moved_y = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
+    moved: tuple[Any, Any] = lock((moved_x.copy(), moved_y.copy()))
     return moved

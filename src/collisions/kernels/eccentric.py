@@ -93,7 +93,7 @@ def eccentric(
     trace = a + b_a * (rx_a * rx_a + ry_a * ry_a) + b_b * (rx_b * rx_b + ry_b * ry_b)
     threshold = (64.0 * eps) * (64.0 * eps) * trace
     bounded = threshold - threshold == 0.0
-    yields = k_nn > threshold
+    yields = (k_nn > threshold) & (trace > 0.0)
     immovable = bounded & (yields ^ True)
     k_nn = select(yields, k_nn, 1.0)
     trace = select(yields, trace, 1.0)
@@ -143,7 +143,9 @@ def eccentric(
         dvx_b, dvy_b = turning_velocity(spin_change_b, x_b, y_b, pivot_x_b, pivot_y_b)
     else:
         dvx_b, dvy_b = a_b * impulse_x, a_b * impulse_y
-    total = normal + impulse_t + loss + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
+    total = (
+        normal + impulse_t + loss + loss_n + loss_t + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
+    )
     stuck = bounded & (regular ^ True) & no_slip_matters
     finite = bounded & (total - total == 0.0)
     fine = (closing > 0.0) & finite & ((immovable | stuck | pulls | jams | gains) ^ True)

@@ -60,7 +60,7 @@ def oblique_central(
 
     change_x = nx * change_n - ny * change_t
     change_y = ny * change_n + nx * change_t
-    total = normal + impulse_t + loss + change_x + change_y
+    total = normal + impulse_t + loss + loss_n + loss_t + slip_after + change_x + change_y
     fine = (closing > 0.0) & (total - total == 0.0) & (gains ^ True) & (pulls ^ True)
     status = (
         OK
