@@ -1,8 +1,12 @@
 """Vehicle impacts by impulse and momentum: linear central, oblique central and eccentric.
 
 Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted at
-the door. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``.
+the door. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
+``travel`` has what the ground takes.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from .eccentric import eccentric
 from .errors import (
@@ -26,6 +30,9 @@ from .linear import linear_central
 from .oblique import oblique_central
 from .vehicle import Vehicle
 
+if TYPE_CHECKING:
+    from . import reconstruct, travel
+
 __version__ = "0.1.0"
 
 __all__ = [
@@ -48,4 +55,17 @@ __all__ = [
     "eccentric",
     "linear_central",
     "oblique_central",
+    "reconstruct",
+    "travel",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Modules that not every caller needs are imported when they are first asked for."""
+    if name in ("reconstruct", "travel"):
+        return import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -165,7 +165,7 @@ def answer(
     ``scope`` finds the motion that the model cannot hold; every other value has been checked at the door.
     """
     if on_failure is not None or type(threads) is not int or threads != 1 or progress is not None:
-        _check_options(on_failure, threads, progress)
+        check_options(on_failure, threads, progress)
     question = _as_asked(Asked, asked)
     if not (plain and question.a._given is None and question.b._given is None):
         shape = broadcast(dict(_values(question)))
@@ -204,12 +204,11 @@ def _batch(
         found.append((partial(scope[0], eps=eps), scope[1]))
     raw = solve_lanes(lambda *block: kernel(*block, *settings, eps), inputs, found, shape, dtype, threads, progress)
     status = raw[0]
-    refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
-    if refused:
+    if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
             raise _first_refusal(asked, status)
         if on_failure is None:
-            _warn_of_refusals(status, refused)
+            warn_of_refusals(status)
     gaining = status == codes.ENERGY_GAIN
     if gaining.any():
         most = float(-raw[codes.OUTPUTS.index("energy_loss")][gaining].min())
@@ -259,8 +258,7 @@ def _value_checks(asked: Asked, eps: float) -> list[Check]:
 
 def _first_refusal(asked: Asked, status: Any) -> CollisionsError:
     """The error of the first refused case, found by asking for it alone."""
-    index = tuple(int(i) for i in np.argwhere(status > codes.ENERGY_GAIN)[0])
-    place = f"case {index if len(index) != 1 else index[0]}: "
+    index, place = first_refused(status)
 
     def lane(value: Any) -> Any:
         if isinstance(value, tuple):
@@ -286,7 +284,15 @@ def _first_refusal(asked: Asked, status: Any) -> CollisionsError:
     return InputError(place + outcome.sentence, code=outcome.label)
 
 
-def _warn_of_refusals(status: Any, refused: int) -> None:
+def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
+    """Where in a batch the first refused case stands, and how a message says so."""
+    index = tuple(int(i) for i in np.argwhere(status > codes.ENERGY_GAIN)[0])
+    return index, f"case {index if len(index) != 1 else index[0]}: "
+
+
+def warn_of_refusals(status: Any) -> None:
+    """One warning that counts the refused cases of a batch by their kind."""
+    refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
     kinds = {
         Status(int(code)).label: int(np.count_nonzero(status == code)) for code in np.unique(status[status > codes.ENERGY_GAIN])
     }
@@ -313,7 +319,8 @@ def _warn_of_gain(what: str, gain: float) -> None:
     )
 
 
-def _check_options(on_failure: Any, threads: Any, progress: Any) -> None:
+def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
+    """Refuses an option that no solver knows."""
     if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
         raise InputError(
             f"on_failure must be None, 'raise' or 'nan', got {on_failure!r}", code="bad_option", argument="on_failure"

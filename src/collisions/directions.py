@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .errors import InputError, ShapeError
 from .units import Door, broadcast
+
+
+class Angle(NamedTuple):
+    """An angle as it was given: in degrees, which can be reduced exactly, or in radians."""
+
+    value: Any
+    in_degrees: bool
+
+    @property
+    def radians(self) -> Any:
+        """The angle in radians."""
+        return np.multiply(self.value, math.pi / 180.0) if self.in_degrees else np.asarray(self.value)
+
+    @property
+    def direction(self) -> tuple[Any, Any]:
+        """Unit vector in the direction of the angle."""
+        return from_degrees(self.value) if self.in_degrees else from_radians(self.value)
+
 
 # A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a result stays the same bits.
 _UNIT_LENGTH = 2.0**-52
@@ -39,8 +57,14 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
             )
         )
         return math.nan, math.nan
-    angle, in_degrees = door.angle(value, argument)
-    return from_degrees(angle) if in_degrees else from_radians(angle)
+    return Angle(*door.angle(value, argument)).direction
+
+
+def between(one: Angle, other: Angle) -> tuple[Any, Any]:
+    """Cosine and sine of the angle from one to the other, from their difference: exact where two courses are nearly one."""
+    if one.in_degrees and other.in_degrees:
+        return from_degrees(np.subtract(other.value, one.value))
+    return from_radians(other.radians - one.radians)
 
 
 def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:

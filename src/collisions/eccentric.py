@@ -88,11 +88,11 @@ def eccentric(
     (3648.6, 12162)
     """
     e, n, rule, bound, contact, plain = read(
-        a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, _missing(a, b, point)
+        a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, missing_numbers(a, b, point)
     )
     return answer(
         kernel,
-        (e, *n, bound, *(contact or ()), *_body(a, contact), *_body(b, contact)),
+        (e, *n, bound, *(contact or ()), *body_numbers(a, contact), *body_numbers(b, contact)),
         (rule, law, a.pivot is not None, b.pivot is not None),
         ("eccentric", a, b, e, n, rule, bound, law, contact),
         plain,
@@ -103,7 +103,7 @@ def eccentric(
     )
 
 
-def _missing(a: Any, b: Any, point: Any) -> list[InputError]:
+def missing_numbers(a: Any, b: Any, point: Any) -> list[InputError]:
     """What the model needs and was not given; a fixed body that does not turn needs no position."""
     found: list[InputError] = []
     if point is None:
@@ -124,7 +124,7 @@ def _missing(a: Any, b: Any, point: Any) -> list[InputError]:
     return found
 
 
-def _body(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
+def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
     """The numbers of one body; one without a position has no lever that matters."""
     x, y = vehicle.x, vehicle.y
     if x is None or y is None:

@@ -132,6 +132,16 @@ class Status(IntEnum):
     PINNED_VELOCITY = codes.PINNED_VELOCITY
     SPINNING = codes.SPINNING
     TRANSVERSE = codes.TRANSVERSE
+    NO_CLOSING = codes.NO_CLOSING
+    NOT_SEPARATING = codes.NOT_SEPARATING
+    CONTRADICTORY = codes.CONTRADICTORY
+    UNDETERMINED = codes.UNDETERMINED
+    AMBIGUOUS = codes.AMBIGUOUS
+    AMBIGUOUS_INVERSE = codes.AMBIGUOUS_INVERSE
+    STICK_INVERSE = codes.STICK_INVERSE
+    INVERSE_E0 = codes.INVERSE_E0
+    INFINITE_MASS = codes.INFINITE_MASS
+    PARALLEL_HEADINGS = codes.PARALLEL_HEADINGS
 
     @property
     def label(self) -> str:
@@ -164,4 +174,14 @@ _SENTENCES = {
     Status.PINNED_VELOCITY: "the velocity of a pinned body is not its yaw rate times the arm",
     Status.SPINNING: "a body turns, which the central models cannot answer",
     Status.TRANSVERSE: "a body moves across the normal, which the linear model cannot answer",
+    Status.NO_CLOSING: "the bodies did not approach before: the closing speed is 0",
+    Status.NOT_SEPARATING: "the bodies do not part after the impact",
+    Status.CONTRADICTORY: "what was given contradicts itself",
+    Status.UNDETERMINED: "what was given leaves the answer open",
+    Status.AMBIGUOUS: "more than one answer fits",
+    Status.AMBIGUOUS_INVERSE: "more than one state before the impact ends so",
+    Status.STICK_INVERSE: "the contact ended without slip, which tells nothing of the slip before",
+    Status.INVERSE_E0: "after a plastic impact nothing is left of the closing speed",
+    Status.INFINITE_MASS: "the motion of an infinite mass tells nothing of the impact",
+    Status.PARALLEL_HEADINGS: "the courses are parallel, so momentum across them tells nothing",
 }

@@ -13,6 +13,7 @@ from .fields import Quantities, attributes, derived, hypot, lock, numeric, retur
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
+from .provenance import Reconstruction
 from .records import bad_record, from_record, to_columns, to_record
 from .side import Side
 from .units import UNIT_INTERVAL, Door, Input, Value, broadcast
@@ -104,6 +105,11 @@ class Impact:
     @derived()
     def choice(self) -> Any:
         """How the model was chosen; None when its solver was called by name."""
+        return None
+
+    @derived()
+    def reconstruction(self) -> Reconstruction | None:
+        """Which reverse solver found this impact, from what, and how well-posed that was; None for a forward solver."""
         return None
 
     @derived("")
@@ -313,11 +319,12 @@ class Impact:
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
-        question, refused = from_record(record)
+        question, refused, origin, status = from_record(record)
         if question["model"] not in SOLVERS:
             raise bad_record(f"its model is {question['model']!r}; known are {', '.join(SOLVERS)}")
         try:
-            return Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
+            impact = Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
+            return impact if origin is None else found_by(origin, impact._asked, impact._raw, status)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {question['model']}") from error
 
@@ -339,7 +346,7 @@ class Impact:
         raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self._asked, self._raw)
+        return _rebuild, (self._asked, self._raw, self._cache.get("reconstruction"))
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -371,9 +378,25 @@ def build(asked: Asked, raw: tuple[Any, ...]) -> Impact:
     return impact
 
 
-def _rebuild(asked: Asked, raw: tuple[Any, ...]) -> Impact:
+def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status: Any) -> Impact:
+    """An Impact that a reverse solver found; where that gave no answer, its status says why."""
+    code = raw[0]
+    if isinstance(code, np.ndarray):
+        code = np.where((code > codes.ENERGY_GAIN) & np.not_equal(status, codes.OK), status, code).astype(code.dtype)
+    elif code > codes.ENERGY_GAIN and status != codes.OK:
+        code = int(status)
+    impact = build(asked, (lock(code), *raw[1:]))
+    impact._cache["reconstruction"] = origin
+    return impact
+
+
+def _rebuild(asked: Asked, raw: tuple[Any, ...], origin: Reconstruction | None) -> Impact:
     """An unpickled Impact; arrays come out of a pickle unlocked."""
-    return build(lock(asked), lock(raw))
+    impact = build(lock(asked), lock(raw))
+    if origin is not None:
+        lock(origin.condition)
+        impact._cache["reconstruction"] = origin
+    return impact
 
 
 def _own(impact: Impact, name: str) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from .errors import InputError, Status
 from .fields import attributes
 from .kernels import codes
+from .provenance import Reconstruction
 from .side import Side
 from .vehicle import NAMES, Vehicle
 
@@ -33,8 +35,8 @@ def to_record(impact: Any) -> dict[str, Any]:
     }
 
 
-def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool]:
-    """The question of a record by its parts, and whether some of its cases had been refused."""
+def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Reconstruction | None, Any]:
+    """The question of a record by its parts, whether some of its cases had been refused, what found it, and its status."""
     try:
         if not isinstance(record["format"], str) or record["format"] != _FORMAT:
             raise bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
@@ -46,12 +48,18 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool]:
             state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
             question[side] = Vehicle._of_numbers({**_NOTHING, **state, "name": inputs[side]["name"]})
         status = record["results"]["status"]
-        refused = any(code > Status.ENERGY_GAIN for code in (status["values"] if isinstance(status, Mapping) else [status]))
+        listed = status["values"] if isinstance(status, Mapping) else [status]
+        refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
+        origin = record["results"]["reconstruction"]
+        if origin is not None:
+            known = tuple(str(name) for name in origin["known"])
+            origin = Reconstruction(method=str(origin["method"]), known=known, condition=_number(origin["condition"]))
+            status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
-    return question, refused
+    return question, refused, origin, status
 
 
 def to_columns(impact: Any) -> dict[str, list[Any]]:
@@ -80,6 +88,8 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
     if isinstance(value, tuple):
         for part, axis in zip(value, "xy", strict=True):
             columns[f"{name}.{axis}"] = part
+    elif isinstance(value, Reconstruction):
+        columns[f"{name}.condition"] = value.condition
     elif value is not None:
         columns[name] = value
 
@@ -110,6 +120,8 @@ def _strict(value: Any) -> Any:
         return [_strict(part) for part in value]
     if isinstance(value, Status):
         return int(value)
+    if isinstance(value, Reconstruction):
+        return {f.name: _strict(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
     return value

@@ -51,10 +51,15 @@ _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",
     "m/s": "22.2 (m/s), '80 km/h' or '50 mph'",
     "rad/s": "0.5 (rad/s) or '30 deg/s'",
+    "m/s**2": "6.9 (m/s2), '6.9 m/s**2' or '22.5 ft/s**2'",
     "kg*m**2": "1800 (kg m2), '1800 kg*m**2', '1330 slug*ft**2' or '1330 lbf*ft*s**2'",
     "m": "2.1 (m), '2.1 m' or '7 ft'",
     "rad": "1.57 (rad) or '90 deg'",
     "degree": "90 (deg)",
+    "J": "42000 (J), '42 kJ' or '31000 ft*lbf'",
+    "N*s": "9000 (N s) or '9 kN*s'",
+    "N/m": "35000 (N/m), '35 kN/m' or '200 lbf/in'",
+    "N/m**2": "450000 (N/m2), '450 kPa' or '65 lbf/in**2'",
     "": "0.4",
 }
 _TURNS_OF_A_SCENE = 2.0 * math.pi * (1.0 + 1e-9)

@@ -40,6 +40,16 @@ def response(
     return 1.0 / mass, 1.0 / inertia, px - x, py - y, vx, vy
 
 
+def recoil(
+    a: Any, b: Any, torque: Any, impulse_x: Any, impulse_y: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool
+) -> tuple[Any, Any, Any]:
+    """Change of velocity (x, y) and of yaw rate of a body under an impulse at the contact."""
+    spin = b * torque
+    if pinned:
+        return *turning_velocity(spin, x, y, pivot_x, pivot_y), spin
+    return a * impulse_x, a * impulse_y, spin
+
+
 def eccentric(
     restitution: Any,
     nx: Any,
@@ -133,16 +143,8 @@ def eccentric(
 
     impulse_x = nx * normal - ny * impulse_t
     impulse_y = ny * normal + nx * impulse_t
-    spin_change_a = b_a * torque_a
-    spin_change_b = b_b * torque_b
-    if pinned_a:
-        dvx_a, dvy_a = turning_velocity(spin_change_a, x_a, y_a, pivot_x_a, pivot_y_a)
-    else:
-        dvx_a, dvy_a = -(a_a * impulse_x), -(a_a * impulse_y)
-    if pinned_b:
-        dvx_b, dvy_b = turning_velocity(spin_change_b, x_b, y_b, pivot_x_b, pivot_y_b)
-    else:
-        dvx_b, dvy_b = a_b * impulse_x, a_b * impulse_y
+    dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, torque_a, -impulse_x, -impulse_y, x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
+    dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
     total = (
         normal + impulse_t + loss + loss_n + loss_t + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
     )

@@ -1,0 +1,112 @@
+"""In-line impact from any three of four velocities, restitution and energy loss (eqs 5 to 8 of the paper, read backwards).
+
+Everything follows from the closing speed g and the separation speed r = e g: with the shares of the masses f_a + f_b = 1,
+
+    va - vb = g     vb' - va' = r     va - va' = f_a (g + r)     vb' - vb = f_b (g + r)     loss = m (g - r)(g + r) / 2
+"""
+
+from typing import Any, TypeAlias
+
+import numpy as np
+
+VELOCITIES = ("va", "vb", "va_after", "vb_after")
+
+# Closing and separation speed.
+Pair: TypeAlias = tuple[Any, Any]
+
+
+def speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> list[Pair]:
+    """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart."""
+    v = {name: known[name] for name in VELOCITIES if name in known}
+    restitution: Any = known.get("restitution")
+    if len(v) == 3:
+        return [_from_three(v, share_a, share_b)]
+    if "energy_loss" not in known:
+        p, q, difference = _relation(v, share_a, share_b)
+        closing = difference / (p + q * restitution)
+        return [(closing, restitution * closing)]
+    squared = 2.0 * known["energy_loss"] / reduced
+    if len(v) == 1:
+        closing = losing_speed(known["energy_loss"], reduced, restitution)
+        return [(closing, restitution * closing)]
+    return _from_energy(v, share_a, share_b, squared)
+
+
+def plastic_loss(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> Any:
+    """The energy that two known velocities would lose with e = 0; NaN where they do not say."""
+    v = {name: known[name] for name in VELOCITIES if name in known}
+    if len(v) != 2 or _names(v) == ("va_after", "vb_after"):
+        return np.nan
+    p, _, difference = _relation(v, share_a, share_b)
+    closing = difference / p
+    return 0.5 * reduced * (closing * closing)
+
+
+def losing_speed(loss: Any, reduced: Any, restitution: Any) -> Any:
+    """Closing speed that dissipates an energy (eq 8)."""
+    return np.sqrt(2.0 * loss / reduced / ((1.0 - restitution) * (1.0 + restitution)))
+
+
+def absorbing_speed(mass_a: Any, ees_a: Any, mass_b: Any, ees_b: Any, reduced: Any) -> Any:
+    """Closing speed that takes up the energy of both EES at maximum crush; an infinite mass takes up none."""
+    parts = [np.where(ees == 0.0, 0.0, mass / reduced * (ees * ees)) for mass, ees in ((mass_a, ees_a), (mass_b, ees_b))]
+    return np.sqrt(parts[0] + parts[1])
+
+
+def changing_speed(delta_v: Any, share: Any, restitution: Any) -> Any:
+    """Closing speed that changes the velocity of a body with this share by delta-V (eqs 5 and 6)."""
+    return delta_v / (share * (1.0 + restitution))
+
+
+def _from_three(v: dict[str, Any], share_a: Any, share_b: Any) -> Pair:
+    total = (v["va"] - v["va_after"]) / share_a if {"va", "va_after"} <= v.keys() else (v["vb_after"] - v["vb"]) / share_b
+    if {"va", "vb"} <= v.keys():
+        closing = v["va"] - v["vb"]
+        return closing, total - closing
+    separation = v["vb_after"] - v["va_after"]
+    return total - separation, separation
+
+
+def _relation(v: dict[str, Any], share_a: Any, share_b: Any) -> tuple[Any, Any, Any]:
+    """What two velocities say of both speeds: p, q and the value of p g + q r."""
+    first, second = v.values()
+    return {
+        ("va", "vb"): (1.0, 0.0, first - second),
+        ("va", "va_after"): (share_a, share_a, first - second),
+        ("va", "vb_after"): (share_a, -share_b, first - second),
+        ("vb", "va_after"): (share_b, -share_a, second - first),
+        ("vb", "vb_after"): (share_b, share_b, second - first),
+        ("va_after", "vb_after"): (0.0, 1.0, second - first),
+    }[_names(v)]
+
+
+def _names(v: dict[str, Any]) -> tuple[str, str]:
+    first, second = v
+    return first, second
+
+
+def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any) -> list[Pair]:
+    """With (g - r)(g + r) given."""
+    p, q, difference = _relation(v, share_a, share_b)
+    root = np.sqrt(squared)
+    match _names(v):
+        case ("va", "vb"):
+            return [(difference, np.sqrt((difference - root) * (difference + root)))]
+        case ("va_after", "vb_after"):
+            return [(np.hypot(difference, root), difference)]
+        case ("va", "va_after") | ("vb", "vb_after"):
+            total = difference / p
+            return [(0.5 * (total + squared / total), 0.5 * (total - squared / total))]
+    # p g + q r with p > 0 > q is a hyperbola cut by a line: the roots, each in the form that subtracts nothing.
+    q = -q
+    inside = difference * difference + (q - p) * squared
+    rounding = 16.0 * np.finfo(np.float64).eps * (difference * difference + squared)
+    middle = np.sqrt(np.where(abs(inside) <= rounding, 0.0, inside))
+    sign = np.where(difference < 0.0, -1.0, 1.0)
+    size = abs(difference)
+    near = (
+        sign * (difference * difference + q * q * squared) / (q * middle + p * size),
+        sign * (p * p * squared - difference * difference) / (p * middle + q * size),
+    )
+    far = sign * (q * middle + p * size) / (p - q), sign * (p * middle + q * size) / (p - q)
+    return [near, far]

@@ -1,0 +1,22 @@
+"""From what was found to how fast they went: the impact solved backwards, one question a function."""
+
+from .central import central
+from .crush import crush_energy
+from .inline import inline_closing_speed
+from .momentum import momentum
+from .momentum_solution import MomentumSolution
+from .observed import friction, restitution
+from .planar import planar
+from .speeds import speeds
+
+__all__ = [
+    "MomentumSolution",
+    "central",
+    "crush_energy",
+    "friction",
+    "inline_closing_speed",
+    "momentum",
+    "planar",
+    "restitution",
+    "speeds",
+]

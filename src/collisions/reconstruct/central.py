@@ -1,0 +1,250 @@
+"""In-line impact backwards: from any three of four velocities, restitution and energy loss to the whole impact."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import AmbiguousSolutionError, CollisionsError, InputError
+from ..fields import show
+from ..impact import Asked, Impact
+from ..kernels import codes
+from ..kernels.central import shares
+from ..kernels.in_line import VELOCITIES, plastic_loss, speeds
+from ..provenance import Reconstruction
+from ..units import POSITIVE, UNIT_INTERVAL, Door, Input
+from ..vehicle import Vehicle
+from .outcome import Cases, exactly, input_faults, plain_error, settle
+
+_ALONG: Any = (1.0, 0.0)
+_NONE: Any = 0.0
+_STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
+
+
+def central(
+    mass_a: Input,
+    mass_b: Input,
+    *,
+    va: Input | None = None,
+    vb: Input | None = None,
+    va_after: Input | None = None,
+    vb_after: Input | None = None,
+    restitution: Input | None = None,
+    energy_loss: Input | None = None,
+    on_failure: str | None = None,
+) -> Impact:
+    """In-line impact from exactly three of four velocities, restitution and energy loss.
+
+    Two point masses on one line, A behind B: velocities are counted along the line from A to B, so ``va > vb`` before the
+    impact and ``va_after <= vb_after`` after it. All twenty combinations are solved in closed form (eqs 5 to 8 of "Application
+    of Impulse Momentum Theory to Vehicle Collisions"), and the answer is that of ``linear_central`` for the state found.
+
+    Parameters
+    ----------
+    mass_a, mass_b : float, str, Quantity or array [kg]
+        Masses, > 0; ``inf`` for what does not move.
+    va, vb : float, str, Quantity or array [m/s], optional
+        Velocities before.
+    va_after, vb_after : float, str, Quantity or array [m/s], optional
+        Velocities after.
+    restitution : float, str, Quantity or array [1], optional
+        Coefficient of restitution, 0 to 1.
+    energy_loss : float, str, Quantity or array [J], optional
+        Energy dissipated, >= 0: what is left after restitution, not the energy absorbed at maximum crush.
+    on_failure : {None, "raise", "nan"}, optional
+        What a refused case of a batch does: NaN and one warning, an error, or NaN without a word.
+
+    Returns
+    -------
+    Impact
+        As ``linear_central`` gives it; ``reconstruction.condition`` says how well-posed the question was.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or not exactly three of the six.
+    AmbiguousSolutionError
+        Two impacts fit; both are in ``solutions``.
+    NoImpactError
+        What was given means that the bodies did not approach.
+    NoSolutionError
+        What was given contradicts itself or leaves the answer open; the message says why.
+
+    Examples
+    --------
+    Example 2 of the paper: 1100 kg at 80 km/h into the back of 950 kg at rest, which leaves with 60 km/h.
+
+    >>> from collisions import reconstruct
+    >>> impact = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
+    >>> round(impact.restitution, 3), round(impact.a.after.q.vx.m_as("km/h"), 2)
+    (0.398, 28.18)
+    """
+    given = exactly(
+        {
+            "va": va,
+            "vb": vb,
+            "va_after": va_after,
+            "vb_after": vb_after,
+            "restitution": restitution,
+            "energy_loss": energy_loss,
+        },
+        3,
+        "central",
+    )
+    door = Door()
+    masses = door.number(mass_a, "kg", "mass_a", POSITIVE), door.number(mass_b, "kg", "mass_b", POSITIVE)
+    known = {name: _read(door, value, name) for name, value in given.items()}
+    door.close()
+    cases = Cases.of({"mass_a": masses[0], "mass_b": masses[1], **known})
+    with np.errstate(all="ignore"):
+        answers = _answers(masses, known)
+        fits = [answer["fits"] for answer in answers]
+        which = np.where(fits[0], 0, len(fits) - 1)
+        found = {name: np.choose(which, [answer[name] for answer in answers]) for name in answers[0]}
+        found["plastic_loss"] = plastic_loss({name: np.asarray(value) for name, value in known.items()}, *shares(*masses)[:3])
+        condition = _condition(masses, known, found, which)
+        status = cases.verdict(((_differ(answers), codes.AMBIGUOUS), (found["fits"], codes.OK), *_faults(masses, known, found)))
+    sure = np.equal(status, codes.OK)
+    origin = Reconstruction(method="central", known=tuple(known), condition=cases.values(np.where(sure, condition, np.nan)))
+
+    def asked(answer: dict[str, Any], keep: Any) -> Asked:
+        a, b = (
+            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), 0.0, 0.0)
+            for mass, name in zip(masses, ("va", "vb"), strict=True)
+        )
+        e = cases.values(np.where(keep, answer["e"], 0.0))
+        return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None)
+
+    def error(index: tuple[int, ...]) -> CollisionsError:
+        if cases.shape is None and status == codes.AMBIGUOUS:
+            solutions = tuple(asked(answer, True).ask() for answer in answers)
+            told = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
+            return AmbiguousSolutionError(
+                f"two impacts fit {', '.join(known)}: {told}; both are in .solutions, and a velocity of the other kind decides",
+                code="ambiguous",
+                solutions=solutions,
+            )
+        one = {name: cases.one(value, index) for name, value in found.items()}
+        return _error(int(np.asarray(status)[index]), one, {name: cases.one(value, index) for name, value in known.items()})
+
+    return settle(asked(found, sure), status, origin, on_failure, error)
+
+
+def _read(door: Door, value: Any, name: str) -> Any:
+    if name == "restitution":
+        return door.number(value, "", name, UNIT_INTERVAL)
+    if name != "energy_loss":
+        return door.number(value, "m/s", name)
+    loss = door.number(value, "J", name)
+    if not isinstance(loss, np.ndarray) and loss < 0.0:
+        door.refuse(InputError(f"energy_loss must be >= 0, got {value!r}", code="negative_energy", argument=name))
+    return loss
+
+
+def _answers(masses: tuple[Any, Any], known: dict[str, Any]) -> list[dict[str, Any]]:
+    """What fits, one dictionary a candidate, and whether it is an impact at all."""
+    share_a, share_b, reduced, fixed = shares(*(np.asarray(mass) for mass in masses))
+    numbers = {name: np.asarray(value) for name, value in known.items()}
+    return [
+        _whole(numbers, share_a, share_b, closing, separation, fixed)
+        for closing, separation in speeds(numbers, share_a, share_b, reduced)
+    ]
+
+
+def _whole(known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any) -> dict[str, Any]:
+    """The impact of a pair of closing and separation speed."""
+    total = closing + separation
+    va, vb = known.get("va"), known.get("vb")
+    if va is None and vb is None:
+        if "va_after" in known:
+            va = known["va_after"] + share_a * total
+        if "vb_after" in known:
+            vb = known["vb_after"] - share_b * total
+    if va is None:
+        va = vb + closing
+    if vb is None:
+        vb = va - closing
+    # What rounding leaves of an e of exactly 0 or 1.
+    scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
+    rounding = 16.0 * codes.EPS * (1.0 + scale / abs(closing))
+    e = known.get("restitution", separation / closing)
+    e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
+    fits = (closing > 0.0) & (e >= 0.0) & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
+    return {"va": va, "vb": vb, "e": e, "closing": closing, "fits": fits}
+
+
+def _differ(answers: list[dict[str, Any]]) -> Any:
+    """Whether two answers fit, which are not one that rounding has split."""
+    if len(answers) == 1:
+        return False
+    one, other = answers
+    apart = abs(one["closing"] - other["closing"]) > 64.0 * codes.EPS * abs(one["closing"])
+    return one["fits"] & other["fits"] & apart
+
+
+def _condition(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any], which: Any) -> Any:
+    """Sum over what was given of the change of the speeds before, in closing speeds, by its own relative change."""
+    total = np.zeros(())
+    given = {"mass_a": masses[0], "mass_b": masses[1], **known}
+    for name, value in given.items():
+        moved = {**given, name: np.asarray(value) * (1.0 + _STEP)}
+        answers = _answers((moved.pop("mass_a"), moved.pop("mass_b")), moved)
+        change = sum(abs(np.choose(which, [answer[v] for answer in answers]) - found[v]) for v in ("va", "vb"))
+        total = total + np.where(np.isinf(value), 0.0, change)
+    condition = total / (_STEP * abs(found["closing"]))
+    return np.where(np.isfinite(condition), condition, np.inf)
+
+
+def _faults(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any]) -> list[tuple[Any, int]]:
+    """Why nothing fits, the first that applies."""
+    restitution: Any = known.get("restitution", 0.5)
+    silent = _needs_motion_of(known)
+    at_rest_a, at_rest_b = (np.isinf(mass) for mass in masses)
+    return [
+        *input_faults({"mass_a": masses[0], "mass_b": masses[1], **known}),
+        (at_rest_a & at_rest_b, codes.IMMOVABLE),
+        ((at_rest_a & ("a" in silent)) | (at_rest_b & ("b" in silent)), codes.INFINITE_MASS),
+        (np.equal(restitution, 0.0) & (known.keys() == {"va_after", "vb_after", "restitution"}), codes.INVERSE_E0),
+        (np.isnan(found["closing"]) & (("energy_loss" not in known) | np.equal(restitution, 1.0)), codes.UNDETERMINED),
+        (found["closing"] < 0.0, codes.SEPARATING),
+        (found["closing"] == 0.0, codes.NO_CLOSING),
+        (found["e"] < 0.0, codes.NOT_SEPARATING),
+        (True, codes.CONTRADICTORY),
+    ]
+
+
+def _needs_motion_of(known: dict[str, Any]) -> str:
+    """Which body's change of velocity is asked about the impact, and tells nothing if its mass is infinite."""
+    v = [name for name in VELOCITIES if name in known]
+    if len(v) == 3:
+        return "a" if {"va", "va_after"} <= set(v) else "b"
+    return "a" if v == ["va", "va_after"] else "b" if v == ["vb", "vb_after"] else ""
+
+
+def _error(status: int, found: dict[str, float], known: dict[str, float]) -> CollisionsError:
+    closing, e = found["closing"], found["e"]
+    given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
+    along = "velocities are counted along the line from A to B, A behind"
+    texts = {
+        codes.SEPARATING: f"{given} mean a closing speed of {closing:.6g} m/s, so the bodies moved apart; {along}: "
+        f"change the signs, or exchange A and B",
+        codes.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
+        codes.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
+        f"one of them would pass through the other",
+        codes.INVERSE_E0: "after a plastic impact (restitution = 0) both move as one and nothing is left of the closing speed; "
+        "give energy_loss, va or vb instead of restitution",
+        codes.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
+        f"velocity of the other body",
+        codes.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
+        codes.UNDETERMINED: f"{given} fit any closing speed; give another velocity",
+        codes.AMBIGUOUS: f"two impacts fit {given}; ask for this case alone to see both",
+    }
+    text = texts.get(status)
+    if text is None and e > 1.0:
+        text = f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
+    if text is None:
+        most = found["plastic_loss"]
+        limit = f"; the most they allow, with restitution = 0, is {most:.6g} J" if np.isfinite(most) else ""
+        text = f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{limit}"
+    return plain_error(status, text, restitution=e, closing_speed=closing)

@@ -1,0 +1,166 @@
+"""In-line closing speed from one delta-V, an energy loss or both EES: the short cut for central impacts only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
+from ..kernels import codes
+from ..kernels.central import shares
+from ..kernels.in_line import absorbing_speed, changing_speed, losing_speed
+from ..units import POSITIVE, UNIT_INTERVAL, Door, Input, Value
+from .outcome import Cases, exactly, input_faults, plain_error, raise_or_warn
+from .self_consistent import RestitutionOf, crossings
+
+
+def inline_closing_speed(
+    mass_a: Input,
+    mass_b: Input,
+    restitution: Input | Callable[[float], float],
+    *,
+    delta_v_a: Input | None = None,
+    delta_v_b: Input | None = None,
+    energy_loss: Input | None = None,
+    ees_a: Input | None = None,
+    ees_b: Input | None = None,
+) -> Value:
+    """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or both EES.
+
+    Only where the line of impact passes both centres of mass and nothing moves across it. Ignoring levers costs 13 to 22
+    percent in published oblique tests, and taking a total energy for that along the normal more: for the rest use ``speeds``.
+
+    Parameters
+    ----------
+    mass_a, mass_b : float, str, Quantity or array [kg]
+        Masses, > 0; one may be ``inf``.
+    restitution : float, str, Quantity or array [1], or function
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s; then both are solved together.
+    delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
+        Change of velocity of one vehicle, >= 0.
+    energy_loss : float, str, Quantity or array [J], optional
+        Energy dissipated: what is left after restitution.
+    ees_a, ees_b : float, str, Quantity or array [m/s], optional
+        Energy equivalent speeds, both: the energy absorbed at maximum crush, before restitution. That of an infinite mass is 0.
+
+    Returns
+    -------
+    float or array [m/s]
+        Closing speed.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or a function whose value is not from 0 to 1.
+    AmbiguousSolutionError
+        The function of restitution is met at more than one closing speed; all are in ``solutions``.
+    NoSolutionError
+        No closing speed fits.
+
+    Examples
+    --------
+    A delta-V of 5 km/h in a car of the same mass: a restitution that belongs to the low speed makes two km/h of difference.
+
+    >>> from collisions import reconstruct
+    >>> import math
+    >>> def low_speed(v):  # fit of Cipriani et al., SAE 2002-01-0540
+    ...     x = math.log10(v)
+    ...     return 0.47477 - 0.26139 * x + 0.03382 * x**2 - 0.11639 * x**3
+    >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, 0.1, delta_v_a="5 km/h"), 1)
+    9.1
+    >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)
+    7.2
+    """
+    if (ees_a is None) != (ees_b is None):
+        raise InputError(
+            "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
+        )
+    given = exactly(
+        {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a},
+        1,
+        "inline_closing_speed",
+    )
+    (kind,) = given
+    door = Door()
+    numbers = {"mass_a": door.number(mass_a, "kg", "mass_a", POSITIVE), "mass_b": door.number(mass_b, "kg", "mass_b", POSITIVE)}
+    for name, value in (given | ({"ees_b": ees_b} if kind == "ees_a" else {})).items():
+        numbers[name] = not_negative(door, value, "J" if kind == "energy_loss" else "m/s", name)
+    function = restitution if callable(restitution) else None
+    if function is None:
+        numbers["restitution"] = door.number(restitution, "", "restitution", UNIT_INTERVAL)
+    door.close()
+    cases = Cases.of(numbers)
+    if function is None:
+        return _closing(cases, kind, numbers)
+    if cases.shape is not None:
+        raise InputError(
+            "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
+        )
+    law = RestitutionOf(function)
+    speed = partial(_speed, kind)
+    found = crossings(lambda e: [law(speed({**numbers, "restitution": e})) - e], np.linspace(0.0, 1.0, 129))
+    answers = tuple(sorted({float(speed({**numbers, "restitution": np.float64(e)})) for _, e in found}))
+    if not answers:
+        law.complain()
+        raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")
+    if len(answers) > 1:
+        raise AmbiguousSolutionError(
+            f"the function of restitution is met at closing speeds of {' and '.join(f'{g:.6g}' for g in answers)} m/s",
+            code="ambiguous",
+            solutions=answers,
+        )
+    return _closing(cases, kind, {**numbers, "restitution": found[0][1]})
+
+
+def not_negative(door: Door, value: Any, unit: str, name: str) -> Any:
+    """A number that may not be below 0."""
+    number = door.number(value, unit, name)
+    if not isinstance(number, np.ndarray) and number < 0.0:
+        code = "negative_energy" if unit == "J" else "negative_speed"
+        door.refuse(InputError(f"{name} must be >= 0, got {value!r}; give the magnitude", code=code, argument=name))
+    return number
+
+
+def _speed(kind: str, numbers: dict[str, Any]) -> Any:
+    values = {name: np.asarray(value) for name, value in numbers.items()}
+    with np.errstate(all="ignore"):
+        share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
+        if kind == "energy_loss":
+            return losing_speed(values["energy_loss"], reduced, values["restitution"])
+        if kind == "ees_a":
+            return absorbing_speed(values["mass_a"], values["ees_a"], values["mass_b"], values["ees_b"], reduced)
+        return changing_speed(values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"])
+
+
+def _closing(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
+    speed = _speed(kind, numbers)
+    status = cases.verdict(
+        (
+            *input_faults(numbers),
+            (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), codes.IMMOVABLE),
+            (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), codes.INFINITE_MASS),
+            (np.isfinite(speed), codes.OK),
+            (True, codes.UNDETERMINED if kind == "energy_loss" else codes.CONTRADICTORY),
+        )
+    )
+
+    def error(index: tuple[int, ...]) -> CollisionsError:
+        code = int(np.asarray(status)[index])
+        text = {
+            codes.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
+            codes.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
+            codes.UNDETERMINED: "restitution = 1 loses no energy, so energy_loss tells nothing of the closing speed; give a "
+            "delta-V",
+        }.get(code, "these values give no finite closing speed")
+        return plain_error(code, text)
+
+    if cases.shape is None:
+        if status != codes.OK:
+            raise error(())
+    else:
+        raise_or_warn(status, None, error)
+    answer: Value = cases.values(np.where(np.equal(status, codes.OK), speed, np.nan))
+    return answer

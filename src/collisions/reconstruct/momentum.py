@@ -1,0 +1,439 @@
+"""Planar momentum backwards ("360-degree momentum"): two unknown speeds from masses, courses and the other two."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Any
+
+import numpy as np
+
+from ..directions import Angle, between, direction
+from ..errors import (
+    CollisionsError,
+    EnergyGainWarning,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+    OutOfRangeWarning,
+    Status,
+)
+from ..fields import hypot, show
+from ..kernels import codes
+from ..kernels.crossing import Term, change_of_speed, course_change, unknown_speed
+from ..units import POSITIVE, Door, Input, Pair, callers_level
+from ..vehicle import angle_of
+from .momentum_solution import MomentumSolution, Sensitivity
+from .outcome import Cases, exactly, raise_or_warn
+
+_SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+_COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
+_NEARLY_COLLINEAR = math.radians(10.0)
+
+
+def momentum(
+    mass_a: Input,
+    mass_b: Input,
+    *,
+    course_a: Input | None = None,
+    course_b: Input | None = None,
+    course_a_after: Input | None = None,
+    course_b_after: Input | None = None,
+    speed_a: Input | None = None,
+    speed_b: Input | None = None,
+    speed_a_after: Input | None = None,
+    speed_b_after: Input | None = None,
+    heading_a: Input | None = None,
+    heading_b: Input | None = None,
+    together: bool = False,
+    normal: Input | tuple[Input, Input] | None = None,
+    outside_impulse: Pair | None = None,
+    on_failure: str | None = None,
+) -> MomentumSolution:
+    """Two unknown speeds of an impact from planar momentum, with all courses known.
+
+    Linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of Impulse Momentum Theory to
+    Vehicle Collisions"), save for an impulse from outside that is stated. Nothing is assumed of restitution, friction or
+    rotation. Good where the courses cross; the nearer they come to one line the less momentum tells, whatever the algorithm.
+
+    Parameters
+    ----------
+    mass_a, mass_b : float, str, Quantity or array [kg]
+        Masses, > 0 and finite.
+    course_a, course_b, course_a_after, course_b_after : float, str, Quantity or array [rad]
+        Directions of motion, counter-clockwise from +x; a vehicle at rest (speed 0) needs none.
+    speed_a, speed_b, speed_a_after, speed_b_after : float, str, Quantity or array [m/s]
+        The known speeds, >= 0: leave out the two that are asked for.
+    heading_a, heading_b : float, str, Quantity or array [rad], optional
+        Where the vehicles pointed, for the PDOF.
+    together : bool, optional
+        The vehicles leave as one: give the common course, and the common speed if it is known, for either of them or both.
+    normal : angle [rad] or tuple (nx, ny), optional
+        Direction from A into B along which closing speed and restitution are worked out, from the motion of the centres.
+    outside_impulse : pair [N*s], optional
+        Impulse of tyres or a kerb on both vehicles together, during the impact.
+    on_failure : {None, "raise", "nan"}, optional
+        What a refused case of a batch does.
+
+    Returns
+    -------
+    MomentumSolution
+        All eight courses and speeds, delta-V, PDOF, ``condition`` = (1 + abs(cos)) / abs(sin) of the angle between the courses
+        of the unknown speeds (1 at right angles), and the ``sensitivity`` of each answer to each input.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or not exactly two unknown speeds.
+    MissingInputError
+        The course of a moving vehicle was not given.
+    NoSolutionError
+        The courses of the two unknown speeds are parallel.
+
+    Warns
+    -----
+    IllConditionedWarning
+        They are within 10 degrees of one line.
+    OutOfRangeWarning
+        A speed came out negative: backwards along its course.
+    EnergyGainWarning
+        The vehicles leave with more energy than they came with.
+
+    Examples
+    --------
+    A car going south and one going east meet at right angles (course sheet, published answers 63.2 and 55.62 km/h).
+
+    >>> from collisions import reconstruct
+    >>> found = reconstruct.momentum(
+    ...     1200, 1800, course_a="270 deg", course_b="0 deg", course_a_after="-30 deg", course_b_after="-40 deg",
+    ...     speed_a_after="30 km/h", speed_b_after="50 km/h")
+    >>> round(found.q.speed_a.m_as("km/h"), 2), round(found.q.speed_b.m_as("km/h"), 2)
+    (63.21, 55.62)
+    >>> round(found.q.sensitivity["speed_a"]["course_b_after"].m_as("km/h/deg"), 2)
+    -1.0
+    """
+    if not isinstance(together, bool):
+        raise InputError(f"together must be True or False, got {together!r}", code="bad_option", argument="together")
+    speeds = {"speed_a": speed_a, "speed_b": speed_b, "speed_a_after": speed_a_after, "speed_b_after": speed_b_after}
+    courses = {
+        "course_a": course_a,
+        "course_b": course_b,
+        "course_a_after": course_a_after,
+        "course_b_after": course_b_after,
+    }
+    door = Door()
+    masses = {name: door.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    known = {name: _speed(door, value, name) for name, value in speeds.items() if value is not None}
+    angles = {name: Angle(*door.angle(value, name)) for name, value in courses.items() if value is not None}
+    headings = {
+        name: direction(door, value, name)
+        for name, value in (("heading_a", heading_a), ("heading_b", heading_b))
+        if value is not None
+    }
+    impulse = None if outside_impulse is None else door.pair(outside_impulse, "N*s", "outside_impulse")
+    along = None if normal is None else direction(door, normal, "normal")
+    door.close()
+    if together:
+        _share(known, "speed")
+        _share(angles, "course")
+    cases = Cases.of(
+        {
+            **masses,
+            **known,
+            **{name: angle.value for name, angle in angles.items()},
+            **{f"{name}[{i}]": part for name, pair in headings.items() for i, part in enumerate(pair)},
+            **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
+            **{f"normal[{i}]": part for i, part in enumerate(along or ())},
+        }
+    )
+    terms = _terms(masses, known, angles, together)
+    exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
+    _need_courses(terms)
+    with np.errstate(all="ignore"):
+        return _solve(cases, terms, masses, angles, headings, impulse, along, together, on_failure)
+
+
+def _speed(door: Door, value: Any, name: str) -> Any:
+    speed = door.number(value, "m/s", name)
+    if not isinstance(speed, np.ndarray) and speed < 0.0:
+        door.refuse(
+            InputError(f"{name} must be >= 0, got {value!r}; turn its course by 180 deg", code="negative_speed", argument=name)
+        )
+    return speed
+
+
+def _share(given: dict[str, Any], kind: str) -> None:
+    """Makes what is common to both vehicles after the impact known for both; two that differ contradict each other."""
+    names = [f"{kind}_a_after", f"{kind}_b_after"]
+    found = [given[name] for name in names if name in given]
+    if not found:
+        return
+    if len(found) == 2:
+        apart = abs(between(*found)[1]) if kind == "course" else np.subtract(*found)
+        if np.any(apart != 0.0):
+            raise InputError(
+                f"{names[0]} and {names[1]} differ ({_shown(found[0])} and {_shown(found[1])}), which vehicles that leave "
+                f"together cannot; give one of them",
+                code="contradictory",
+                argument=names[1],
+            )
+    given.update(dict.fromkeys(names, found[0]))
+
+
+def _shown(value: Any) -> str:
+    return show(value.radians.item() if isinstance(value, Angle) and np.ndim(value.radians) == 0 else value)
+
+
+def _terms(masses: dict[str, Any], known: dict[str, Any], angles: dict[str, Angle], together: bool) -> dict[str, Term]:
+    """The moving bodies, by the name of their speed."""
+    before = {
+        name: Term(1.0, masses[f"mass_{name[6]}"], known.get(name), angles.get(f"course_{name[6]}"))
+        for name in ("speed_a", "speed_b")
+    }
+    if together:
+        both = masses["mass_a"] + masses["mass_b"]
+        return {**before, "speed_a_after": Term(-1.0, both, known.get("speed_a_after"), angles.get("course_a_after"))}
+    after = {
+        name: Term(-1.0, masses[f"mass_{name[6]}"], known.get(name), angles.get(f"course_{name[6]}_after"))
+        for name in ("speed_a_after", "speed_b_after")
+    }
+    return {**before, **after}
+
+
+def _need_courses(terms: dict[str, Term]) -> None:
+    missing = [name for name, term in terms.items() if term.course is None and np.any(np.not_equal(term.speed, 0.0))]
+    if missing:
+        wanted = ", ".join(name.replace("speed", "course") for name in missing)
+        raise MissingInputError(
+            f"{wanted} not given, and momentum needs the course of every vehicle that moves; only a speed of 0 needs none",
+            code="missing_course",
+            argument=wanted,
+        )
+
+
+def _solve(
+    cases: Cases,
+    terms: dict[str, Term],
+    masses: dict[str, Any],
+    angles: dict[str, Angle],
+    headings: dict[str, tuple[Any, Any]],
+    impulse: tuple[Any, Any] | None,
+    along: tuple[Any, Any] | None,
+    together: bool,
+    on_failure: Any,
+) -> MomentumSolution:
+    known = {name: term for name, term in terms.items() if term.speed is not None}
+    (first, one), (second, other) = ((name, term) for name, term in terms.items() if term.speed is None)
+    cosine, sine = between(one.course, other.course)
+    # Two courses in radians are no better known than their own rounding.
+    blur = 4.0 * codes.EPS * (1.0 + sum(0.0 if t.course.in_degrees else abs(t.course.radians) for t in (one, other)))
+    everything = [
+        *masses.values(),
+        *(term.speed for term in known.values()),
+        *(angle.value for angle in angles.values()),
+        *(impulse or ()),
+    ]
+    unfit = np.logical_or.reduce(np.broadcast_arrays(*(~np.isfinite(value) for value in everything)))
+    negative = np.logical_or.reduce(np.broadcast_arrays(False, *(np.less(term.speed, 0.0) for term in known.values())))
+    endless = np.logical_or(*(np.isposinf(mass) for mass in masses.values()))
+    light = np.logical_or(*(np.less_equal(mass, 0.0) for mass in masses.values()))
+    answers = {
+        first: unknown_speed(list(known.values()), impulse, one, other, between),
+        second: unknown_speed(list(known.values()), impulse, other, one, between),
+    }
+    status = cases.verdict(
+        (
+            (endless, codes.INFINITE_MASS),
+            (unfit, codes.NOT_FINITE),
+            (light, codes.NOT_POSITIVE),
+            (negative, codes.CONTRADICTORY),
+            (abs(sine) <= blur, codes.PARALLEL_HEADINGS),
+            (~np.isfinite(answers[first] + answers[second]), codes.OUT_OF_RANGE),
+        )
+    )
+
+    def error(index: tuple[int, ...]) -> CollisionsError:
+        outcome = Status(int(np.asarray(status)[index]))
+        if outcome is Status.PARALLEL_HEADINGS:
+            return NoSolutionError(
+                f"the courses of {first} and {second} are parallel, so momentum cannot tell them apart; for an in-line impact "
+                f"use reconstruct.central or reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
+                code="parallel_headings",
+            )
+        if outcome is Status.INFINITE_MASS:
+            return NoSolutionError(
+                "a mass is inf, and the momentum of a body that does not move tells nothing; for an impact on a barrier use "
+                "reconstruct.central, reconstruct.planar or reconstruct.speeds",
+                code="infinite_mass",
+            )
+        return InputError(f"momentum: {outcome.sentence}", code=outcome.label)
+
+    if cases.shape is None:
+        if status != codes.OK and on_failure != "nan":
+            raise error(())
+    else:
+        raise_or_warn(status, on_failure, error)
+    sure = np.equal(status, codes.OK)
+    full = {name: np.where(sure, answers.get(name, term.speed), np.nan) for name, term in terms.items()}
+    if together:
+        full["speed_b_after"] = full["speed_a_after"]
+    solution = _solution(cases, full, masses, angles, headings, along)
+    condition = (1.0 + abs(cosine)) / abs(sine)
+    sensitivity = _sensitivity(cases, terms, full, masses, impulse, (first, one), (second, other), sure)
+    _warn(cases, sure, full, masses, (first, second), abs(sine), condition, sensitivity, solution, impulse)
+    found: dict[str, Any] = {name: cases.values(mass) for name, mass in masses.items()}
+    for name in _COURSES:
+        found[name] = cases.values(angles[name].radians) if name in angles else None
+    for name in _SPEEDS:
+        found[name] = cases.values(full[name])
+    for name, value in solution.items():
+        found[name] = None if value is None else cases.values(value)
+    return MomentumSolution(
+        **found,
+        condition=cases.values(np.where(sure, condition, np.nan)),
+        sensitivity=sensitivity,
+        unknowns=(first, second),
+        status=Status(status) if isinstance(status, int) else status,
+    )
+
+
+def _solution(
+    cases: Cases,
+    full: dict[str, Any],
+    masses: dict[str, Any],
+    angles: dict[str, Angle],
+    headings: dict[str, tuple[Any, Any]],
+    along: tuple[Any, Any] | None,
+) -> dict[str, Any]:
+    """What follows from all speeds and courses."""
+    velocity = {}
+    for name in _SPEEDS:
+        angle = angles.get(name.replace("speed", "course"))
+        c, s = (0.0, 0.0) if angle is None else angle.direction
+        velocity[name] = full[name] * c, full[name] * s
+    found: dict[str, Any] = {"closing_speed": None, "restitution": None}
+    loss: Any = 0.0
+    for side in "ab":
+        (ux, uy), (wx, wy) = velocity[f"speed_{side}"], velocity[f"speed_{side}_after"]
+        dx, dy = wx - ux, wy - uy
+        found[f"delta_v_{side}"] = hypot(dx, dy)
+        loss = loss - 0.5 * masses[f"mass_{side}"] * (dx * (ux + wx) + dy * (uy + wy))
+        pdof = None
+        if f"heading_{side}" in headings:
+            hx, hy = headings[f"heading_{side}"]
+            pdof = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
+        found[f"pdof_{side}"] = pdof
+    found["translational_energy_loss"] = loss
+    if along is not None:
+        (ax, ay), (bx, by) = velocity["speed_a"], velocity["speed_b"]
+        (cx, cy), (ex, ey) = velocity["speed_a_after"], velocity["speed_b_after"]
+        closing = along[0] * (ax - bx) + along[1] * (ay - by)
+        parting = along[0] * (ex - cx) + along[1] * (ey - cy)
+        found["closing_speed"] = closing
+        found["restitution"] = parting / np.where(closing == 0.0, np.nan, closing)
+    return found
+
+
+def _sensitivity(
+    cases: Cases,
+    terms: dict[str, Term],
+    full: dict[str, Any],
+    masses: dict[str, Any],
+    impulse: tuple[Any, Any] | None,
+    first: tuple[str, Term],
+    second: tuple[str, Term],
+    sure: Any,
+) -> Sensitivity:
+    """Derivatives of both answers by every input, from the balance itself."""
+    found = Sensitivity()
+    for (name, wanted), (_, other) in ((first, second), (second, first)):
+        row: dict[str, Any] = {}
+        for side in "ab":
+            parts = [
+                term.sign * (full[label] * between(term.course, other.course)[1])
+                for label, term in terms.items()
+                if term.course is not None and (label[6] == side or term.mass is not masses[f"mass_{label[6]}"])
+            ]
+            row[f"mass_{side}"] = sum(parts)
+        for label, term in terms.items():
+            if term.course is None:
+                continue
+            if term.speed is not None:
+                row[label] = term.sign * term.mass * between(term.course, other.course)[1]
+            row[label.replace("speed", "course")] = course_change(term, full[label], other, between)
+        if impulse is not None:
+            c, s = other.course.direction
+            row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
+        found[name] = {
+            label: cases.values(np.where(sure, change_of_speed(cross, wanted, other, between), np.nan))
+            for label, cross in row.items()
+        }
+    return found
+
+
+def _warn(
+    cases: Cases,
+    sure: Any,
+    full: dict[str, Any],
+    masses: dict[str, Any],
+    unknowns: tuple[str, str],
+    sine: Any,
+    condition: Any,
+    sensitivity: Sensitivity,
+    solution: dict[str, Any],
+    impulse: Any,
+) -> None:
+    """Says what an analyst must know of the answer, once for a batch."""
+    level = callers_level()
+    near = sure & (sine < math.sin(_NEARLY_COLLINEAR))
+    if np.any(near):
+        worst = float(np.max(np.where(near, condition, 0.0)))
+        degrees = math.degrees(math.asin(min(1.0, float(np.min(np.where(near, sine, 1.0))))))
+        numbers = "; ".join(
+            f"{answer} moves by {float(np.nanmax(np.abs(value))) * math.pi / 180.0:.3g} m/s per degree of {name}"
+            for answer, row in sensitivity.items()
+            for name, value in sorted(row.items(), key=lambda item: -float(np.nanmax(np.abs(item[1]))))[:1]
+            if name.startswith("course")
+        )
+        warnings.warn(
+            IllConditionedWarning(
+                f"{_count(near, cases)}the courses of {' and '.join(unknowns)} are {degrees:.2g} degrees from one line "
+                f"(condition {worst:.3g}){': ' if numbers else ''}{numbers}; an in-line method may tell more",
+                code="nearly_collinear",
+                condition=worst,
+            ),
+            stacklevel=level,
+        )
+    for name in unknowns:
+        backward = sure & (full[name] < 0.0)
+        if np.any(backward):
+            least = float(np.min(np.where(backward, full[name], 0.0)))
+            warnings.warn(
+                OutOfRangeWarning(
+                    f"{_count(backward, cases)}{name} = {least:.6g} m/s: backwards along its course; check the courses, or "
+                    f"turn this one by 180 deg",
+                    code="negative_speed",
+                    value=least,
+                ),
+                stacklevel=level,
+            )
+    loss = solution["translational_energy_loss"]
+    energy = sum(masses[f"mass_{name[6]}"] * (full[name] * full[name]) for name in _SPEEDS)
+    # A rounding of the speeds by their condition is no gain.
+    gains = sure & (-loss > 64.0 * codes.EPS * condition * energy)
+    if impulse is None and np.any(gains):
+        most = -float(np.min(np.where(gains, loss, 0.0)))
+        warnings.warn(
+            EnergyGainWarning(
+                f"{_count(gains, cases)}the vehicles leave with {most:.6g} J more than they came with, which no impact gives; "
+                f"check courses and speeds",
+                code="energy_gain",
+                gain=most,
+            ),
+            stacklevel=level,
+        )
+
+
+def _count(lanes: Any, cases: Cases) -> str:
+    return "" if cases.shape is None else f"{int(np.count_nonzero(np.broadcast_to(lanes, cases.shape)))} cases: "

@@ -1,0 +1,80 @@
+"""What planar momentum answers with: courses and speeds before and after, and how firmly they stand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from ..fields import Quantities, derived, show, table
+from ..kernels import codes
+from ..units import Value, to_quantity
+
+_UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg", "outside": "m/s/(N*s)"}
+
+
+class Sensitivity(dict[str, dict[str, Value]]):
+    """By answer, then by input: how much the answer moves when the input moves by one SI unit; per degree through ``.q``."""
+
+    @property
+    def q(self) -> dict[str, dict[str, Any]]:
+        """The same with units, per degree where the input is an angle."""
+        return {answer: {name: self._quantity(name, value) for name, value in row.items()} for answer, row in self.items()}
+
+    @staticmethod
+    def _quantity(name: str, value: Any) -> Any:
+        kind = name.partition("_")[0]
+        return to_quantity(value * math.pi / 180.0 if kind == "course" else value, _UNITS[kind])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class MomentumSolution:
+    """Two vehicles before and after an impact, as planar momentum has it, and how firmly.
+
+    Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
+    or arrays in a batch.
+    """
+
+    mass_a: Value = field(metadata={"unit": "kg"})
+    mass_b: Value = field(metadata={"unit": "kg"})
+    course_a: Value | None = field(metadata={"unit": "rad"})
+    course_b: Value | None = field(metadata={"unit": "rad"})
+    course_a_after: Value | None = field(metadata={"unit": "rad"})
+    course_b_after: Value | None = field(metadata={"unit": "rad"})
+    speed_a: Value = field(metadata={"unit": "m/s"})
+    speed_b: Value = field(metadata={"unit": "m/s"})
+    speed_a_after: Value = field(metadata={"unit": "m/s"})
+    speed_b_after: Value = field(metadata={"unit": "m/s"})
+    delta_v_a: Value = field(metadata={"unit": "m/s"})
+    delta_v_b: Value = field(metadata={"unit": "m/s"})
+    pdof_a: Value | None = field(metadata={"unit": "rad"})
+    pdof_b: Value | None = field(metadata={"unit": "rad"})
+    closing_speed: Value | None = field(metadata={"unit": "m/s"})
+    restitution: Value | None = field(metadata={"unit": ""})
+    translational_energy_loss: Value = field(metadata={"unit": "J"})
+    condition: Value = field(metadata={"unit": ""})
+    sensitivity: Sensitivity = field()
+    unknowns: tuple[str, ...] = field()
+    status: Any = field()
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities; sensitivities to courses per degree."""
+        return Quantities(self)
+
+    @derived()
+    def ok(self) -> Any:
+        """Whether the case was answered."""
+        return self.status == codes.OK
+
+    def __repr__(self) -> str:
+        return f"MomentumSolution({', '.join(f'{name}={text}' for name, text in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return table("Planar momentum", self._rows())
+
+    def _rows(self) -> Any:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if value is not None and "unit" in f.metadata:
+                yield f.name, show(value, f.metadata["unit"])

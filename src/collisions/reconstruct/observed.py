@@ -1,0 +1,265 @@
+"""Restitution and friction that a known motion before and after shows."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arguments import read
+from ..eccentric import body_numbers
+from ..errors import (
+    CollisionsError,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    NoImpactError,
+    OutOfRangeWarning,
+)
+from ..kernels import codes
+from ..kernels.eccentric import eccentric
+from ..units import Input, Pair, Value, callers_level
+from ..vehicle import Vehicle
+from .outcome import Cases, input_faults, raise_or_warn
+
+_forward: Callable[..., tuple[Any, ...]] = eccentric
+_NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
+_MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
+
+
+def restitution(
+    a_before: Vehicle,
+    b_before: Vehicle,
+    a_after: Vehicle,
+    b_after: Vehicle,
+    *,
+    normal: Input | tuple[Input, Input],
+    point: Pair | None = None,
+) -> Value:
+    """Coefficient of restitution that the motions before and after show.
+
+    Separation over closing speed along the normal: of the contact points with ``point``, of the centres of mass without it
+    (eqs 8, 16, 18 and 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"). Nothing but the motions is used;
+    masses and inertias do not matter.
+
+    Parameters
+    ----------
+    a_before, b_before, a_after, b_after : Vehicle
+        The vehicles just before and just after; with ``point`` they need positions (those of the impact).
+    normal : angle [rad] or tuple (nx, ny)
+        Direction from A into B.
+    point : pair [m], optional
+        Contact point; without it the bodies are taken as points and may not turn.
+
+    Returns
+    -------
+    float or array [1]
+        Restitution; NaN for a refused case of a batch. Outside 0 to 1 it is returned with a warning.
+
+    Raises
+    ------
+    NoImpactError
+        The bodies did not approach before.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        Below 0: the contact points went on approaching, an incomplete impact. Above 1: more speed than there was.
+
+    Examples
+    --------
+    Railroad cars of a course sheet: 0.5 m/s into one at rest, leaving with -0.025 and 0.3 m/s (published answer 0.65).
+
+    >>> import collisions as col
+    >>> a, b = col.Vehicle(mass=20e3, vx=0.5), col.Vehicle(mass=35e3)
+    >>> round(col.reconstruct.restitution(a, b, a.replace(vx=-0.025), b.replace(vx=0.3), normal=0.0), 12)
+    0.65
+    """
+    before, after, cases, faults = _motions(a_before, b_before, a_after, b_after, normal, point, "restitution")
+    with np.errstate(all="ignore"):
+        closing = before["closing_speed"]
+        found = (0.0 - after["closing_speed"]) / np.where(closing > 0.0, closing, np.nan)
+        status = _judge(cases, faults, closing)
+        answer = np.where(np.equal(status, codes.OK), found, np.nan)
+    outside = (answer < 0.0) | (answer > 1.0 + 16.0 * codes.EPS)
+    if np.any(outside):
+        worst = float(np.nanmin(answer)) if np.any(answer < 0.0) else float(np.nanmax(answer))
+        what = (
+            "below 0: the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
+            if worst < 0.0
+            else "above 1: the contact points part faster than they met; the data contradict each other"
+        )
+        warnings.warn(
+            OutOfRangeWarning(f"the observed restitution is {worst:.4g}, {what}", code="observed_restitution", value=worst),
+            stacklevel=callers_level(),
+        )
+    observed: Value = cases.values(answer)
+    return observed
+
+
+def friction(
+    a_before: Vehicle,
+    b_before: Vehicle,
+    a_after: Vehicle,
+    b_after: Vehicle,
+    *,
+    normal: Input | tuple[Input, Input],
+    point: Pair | None = None,
+) -> Value:
+    """Friction that the motions before and after show: the magnitude of tangential over normal impulse.
+
+    The impulse is that of the changes of velocity of both bodies, each weighted by how little an error of its velocity weighs
+    (the inverse square of its mass). If the contact was sliding this is the coefficient of friction; if it came to stick, the
+    least that would do. Bodies without a pivot.
+
+    Parameters
+    ----------
+    a_before, b_before, a_after, b_after : Vehicle
+        The vehicles just before and just after.
+    normal : angle [rad] or tuple (nx, ny)
+        Direction from A into B.
+    point : pair [m], optional
+        Contact point, for the closing speed of bodies that turn.
+
+    Returns
+    -------
+    float or array [1]
+        Ratio of the impulses, >= 0.
+
+    Raises
+    ------
+    InputError
+        A body has a pivot, whose impulse is not known.
+    NoImpactError
+        The bodies did not approach before, or were not pushed apart.
+
+    Warns
+    -----
+    IllConditionedWarning
+        The impulses of A and B differ by more than a tenth: momentum is not conserved in the data.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> a, b = col.Vehicle(mass=1500, vx=15.0, vy=4.0), col.Vehicle(mass=1200)
+    >>> end = col.oblique_central(a, b, 0.1, normal=0.0, friction=0.2)
+    >>> round(col.reconstruct.friction(a, b, end.a.after, end.b.after, normal=0.0), 12)
+    0.2
+    """
+    for label, body in (("a_before", a_before), ("b_before", b_before)):
+        if isinstance(body, Vehicle) and body.pivot is not None:
+            raise InputError(
+                f"{label} has a pivot, whose impulse is not known; friction takes free bodies", code="pinned", argument="pivot"
+            )
+    before, after, cases, faults = _motions(a_before, b_before, a_after, b_after, normal, point, "friction")
+    with np.errstate(all="ignore"):
+        mass_a, mass_b = before["mass_a"], before["mass_b"]
+        nx, ny = before["normal"]
+        changes = [(after[f"vx_{s}"] - before[f"vx_{s}"], after[f"vy_{s}"] - before[f"vy_{s}"]) for s in "ab"]
+        # The impulse on B by each body's own change, and their mean with weights 1/m^2, which an infinite mass leaves alone.
+        px, py = (changes[1][i] / mass_b - changes[0][i] / mass_a for i in range(2))
+        normal_part, tangential_part = nx * px + ny * py, nx * py - ny * px
+        status = cases.verdict(
+            (
+                *faults,
+                *_closing_faults(before["closing_speed"]),
+                (normal_part <= 0.0, codes.NOT_SEPARATING),
+            )
+        )
+        _raise_or_warn(cases, status, before["closing_speed"])
+        sure = np.equal(status, codes.OK)
+        both = np.isfinite(mass_a) & np.isfinite(mass_b) & sure
+        on_a = [-mass_a * part for part in changes[0]]
+        on_b = [mass_b * part for part in changes[1]]
+        apart = np.hypot(on_b[0] - on_a[0], on_b[1] - on_a[1]) / np.maximum(np.hypot(*on_a), np.hypot(*on_b))
+    if np.any(both & (apart > _MISMATCH)):
+        most = float(np.max(np.where(both, apart, 0.0)))
+        warnings.warn(
+            IllConditionedWarning(
+                f"the impulses that the motions of A and B show differ by {most:.0%}: check masses, motions, and impulses from "
+                f"outside",
+                code="momentum_mismatch",
+                mismatch=most,
+            ),
+            stacklevel=callers_level(),
+        )
+    observed: Value = cases.values(np.where(sure, abs(tangential_part) / normal_part, np.nan))
+    return observed
+
+
+def _motions(
+    a_before: Any, b_before: Any, a_after: Any, b_after: Any, normal: Any, point: Any, purpose: str
+) -> tuple[dict[str, Any], dict[str, Any], Cases, list[tuple[Any, int]]]:
+    """What the kernel says of the contact before and after."""
+    e, n, _, _, contact, _ = read(a_before, b_before, 0.0, normal, point, 0.0, None, None, codes.BRACH)
+    read(a_after, b_after, 0.0, n, None, 0.0, None, None, codes.BRACH)
+    everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
+    sides = {}
+    for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):
+        for label, body in zip("ab", bodies, strict=True):
+            numbers = _numbers(body, contact, f"{label}_{moment}", purpose)
+            sides[moment, label] = numbers
+            everything |= {f"{label}_{moment}.{name}": value for name, value in zip(_NUMBERS, numbers, strict=True)}
+    everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
+    cases = Cases.of(everything)
+    found = []
+    with np.errstate(all="ignore"):
+        for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):
+            arrays = [[np.asarray(value, dtype=np.float64) for value in sides[moment, label]] for label in "ab"]
+            pinned = [body.pivot is not None and np.any(np.not_equal(body.yaw_rate, 0.0)) for body in bodies]
+            inputs = (np.zeros(()), *map(np.asarray, n), np.zeros(()), *map(np.asarray, contact or (0.0, 0.0)))
+            raw = _forward(*inputs, *arrays[0], *arrays[1], codes.FRICTION, codes.BRACH, *pinned)
+            known = {"closing_speed": raw[codes.AT["closing_speed"]], "normal": tuple(map(np.asarray, n))}
+            for label, array in zip("ab", arrays, strict=True):
+                known |= {f"{name}_{label}": array[i] for i, name in ((0, "mass"), (2, "vx"), (3, "vy"))}
+            found.append(known)
+    return found[0], found[1], cases, input_faults({**everything, "e": e})
+
+
+def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any, ...]:
+    """The numbers of one body; what does not matter for its motion at the contact is filled in."""
+    turns = np.any(np.not_equal(body.yaw_rate, 0.0))
+    if turns and contact is None:
+        raise MissingInputError(
+            f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
+        )
+    if contact is None or not turns:
+        return body.mass, np.inf, body.vx, body.vy, 0.0, 0.0, 0.0, 0.0, 0.0
+    for name in ("x", "y"):
+        body._need(name, purpose)
+    inertia = np.inf if body.yaw_inertia is None else body.yaw_inertia
+    return body.mass, inertia, *body_numbers(body, contact)[2:]
+
+
+def _closing_faults(closing: Any) -> list[tuple[Any, int]]:
+    return [(closing < 0.0, codes.SEPARATING), (closing == 0.0, codes.NO_CLOSING)]
+
+
+def _judge(cases: Cases, faults: list[tuple[Any, int]], closing: Any) -> Any:
+    status = cases.verdict((*faults, *_closing_faults(closing)))
+    _raise_or_warn(cases, status, closing)
+    return status
+
+
+def _raise_or_warn(cases: Cases, status: Any, closing: Any) -> None:
+    def error(index: tuple[int, ...]) -> CollisionsError:
+        code = int(np.asarray(status)[index])
+        if code == codes.NOT_SEPARATING:
+            return NoImpactError(
+                "the motions show no impulse that pushes the bodies apart along the normal, which must point from A into B",
+                code="not_pushed",
+            )
+        speed = cases.one(closing, index)
+        return NoImpactError(
+            f"the bodies did not approach before the impact: closing speed {speed:.6g} m/s along the normal, which must point "
+            f"from A into B; without closing there is nothing to compare the separation with",
+            code="no_closing" if code == codes.NO_CLOSING else "separating",
+            closing_speed=speed,
+        )
+
+    if cases.shape is not None:
+        raise_or_warn(status, None, error)
+    elif status != codes.OK:
+        raise error(())

@@ -1,0 +1,122 @@
+"""What every reverse solver ends with: the forward solver's answer to what it found, or the reason why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arguments import check_options, first_refused, warn_of_refusals
+from ..errors import CollisionsError, InputError, NoImpactError, NoSolutionError, Status
+from ..fields import lock
+from ..impact import Asked, Impact, found_by
+from ..kernels import checks, codes
+from ..provenance import Reconstruction
+from ..units import broadcast
+
+
+def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
+    """The values that were given, if they are as many as the question needs."""
+    given = {name: value for name, value in known.items() if value is not None}
+    if len(given) == count:
+        return given
+    missing = [name for name in known if name not in given]
+    advice = f"leave out {len(given) - count}" if len(given) > count else f"give {count - len(given)} of {', '.join(missing)}"
+    raise InputError(
+        f"{what} takes exactly {count} of {', '.join(known)}; got {len(given)} ({', '.join(given) or 'none'}): {advice}",
+        code="too_many_knowns" if len(given) > count else "too_few_knowns",
+        argument=", ".join(given),
+        given=tuple(given),
+    )
+
+
+class Cases(NamedTuple):
+    """What the answers to one question are: a single case, or a batch of a shape and a precision."""
+
+    shape: tuple[int, ...] | None
+    dtype: Any
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Cases:
+        """As many cases as the arrays among the values go together to."""
+        arrays = [value for value in values.values() if isinstance(value, np.ndarray)]
+        return cls(broadcast(values), np.float32 if all(array.dtype == np.float32 for array in arrays) else np.float64)
+
+    def values(self, found: Any) -> Any:
+        """A plain float for a single case, a locked array of its own for a batch."""
+        if self.shape is None:
+            return float(found)
+        return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
+
+    def verdict(self, findings: Sequence[tuple[Any, int]]) -> Any:
+        """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
+        status = np.zeros(self.shape or (), dtype=np.uint8)
+        for condition, code in reversed(findings):
+            status = np.where(condition, np.uint8(code), status)
+        return int(status) if self.shape is None else status
+
+    def one(self, found: Any, index: tuple[int, ...]) -> float:
+        """The value of the case at an index."""
+        return float(np.broadcast_to(found, self.shape or ())[index])
+
+
+def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
+    """What is wrong with values that the door does not look into: those of arrays."""
+    found: list[tuple[Any, int]] = []
+    for name, value in numbers.items():
+        kind = name.rpartition(".")[2]
+        if kind.startswith(("mass", "yaw_inertia")):
+            found += [(checks.not_a_number(value), codes.NOT_FINITE), (checks.not_positive(value), codes.NOT_POSITIVE)]
+        elif kind in ("restitution", "critical_fraction"):
+            code = codes.BAD_RESTITUTION if kind == "restitution" else codes.BAD_FRACTION
+            found.append((checks.outside_unit_interval(value), code))
+        elif kind == "friction":
+            found.append((checks.negative(value), codes.BAD_FRICTION))
+        else:
+            found.append((checks.not_finite(value), codes.NOT_FINITE))
+            if kind.startswith(("energy", "closing_speed")):
+                found.append((checks.negative(value), codes.CONTRADICTORY))
+    return found
+
+
+def settle(
+    asked: Asked, status: Any, origin: Reconstruction, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]
+) -> Impact:
+    """The forward solver's impact from the state that was found; ``error`` gives the refusal of the case at an index."""
+    check_options(on_failure)
+    if not isinstance(status, np.ndarray):
+        if status == codes.OK:
+            impact = asked.ask()
+        elif on_failure == "nan":
+            impact = asked.ask(on_failure="nan")
+        else:
+            raise error(())
+        return found_by(origin, impact._asked, impact._raw, status)
+    impact = asked.ask(on_failure="nan")
+    found = found_by(origin, impact._asked, impact._raw, status)
+    raise_or_warn(found._raw[0], on_failure, error)
+    return found
+
+
+def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
+    """What a batch does about its refused cases."""
+    if on_failure != "nan" and np.any(status > codes.ENERGY_GAIN):
+        if on_failure == "raise":
+            index, place = first_refused(status)
+            problem = error(index)
+            raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
+        warn_of_refusals(status)
+
+
+def plain_error(status: int, text: str, **fields: Any) -> CollisionsError:
+    """The error of a status, in the family its label belongs to."""
+    outcome = Status(status)
+    kind = (
+        NoImpactError
+        if outcome in (Status.SEPARATING, Status.GRAZING, Status.NO_CLOSING)
+        else InputError
+        if Status.OUT_OF_RANGE <= outcome < Status.NO_CLOSING
+        else NoSolutionError
+    )
+    return kind(text, code=outcome.label, **fields)

@@ -1,0 +1,111 @@
+"""Positions and headings along a path."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, ShapeError
+from ..units import Door, is_quantity
+from .reading import one_value, single
+
+_HALF_TURN = math.pi * (1.0 + 1e-9)
+
+
+def _parts(door: Door, value: Any, unit: str, name: str, shape: str) -> list[Any] | None:
+    """The entries of a list, or the rows of an array of shape (n,) or (n, 2); None if it is neither."""
+    if isinstance(value, (list, tuple)):
+        return list(value)
+    count = len(door.problems)
+    read = door.number(value, unit, name)
+    got = read.shape if isinstance(read, np.ndarray) else ()
+    if len(got) == shape.count("n") + shape.count("2") and got[1:] in ((), (2,)):
+        rows: list[Any] = read.tolist()
+        return rows
+    if len(door.problems) == count:
+        what = f"an array of shape {got}" if got else "one number"
+        text = f"{name} is {what}; give a list with one for each point, or an array of shape {shape}"
+        door.refuse(ShapeError(text, code="bad_shape", argument=name))
+    return None
+
+
+def read_points(door: Door, points: Any) -> list[tuple[float, float]] | None:
+    parts = _parts(door, points, "m", "points", "(n, 2)")
+    if parts is None:
+        return None
+    wrong = len(door.problems)
+    places = []
+    for i, part in enumerate(parts):
+        name = f"points[{i}]"
+        if not _is_pair(part):
+            door.refuse(ShapeError(f"{name} must be a pair (x, y), got {str(part)[:60]}", code="bad_shape", argument=name))
+            continue
+        x, y = door.pair(part, "m", name)
+        places.append((single(door, x, f"{name}[0]"), single(door, y, f"{name}[1]")))
+    if len(door.problems) > wrong:
+        return None
+    if len(places) < 2:
+        text = f"points holds {len(places)}, and a path needs at least two: separation first, the end of the run-out last"
+        door.refuse(ShapeError(text, code="too_few_points", argument="points"))
+        return None
+    for i, (before, after) in enumerate(pairwise(places)):
+        if before == after:
+            door.refuse(
+                InputError(
+                    f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, {before[1]:.6g}), which has no "
+                    f"course; leave one out",
+                    code="coincident_points",
+                    argument="points",
+                )
+            )
+    return places
+
+
+def _is_pair(value: Any) -> bool:
+    whole = value.magnitude if is_quantity(value) else value
+    if isinstance(whole, np.ndarray):
+        return whole.ndim == 1 and len(whole) == 2
+    return isinstance(whole, (list, tuple)) and len(whole) == 2
+
+
+def read_headings(door: Door, headings: Any, count: int | None) -> list[float]:
+    """One heading for each point; ``count`` is None if the points could not be read."""
+    # Counted on through turns, headings grow beyond the size at which the door suspects degrees; it looks at the first alone.
+    door.trusted = ("headings",)
+    parts = _parts(door, headings, "rad", "headings", "(n,)")
+    if parts is None:
+        return []
+    door.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
+    wrong = len(door.problems)
+    turned = [_read_heading(door, part, f"headings[{i}]") for i, part in enumerate(parts)]
+    if len(door.problems) > wrong:
+        return []
+    if count is not None and len(turned) != count:
+        text = f"headings holds {len(turned)} and points holds {count}; give one heading for each point"
+        door.refuse(ShapeError(text, code="bad_shape", argument="headings"))
+    for i, (before, after) in enumerate(pairwise(turned)):
+        turn = after - before
+        if abs(turn) > _HALF_TURN:
+            door.refuse(
+                InputError(
+                    f"headings[{i}] to headings[{i + 1}] turn by {math.degrees(turn):.6g} deg, and at most half a turn can be "
+                    f"told: count headings on without a jump at a full turn (350 deg, then 370 deg), give points between for a "
+                    f"faster spin, and write degrees as '{after:.6g} deg'",
+                    code="turns_too_far",
+                    argument="headings",
+                )
+            )
+            break
+    return turned
+
+
+def _read_heading(door: Door, value: Any, name: str) -> float:
+    if isinstance(value, (list, tuple)):
+        refused: float = one_value(door, value, "rad", name)
+        return refused
+    angle, in_degrees = door.angle(value, name)
+    read: float = single(door, angle, name)
+    return math.radians(read) if in_degrees else read

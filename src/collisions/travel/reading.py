@@ -1,0 +1,136 @@
+"""The door of travel: drag, grade, lengths and speeds, one value or one for each segment."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
+from ..units import FINITE, Door, Input, callers_level, is_quantity
+from .chain import GRAVITY
+
+Segments: TypeAlias = Input | Sequence[Input]
+_Reader: TypeAlias = Callable[[Door, Any, str], Any]
+
+# No road tyre holds more than this on any road, and no road is steeper: beyond, a bare number is in another unit.
+HIGHEST_DRAG = 1.5
+_STEEPEST_GRADE = 0.5
+
+
+def for_each(door: Door, value: Any, name: str, count: int | None, read: _Reader) -> list[Any]:
+    """One number for each segment; a single value stands for all.
+
+    ``count`` is 0 for one surface, not given as a list, and None if the segments could not be read.
+    """
+    if not isinstance(value, (list, tuple)):
+        one = read(door, value, name)
+        return [one] * (count or 1)
+    if len(value) == count or count is None:
+        return [read(door, part, f"{name}[{i}]") for i, part in enumerate(value)]
+    kind = type(value).__name__
+    if count:
+        text = f"{name} is a {kind} of {len(value)}, and there are {count} segments; give one value for all, or one for each"
+    else:
+        text = (
+            f"{name} is a {kind}, one value for each segment, and distance is one surface; give distance as a list too, or "
+            f"many cases as a numpy array"
+        )
+    door.refuse(ShapeError(text, code="bad_shape", argument=name))
+    return [math.nan] * (count or 1)
+
+
+def one_value(door: Door, value: Any, unit: str, name: str, domain: str = FINITE) -> Any:
+    """A float or an array; a list here is neither segments nor cases."""
+    if isinstance(value, (list, tuple)):
+        return door.refuse(
+            ShapeError(
+                f"{name} is a {type(value).__name__}, and takes one value; many cases go in a numpy array",
+                code="bad_shape",
+                argument=name,
+            )
+        )
+    return door.number(value, unit, name, domain)
+
+
+def at_least_zero(door: Door, read: Any, given: Any, name: str, code: str, why: str) -> Any:
+    if isinstance(read, float) and read < 0.0:
+        return door.refuse(InputError(f"{name} must be >= 0, got {given!r}; {why}", code=code, argument=name))
+    return read
+
+
+def read_length(door: Door, value: Any, name: str) -> Any:
+    read = one_value(door, value, "m", name)
+    return at_least_zero(door, read, value, name, "negative_distance", "it is counted along the way travelled")
+
+
+def read_speed(door: Door, value: Any, name: str) -> Any:
+    read = one_value(door, value, "m/s", name)
+    return at_least_zero(door, read, value, name, "negative_speed", "it is counted along the way travelled")
+
+
+def read_drag(door: Door, value: Any, name: str) -> Any:
+    """The drag factor, also from a deceleration."""
+    bare = not (isinstance(value, str) or is_quantity(value))
+    read = one_value(door, value, "", name) if bare else _factor_or_deceleration(door, value, name)
+    why = "it says how much the ground slows the vehicle, whatever way it goes"
+    read = at_least_zero(door, read, value, name, "negative_drag", why)
+    if bare:
+        warn_if_above(HIGHEST_DRAG, read, name, "a fraction of gravity", "m/s**2", "%")
+    return read
+
+
+def _factor_or_deceleration(door: Door, value: Any, name: str) -> Any:
+    factor, deceleration = Door(), Door()
+    read = factor.number(value, "", name)
+    if not factor.problems:
+        return read
+    read = deceleration.number(value, "m/s**2", name)
+    if not deceleration.problems:
+        return read / GRAVITY
+    if isinstance(factor.problems[0], UnitsError) and isinstance(deceleration.problems[0], UnitsError):
+        text = (
+            f"{name}: cannot read {str(value)[:60]!r} as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2' or "
+            f"'22.5 ft/s**2'"
+        )
+        return door.refuse(UnitsError(text, code="bad_units", argument=name))
+    return door.refuse(next(p for p in (*factor.problems, *deceleration.problems) if not isinstance(p, UnitsError)))
+
+
+def read_grade(door: Door, value: Any, name: str) -> Any:
+    read = one_value(door, value, "", name)
+    if not (isinstance(value, str) or is_quantity(value)):
+        warn_if_above(_STEEPEST_GRADE, read, name, "the rise over the run", "%")
+    return read
+
+
+def single(door: Door, read: Any, name: str) -> Any:
+    """The number of a ``path``, which is one case."""
+    if isinstance(read, float):
+        return read
+    return door.refuse(
+        ShapeError(
+            f"{name} is an array, and path takes one case a call; give a number, or a list of one for each segment",
+            code="bad_shape",
+            argument=name,
+        )
+    )
+
+
+def warn_if_above(limit: float, read: Any, name: str, meaning: str, *units: str) -> None:
+    # fmax passes over NaN.
+    largest = float(np.fmax.reduce(np.abs(read), axis=None, initial=0.0)) if isinstance(read, np.ndarray) else abs(read)
+    if limit < largest < math.inf:
+        spelled = " or ".join(f"'{largest:g} {unit}'" for unit in units)
+        warnings.warn(
+            SuspectUnitsWarning(
+                f"{name} = {largest:g} is read as {meaning}; if another unit was meant, write {spelled}",
+                code="suspect_units",
+                argument=name,
+                value=largest,
+            ),
+            stacklevel=callers_level(),
+        )

@@ -1,0 +1,223 @@
+"""Speed, distance and time of a vehicle that slows along a line."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Any
+
+import numpy as np
+
+from ..errors import CollisionsWarning, NoSolutionError, ShapeError
+from ..kernels.select import select
+from ..units import Door, Input, Value, broadcast, callers_level
+from .chain import GRAVITY, durations_along, out_of_range, speeds_along
+from .reading import Segments, for_each, read_drag, read_grade, read_length, read_speed
+
+
+def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
+    """Speed [m/s] at the start of a distance over which a vehicle slows.
+
+    A list or tuple for ``distance`` is surfaces one after another, in order of travel; drag and grade then are one value for
+    all, or a list as long. An array is many cases; arrays broadcast, and may be the parts of a list. Cases that cannot be
+    answered are NaN and counted in one warning.
+
+    Parameters
+    ----------
+    distance : float, str, Quantity, array or list of these [m]
+        Horizontal distance, >= 0.
+    drag : float, str, Quantity, array or list of these
+        Drag factor, >= 0: a plain number such as 0.7, or a deceleration on the level such as ``"6.9 m/s**2"``.
+    grade : float, str, Quantity, array or list of these
+        Rise over run, positive uphill in the direction of travel; ``"-4 %"`` is downhill.
+    end_speed : float, str, Quantity or array [m/s]
+        Speed at the end of the distance, 0 at rest.
+
+    Raises
+    ------
+    InputError
+        Naming every argument that cannot be used.
+    NoSolutionError
+        No start speed leads to this end: the ground would have had to take more energy than there was.
+
+    Examples
+    --------
+    A slide of 66 ft to rest on asphalt of 0.65; a course sheet that rounds to 30 f d has 35.87 mph:
+
+    >>> round(speed("66 ft", drag=0.65) / 0.44704, 2)
+    35.82
+
+    12 m on asphalt, then 8 m on a grass bank that rises, into a tree at 20 km/h:
+
+    >>> round(speed([12.0, "8 m"], drag=[0.7, 0.45], grade=[0, "10 %"], end_speed="20 km/h") * 3.6, 1)
+    60.4
+    """
+    run = _Run(distance, drag, grade, end_speed)
+    with np.errstate(all="ignore"):
+        start: Value = run.settle(run.speeds()[0])
+    return start
+
+
+def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
+    """Distance [m] over which a vehicle comes from one speed to another on one surface; the reverse of ``speed``.
+
+    Parameters
+    ----------
+    speed : float, str, Quantity or array [m/s]
+        Speed at the start, >= 0.
+    drag : float, str, Quantity or array
+        Drag factor, >= 0, or a deceleration on the level.
+    grade : float, str, Quantity or array
+        Rise over run, positive uphill in the direction of travel.
+    end_speed : float, str, Quantity or array [m/s]
+        Speed at the end.
+
+    Raises
+    ------
+    InputError
+        Naming every argument that cannot be used.
+    NoSolutionError
+        The vehicle never comes to the end speed, or keeps it over any distance.
+
+    Examples
+    --------
+    The table of stopping distances in the Code of Virginia, section 46.2-880, has 119 ft of braking from 50 mph:
+
+    >>> round(distance("50 mph", drag=0.7) / 0.3048, 1)
+    119.4
+    """
+    door = Door()
+    start = read_speed(door, speed, "speed")
+    slowing = read_drag(door, drag, "drag")
+    slope = read_grade(door, grade, "grade")
+    end = read_speed(door, end_speed, "end_speed")
+    door.close()
+    named = {"speed": start, "drag": slowing, "grade": slope, "end_speed": end}
+    broadcast(named)
+    with np.errstate(all="ignore"):
+        drop = slowing + slope
+        change = start - end
+        if isinstance(drop, float) and isinstance(change, float):
+            problem = _never_gets_there(start, end, drop)
+            if problem is not None:
+                raise problem
+        # A change that the ground works against would need a negative distance.
+        fits = ((change > 0.0) & (drop > 0.0)) | ((change < 0.0) & (drop < 0.0)) | ((change == 0.0) & (drop != 0.0))
+        rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
+        found = change / rate * (start + end) + 0.0
+        settled: Value = _settle(select(fits, found, math.nan), named)
+    return settled
+
+
+def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
+    """Time [s] that a vehicle takes over the distance; the arguments are those of ``speed``.
+
+    Raises
+    ------
+    InputError
+        Naming every argument that cannot be used.
+    NoSolutionError
+        No start speed leads to this end.
+
+    Examples
+    --------
+    >>> round(time("66 ft", drag=0.65), 2)
+    2.51
+    """
+    run = _Run(distance, drag, grade, end_speed)
+    with np.errstate(all="ignore"):
+        total: Value = run.settle(sum(durations_along(run.lengths, run.speeds()), start=0.0))
+    return total
+
+
+class _Run:
+    """The arguments of ``speed`` and ``time`` as numbers, one entry a segment."""
+
+    def __init__(self, length: Any, drag: Any, grade: Any, end_speed: Any) -> None:
+        door = Door()
+        listed = isinstance(length, (list, tuple))
+        if listed and not length:
+            door.refuse(
+                ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance")
+            )
+        count = len(length) if listed else 0
+        self.listed = listed
+        self.lengths = for_each(door, length, "distance", count, read_length)
+        drags = for_each(door, drag, "drag", count, read_drag)
+        grades = for_each(door, grade, "grade", count, read_grade)
+        self.end = read_speed(door, end_speed, "end_speed")
+        door.close()
+        self.named = {"end_speed": self.end}
+        for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", grades, grade)):
+            self.named |= {f"{name}[{i}]" if isinstance(given, (list, tuple)) else name: part for i, part in enumerate(values)}
+        broadcast(self.named)
+        with np.errstate(all="ignore"):
+            self.drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
+
+    def speeds(self) -> list[Any]:
+        return speeds_along(self.lengths, self.drops, self.end, lambda i: f"distance[{i}]" if self.listed else "distance")
+
+    def settle(self, found: Any) -> Any:
+        return _settle(found, self.named)
+
+
+def _never_gets_there(start: float, end: float, drop: float) -> NoSolutionError | None:
+    if start > end and drop <= 0.0:
+        what = "stops" if end == 0.0 else f"slows to {end:.6g} m/s"
+        return NoSolutionError(
+            f"the vehicle never {what}: drag + grade is {drop:.6g}, which does not slow it; correct the sign of the grade, or "
+            f"the drag",
+            code="never_stops",
+        )
+    if start < end and drop >= 0.0:
+        return NoSolutionError(
+            f"end_speed {end:.6g} m/s is above speed {start:.6g} m/s, and drag + grade is {drop:.6g}, which does not speed the "
+            f"vehicle up; exchange the two, or correct the sign of the grade",
+            code="contradictory",
+        )
+    if start == end and drop == 0.0:
+        return NoSolutionError(
+            f"drag + grade is 0, so the vehicle keeps its {start:.6g} m/s over any distance", code="any_distance"
+        )
+    return None
+
+
+def _settle(found: Any, named: dict[str, Any]) -> Any:
+    """The answer; lanes of a batch that have none are NaN, and one warning says how many and why."""
+    if not isinstance(found, np.ndarray):
+        if not math.isfinite(found):
+            raise out_of_range()
+        return found
+    unsettled = np.ones(found.shape, dtype=bool)
+    counts: dict[str, int] = {}
+    for code, lanes in _lane_checks(found, named):
+        hit = unsettled & lanes
+        if hit.any():
+            counts[code] = counts.get(code, 0) + int(np.count_nonzero(hit))
+            unsettled &= ~hit
+    if not counts:
+        return found
+    listed = ", ".join(f"{count} {code}" for code, count in counts.items())
+    warnings.warn(
+        CollisionsWarning(
+            f"{sum(counts.values())} of {found.size} cases cannot be answered and are NaN ({listed})",
+            code="refused_cases",
+            counts=counts,
+        ),
+        stacklevel=callers_level(),
+    )
+    return np.where(unsettled, found, math.nan)
+
+
+def _lane_checks(found: Any, named: dict[str, Any]) -> list[tuple[str, Any]]:
+    """What the door asks of single numbers, of the lanes of arrays; then what came of them."""
+    arrays = [(name.partition("[")[0], value) for name, value in named.items() if isinstance(value, np.ndarray)]
+    negative = {
+        "distance": "negative_distance",
+        "drag": "negative_drag",
+        "speed": "negative_speed",
+        "end_speed": "negative_speed",
+    }
+    checks: list[tuple[str, Any]] = [("not_finite", ~np.isfinite(value)) for _, value in arrays]
+    checks += [(negative[name], value < 0.0) for name, value in arrays if name in negative]
+    return [*checks, ("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))]
