@@ -153,6 +153,7 @@ def path(
     A car that spun to the left by 160 deg on nearly free wheels, at rest after 20 m. Its course at separation was 12 deg to the
     right of the straight line to rest, and full friction throughout would make it 13 % faster:
 
+    >>> from collisions.travel import path, speed
     >>> places = [(0, 0), (6, -1.6), (12, -2.3), (20, -2.5)]
     >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2)
     >>> [round(drag, 2) for drag in run.drags]
