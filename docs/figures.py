@@ -1,4 +1,4 @@
-"""The sign-convention figures of the three impacts.
+"""The figures of the pages: the signs of the three impacts, and of reverse reconstruction.
 
 ``python docs/figures.py [folder] [svg|png]`` writes them, by default again to docs/_static/ as SVG.
 """
@@ -14,6 +14,8 @@ mpl.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+
+from collisions import travel
 
 INK, A, B, FORCE, FRAME, GREY = "#1a1a1a", "#1f5fa8", "#b3541e", "#a01040", "#2b7a3d", "#777777"
 mpl.rcParams |= {
@@ -259,14 +261,145 @@ def eccentric():
     return fig
 
 
-FIGURES = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
+def crossing_courses():
+    """The car of 1200 kg going south and the one of 1800 kg going east, with departure courses known to 5 degrees."""
+    fig, (ax, firm) = plt.subplots(1, 2, figsize=(11.5, 5.0), width_ratios=(1.5, 1))
+    canvas(ax, (-8.0, 125.0), (-98.0, 13.0))
+    masses, speeds, courses = (1.2, 1.8), (30.0, 50.0), (-30.0, -40.0)  # t, km/h, deg
+    after = [mass * speed * unit(course) for mass, speed, course in zip(masses, speeds, courses, strict=True)]
+    total = after[0] + after[1]
+    swept = np.linspace(-5.0, 5.0, 41)
+    for tail, mass, speed, course, colour in zip((np.zeros(2), after[0]), masses, speeds, courses, (A, B), strict=True):
+        fan = np.array([tail, *(tail + mass * speed * unit(course + angle) for angle in swept)])
+        ax.add_patch(Polygon(fan, closed=True, fc=colour + "22", ec="none"))
+    one, other = np.meshgrid(swept, swept)
+    tips = sum(
+        mass * speed * np.array([np.cos(np.radians(course + angle)), np.sin(np.radians(course + angle))])
+        for mass, speed, course, angle in zip(masses, speeds, courses, (one, other), strict=True)
+    )
+    rim = tips[:, [0, -1], :].reshape(2, -1), tips[:, :, [0, -1]].reshape(2, -1)
+    cloud = np.concatenate(rim, axis=1)
+    hull = hull_of(cloud.T)
+    ax.add_patch(Polygon(hull, closed=True, fc=FORCE + "44", ec=FORCE, lw=1.0, zorder=4))
+    (left, right), (low, high) = ((cloud[i].min(), cloud[i].max()) for i in range(2))
+    for ends in (((left, 0), (left, low)), ((right, 0), (right, low))):
+        ax.plot(*np.array(ends).T, color=GREY, lw=0.8, ls=":")
+    for y in (low, high):
+        ax.plot([0, right], [y, y], color=GREY, lw=0.8, ls=":")
+    arrow(ax, (0, 0), after[0], A)
+    arrow(ax, after[0], total, B)
+    arrow(ax, (0, 0), total, INK, 1.6, ls=(0, (5, 3)))
+    arrow(ax, (0, 0), (0, total[1]), A, 2.6)
+    arrow(ax, (0, 0), (total[0], 0), B, 2.6)
+    ax.plot([left, right], [2.2, 2.2], color=B, lw=5, solid_capstyle="butt", alpha=0.5)
+    ax.plot([-2.2, -2.2], [low, high], color=A, lw=5, solid_capstyle="butt", alpha=0.5)
+    label(ax, (52, 6.5), "B before: $m_B v_B$ along its course", B)
+    label(ax, (-6.2, -34), "A before: $m_A v_A$", A, rotation=90)
+    label(ax, after[0] * 0.62 + [3.0, 5.2], "A after", A, rotation=-30)
+    label(ax, after[0] + 0.5 * after[1] + [4.5, 4.5], "B after", B, rotation=-40)
+    label(ax, total * 0.42 + [-4.5, -6.5], "total", INK, rotation=-37)
+    label(ax, (right, low - 5.0), "tip of the total,\ncourses after within ±5°", FORCE, fontsize=10, va="top")
+    label(ax, (0.5 * (left + right), 7.5), "its range", B, fontsize=9.5)
+    arrow(ax, (4, -93), (44, -93), INK, 1.2, 10)
+    label(ax, (47, -93), "40 000 kg km/h", fontsize=9.5, ha="left")
+
+    angle = np.linspace(1.5, 178.5, 500)
+    condition = (1.0 + abs(np.cos(np.radians(angle)))) / np.sin(np.radians(angle))
+    firm.semilogy(angle, condition, color=FORCE, lw=2)
+    for start, end in ((0, 10), (170, 180)):
+        firm.axvspan(start, end, color=GREY, alpha=0.25, lw=0)
+    firm.text(13, 45, "warned of below 10°\nand above 170°", fontsize=10, va="center")
+    firm.set(xlim=(0, 180), ylim=(0.8, 100), xticks=range(0, 181, 30))
+    firm.set_xlabel("angle between the unknown courses, degrees")
+    firm.set_ylabel("condition")
+    firm.set_yticks([1, 2, 5, 10, 20, 50, 100], labels=["1", "2", "5", "10", "20", "50", "100"])
+    firm.minorticks_off()
+    firm.grid(color="#dddddd", lw=0.6)
+    firm.spines[["top", "right"]].set_visible(False)
+    fig.tight_layout()
+    return fig
+
+
+def hull_of(points):
+    """The outer corners of a cloud of points, counter-clockwise."""
+    ordered = sorted(map(tuple, points))
+
+    def chain(places):
+        kept = []
+        for place in places:
+            while len(kept) > 1 and cross(np.subtract(kept[-1], kept[-2]), np.subtract(place, kept[-1])) <= 0.0:
+                kept.pop()
+            kept.append(place)
+        return kept[:-1]
+
+    return np.array(chain(ordered) + chain(ordered[::-1]))
+
+
+def cross(one, other):
+    return one[0] * other[1] - one[1] * other[0]
+
+
+def run_out():
+    """Car B of examples/intersection_reconstruction.py."""
+    places = [(0.8, -0.7), (2.4, 1.9), (4.0, 4.4), (5.4, 6.5), (7.2, 9.0), (8.7, 11.0), (10.2, 13.0), (13.0, 16.5)]
+    headings = [90, 50, 15, -15, -55, -80, -100, -105]
+    friction, lock = [0.7] * 4 + [0.45] * 3, 0.3
+    run = travel.path(places, [f"{heading} deg" for heading in headings], friction=friction, lock=lock)
+    fig, (ax, drag) = plt.subplots(1, 2, figsize=(11.5, 6.6), width_ratios=(1.25, 1))
+    canvas(ax, (-4.0, 17.5), (-4.2, 20.0))
+    ax.axhspan(9.0, 20.0, color="#7fae6a", alpha=0.22, lw=0)
+    label(ax, (-3.6, 10.1), "grass, friction 0.45", GREY, fontsize=9.5, ha="left")
+    label(ax, (-3.6, 7.9), "asphalt, friction 0.7", GREY, fontsize=9.5, ha="left")
+    for place, heading in zip(places, headings, strict=True):
+        car(ax, place, heading, B, "", length=4.2, width=1.75)
+    ax.plot(*np.array(places).T, color=INK, lw=1.6, zorder=7)
+    start = np.array(places[0])
+    ax.plot(*np.array([start, places[-1]]).T, color=GREY, lw=1.4, ls=(0, (6, 4)), zorder=7)
+    arrow(ax, start, start + 9.0 * unit(np.degrees(run.course)), FORCE, 2.4, zorder=8)
+    label(
+        ax,
+        start + 4.2 * unit(np.degrees(run.course)) + [-2.9, 0.6],
+        f"tangent\n{np.degrees(run.course):.1f}°",
+        FORCE,
+        ha="right",
+    )
+    label(ax, (12.6, 10.9), f"straight line\nto rest {np.degrees(run.straight_course):.1f}°", GREY, ha="left", fontsize=10)
+    ax.plot([12.4, 9.1], [10.9, 10.75], color=GREY, lw=0.8)
+    label(ax, beside(start, 2.6, -1.9), "separation", ha="left")
+    label(ax, np.add(places[-1], (0.2, 2.9)), "rest", ha="center")
+    scene_axes(ax, (11.5, -3.2), 1.5)
+
+    crab = np.linspace(-180.0, 180.0, 721)
+    for part, style in ((0.0, (0, (1, 1.5))), (0.3, "-"), (0.6, (0, (5, 2))), (1.0, (0, (7, 2, 1, 2)))):
+        angle = np.radians(crab)
+        drag.plot(crab, np.hypot(np.sin(angle), part * np.cos(angle)), color=INK, lw=1.5, ls=style, label=f"lock {part:g}")
+    for angle, found, mu in zip(run.crab_angles, run.drags, friction, strict=True):
+        drag.plot(np.degrees(angle), found / mu, "o", color=B, ms=7, zorder=5)
+    drag.set(xlim=(-180, 180), ylim=(0, 1.05), xticks=range(-180, 181, 60))
+    drag.set_xlabel("crab angle, degrees (heading less course)")
+    drag.set_ylabel("drag / friction")
+    drag.set_title("points: the segments of this run-out", fontsize=10.5)
+    drag.legend(loc="lower right", frameon=True, framealpha=0.95)
+    drag.grid(color="#dddddd", lw=0.6)
+    drag.spines[["top", "right"]].set_visible(False)
+    fig.tight_layout()
+    return fig
+
+
+FIGURES = {
+    "signs_linear_central": linear,
+    "signs_oblique_central": oblique,
+    "signs_eccentric": eccentric,
+    "reverse_courses": crossing_courses,
+    "reverse_run_out": run_out,
+}
 
 
 def main(folder=Path(__file__).parent / "_static", kind="svg"):
     blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}
     for name, draw in FIGURES.items():
         fig = draw()
-        path = Path(folder) / f"signs_{name}.{kind}"
+        path = Path(folder) / f"{name}.{kind}"
         fig.savefig(path, metadata=blank[kind], dpi=110)
         if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
             path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -41,6 +41,14 @@ UNITS = {
     "impulse_ratio": "",
     "critical_fraction": "",
     "share_a": "",
+    "energy_loss": "J",
+    "outside_impulse": "N*s",
+    "stiffness_a": "N/m",
+    "stiffness_b": "N/m**2",
+    "width": "m",
+    "drag": "",
+    "grade": "",
+    "lock": "",
 }
 _SPELLINGS = {
     "kg": ("kg", "lb", "tonne", "g", "slug"),
@@ -49,6 +57,10 @@ _SPELLINGS = {
     "kg*m**2": ("kg*m**2", "kg m^2", "slug*ft**2", "lbf*ft*s**2", "kg·m²"),
     "m": ("m", "cm", "ft", "inch", "mile", "Mpc"),
     "rad": ("rad", "deg", "°", "mrad", "turn", "arcsec"),
+    "J": ("J", "kJ", "ft*lbf", "kWh", "N*m"),
+    "N*s": ("N*s", "kN*s", "lbf*s", "kg*m/s"),
+    "N/m": ("N/m", "N/cm", "lbf/inch"),
+    "N/m**2": ("N/m**2", "kPa", "psi"),
     "": ("%", "percent", "ppm", "dimensionless", ""),
 }
 ODD_UNITS = (
@@ -86,6 +98,16 @@ def plausible(name: str) -> Any:
         "angle": st.floats(-3.0, 3.0),
         "vx": st.floats(-40.0, 40.0),
         "vy": st.floats(-40.0, 40.0),
+        "speed": st.floats(0.0, 40.0),
+        "distance": st.floats(0.0, 60.0),
+        "energy_loss": st.floats(0.0, 4e5),
+        "outside_impulse": st.floats(-4e3, 4e3),
+        "stiffness_a": st.floats(1e4, 1e5),
+        "stiffness_b": st.floats(1e5, 1e6),
+        "width": st.floats(0.0, 2.0),
+        "drag": st.floats(0.0, 1.2),
+        "grade": st.floats(-0.2, 0.2),
+        "lock": st.floats(0.0, 1.0),
     }
     return ranges.get(name, st.floats(-5.0, 5.0))
 

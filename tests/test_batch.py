@@ -88,6 +88,17 @@ def test_single_precision_stays_single_only_if_every_array_is():
     np.testing.assert_allclose(mixed.energy_loss, double.energy_loss, rtol=1e-15)
 
 
+@pytest.mark.parametrize("mass", [1e39, 1e-39])
+def test_a_plain_number_that_float32_cannot_hold_is_not_lost(mass):
+    """Beside float32 arrays it makes the batch float64: the answer is that of the single case to float64 rounding."""
+    b = col.Vehicle(mass=mass)
+    many = col.linear_central(col.Vehicle(mass=1.0, vx=np.array([2.0, 3.0], dtype=np.float32)), b, 0.5)
+    one = col.linear_central(col.Vehicle(mass=1.0, vx=2.0), b, 0.5)
+    assert many.normal_impulse.dtype == np.float64
+    # Impulses are promised to 4 eps (numerics 5), in each.
+    assert many.normal_impulse[0] == pytest.approx(one.normal_impulse, rel=8 * 2.2e-16)
+
+
 def test_single_precision_angles_in_degrees():
     """Degrees keep the precision of their array, and the normal of the result can be given again to the same bits."""
     degrees = pint.Quantity(np.linspace(-60.0, 60.0, 241, dtype=np.float32), "deg")

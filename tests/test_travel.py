@@ -317,6 +317,7 @@ def refusal(call):
         (1, {"drag": "x"}, "bad_units", "'22.5 ft/s**2'"),
         (1, {"drag": 0.7, "grade": "3 deg"}, "bad_units", "grade: '3 deg'"),
         ([], {"drag": 0.7}, "bad_shape", "distance is an empty list"),
+        (5.0, {"drag": []}, "bad_shape", "drag is a list"),
         ([1, 2, 3], {"drag": [0.7, 0.5]}, "bad_shape", "drag is a list of 2, and there are 3 segments"),
         ((1, 2), {"drag": 0.7, "grade": (0.1,)}, "bad_shape", "grade is a tuple of 1, and there are 2 segments"),
         (1, {"drag": [0.7, 0.5]}, "bad_shape", "distance is one surface; give distance as a list too"),

@@ -14,7 +14,7 @@ from .directions import direction, from_radians
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
 from .impact import Asked, Impact, build
 from .kernels import checks, codes
-from .kernels.batch import Check, solve_lanes
+from .kernels.batch import Check, precision, solve_lanes
 from .kernels.select import verdict
 from .refusals import refusal
 from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, callers_level
@@ -196,8 +196,7 @@ def _batch(
     threads: int,
     progress: Any,
 ) -> Impact:
-    arrays = [value for _, value in _values(asked) if isinstance(value, np.ndarray)]
-    dtype = np.float32 if all(array.dtype == np.float32 for array in arrays) else np.float64
+    dtype = precision(value for _, value in _values(asked))
     eps = float(np.finfo(dtype).eps)
     found = _value_checks(asked, eps)
     if scope is not None:
@@ -290,7 +289,7 @@ def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
     return index, f"case {index if len(index) != 1 else index[0]}: "
 
 
-def warn_of_refusals(status: Any) -> None:
+def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
     """One warning that counts the refused cases of a batch by their kind."""
     refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
     kinds = {
@@ -299,7 +298,7 @@ def warn_of_refusals(status: Any) -> None:
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     warnings.warn(
         CollisionsWarning(
-            f"{refused} of {status.size} cases were refused and are NaN ({listed}); see .status, or on_failure='raise'",
+            f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}",
             code="refused_cases",
             counts=kinds,
         ),

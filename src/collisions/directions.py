@@ -63,8 +63,9 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
 def between(one: Angle, other: Angle) -> tuple[Any, Any]:
     """Cosine and sine of the angle from one to the other, from their difference: exact where two courses are nearly one."""
     if one.in_degrees and other.in_degrees:
-        return from_degrees(np.subtract(other.value, one.value))
-    return from_radians(other.radians - one.radians)
+        return from_degrees(np.fmod(other.value, 360.0) - np.fmod(one.value, 360.0))
+    with np.errstate(over="ignore"):
+        return from_radians(np.asarray(other.radians - one.radians))
 
 
 def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:

@@ -77,14 +77,14 @@ class NoImpactError(CollisionsError, ValueError):
 class NoSolutionError(CollisionsError, ValueError):
     """The arguments are in order, but the model has no answer for them."""
 
+    @property
+    def solutions(self) -> tuple[Any, ...]:
+        """What the refusal tells of answers: every one that fits, or the ends of their range; empty if there is none."""
+        return tuple(self.fields.get("solutions", ()))
+
 
 class AmbiguousSolutionError(NoSolutionError):
     """More than one answer fits; all of them are in ``solutions``."""
-
-    @property
-    def solutions(self) -> tuple[Any, ...]:
-        """Every answer that fits what was given."""
-        return tuple(self.fields.get("solutions", ()))
 
 
 class CollisionsWarning(_Carrying, UserWarning):

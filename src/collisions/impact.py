@@ -246,9 +246,11 @@ class Impact:
         energy = self.energy_absorbed
         broadcast({"share_a": share, "energy_absorbed": energy})
         xp = numeric(energy, share)
-        return xp.sqrt(2.0 * (share * energy) / self.a.before.mass), xp.sqrt(
-            2.0 * ((1.0 - share) * energy) / self.b.before.mass
-        )
+        with np.errstate(all="ignore"):
+            return (
+                xp.sqrt(2.0 * share * (energy / self.a.before.mass)),
+                xp.sqrt(2.0 * (1.0 - share) * (energy / self.b.before.mass)),
+            )
 
     @derived("N*s")
     def momentum_residual(self) -> Value:

@@ -19,7 +19,8 @@ class Reconstruction:
         What it was given beside masses and geometry.
     condition : float or array [1]
         How well-posed the question was: by how much relative errors of what was given may be larger in the speeds before the
-        impact, taken relative to the closing speed. About 1 is firm, 10 means that one percent may become ten.
+        impact, taken relative to the closing speed. About 1 is firm, 10 means that one percent may become ten. For ``planar``
+        it is the factor that restitution brings in, (1 + e)/e where e was given.
     """
 
     method: str

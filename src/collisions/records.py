@@ -19,6 +19,7 @@ from .vehicle import NAMES, Vehicle
 _FORMAT = "collisions impact 1"
 _NOTHING = dict.fromkeys(NAMES)
 _NUMBERS = ("restitution", "normal", "bound", "point")
+_MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
@@ -44,9 +45,6 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Recons
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
             raise bad_record(f"its model is {question['model']!r} and its rule {question['rule']!r}")
-        for side in "ab":
-            state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
-            question[side] = Vehicle._of_numbers({**_NOTHING, **state, "name": inputs[side]["name"]})
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
@@ -55,11 +53,22 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Recons
             known = tuple(str(name) for name in origin["known"])
             origin = Reconstruction(method=str(origin["method"]), known=known, condition=_number(origin["condition"]))
             status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
+        for side in "ab":
+            state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
+            question[side] = _vehicle({**_NOTHING, **state, "name": inputs[side]["name"]}, refused and origin is not None)
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
     return question, refused, origin, status
+
+
+def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
+    """A vehicle again; the door takes no NaN, which is the motion of one that was looked for and not found."""
+    motion = [state[name] for name in _MOTION]
+    if not lost or any(isinstance(part, np.ndarray) for part in motion):
+        return Vehicle._of_numbers(state)
+    return Vehicle._of_numbers(state | dict.fromkeys(_MOTION, 0.0))._moved(*map(float, motion))
 
 
 def to_columns(impact: Any) -> dict[str, list[Any]]:

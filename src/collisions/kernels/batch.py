@@ -5,7 +5,8 @@ Every case is worked out by itself. A refused one is NaN in every output and car
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -13,9 +14,23 @@ import numpy as np
 from .codes import ENERGY_GAIN, OK, OUTPUTS
 
 BLOCK = 8192
+_TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 # What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
 Check: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
+
+
+def precision(values: Iterable[Any]) -> Any:
+    """What is worked out in: float32 if there are arrays, all are, and the plain numbers beside them fit; else float64."""
+    arrays = False
+    for value in values:
+        if isinstance(value, np.ndarray):
+            arrays = True
+            if value.dtype != np.float32:
+                return np.float64
+        elif value is not None and math.isfinite(value) and not (value == 0.0 or _TINY <= abs(value) <= _HUGE):
+            return np.float64
+    return np.float32 if arrays else np.float64
 
 
 def solve_lanes(

@@ -7,6 +7,8 @@ unknown's course leaves the other unknown alone, and all cross products are sine
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
+
 
 class Term(NamedTuple):
     """One body before or after; ``speed`` is None where it is asked for, ``course`` None for a body at rest."""
@@ -34,14 +36,14 @@ def crossed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, course: Any,
 
 
 def unknown_speed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term, between: Between) -> Any:
-    """The speed of one unknown term, the other being eliminated."""
+    """The speed of one unknown term, the other being eliminated; not finite where their courses are parallel."""
     sine = between(wanted.course, other.course)[1]
-    return -wanted.sign * crossed(terms, impulse, other.course, wanted.mass, between) / sine
+    return np.divide(-wanted.sign * crossed(terms, impulse, other.course, wanted.mass, between), sine)
 
 
 def change_of_speed(cross: Any, wanted: Term, other: Term, between: Between) -> Any:
     """What a change of the balance, crossed with the other unknown's course, does to the wanted speed."""
-    return -wanted.sign * cross / (wanted.mass * between(wanted.course, other.course)[1])
+    return np.divide(-wanted.sign * cross, wanted.mass * between(wanted.course, other.course)[1])
 
 
 def course_change(term: Term, speed: Any, other: Term, between: Between) -> Any:

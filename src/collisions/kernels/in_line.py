@@ -9,13 +9,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from .codes import EPS
+
 VELOCITIES = ("va", "vb", "va_after", "vb_after")
 
 # Closing and separation speed.
 Pair: TypeAlias = tuple[Any, Any]
 
 
-def speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> list[Pair]:
+def speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS) -> list[Pair]:
     """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart."""
     v = {name: known[name] for name in VELOCITIES if name in known}
     restitution: Any = known.get("restitution")
@@ -29,17 +31,34 @@ def speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> l
     if len(v) == 1:
         closing = losing_speed(known["energy_loss"], reduced, restitution)
         return [(closing, restitution * closing)]
-    return _from_energy(v, share_a, share_b, squared)
+    return _from_energy(v, share_a, share_b, squared, eps)
 
 
-def plastic_loss(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> Any:
-    """The energy that two known velocities would lose with e = 0; NaN where they do not say."""
+def allowed_losses(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> tuple[Any, Any]:
+    """The least and the most that two known velocities can lose with e from 0 to 1; NaN where no impact has these velocities.
+
+    With e = 0 they lose (difference / p)^2 m / 2. That is the most, unless q is negative: then a bounce needs a faster
+    approach, and the loss rises with e, without end if p <= -q, else until e = -q/p, from where it falls to 0.
+    """
     v = {name: known[name] for name in VELOCITIES if name in known}
     if len(v) != 2 or _names(v) == ("va_after", "vb_after"):
-        return np.nan
-    p, _, difference = _relation(v, share_a, share_b)
-    closing = difference / p
-    return 0.5 * reduced * (closing * closing)
+        return np.nan, np.nan
+    p, q, difference = _relation(v, share_a, share_b)
+    plastic = 0.5 * reduced * (difference / p) ** 2
+    without_end = (p < -q) | ((p == -q) & (difference > 0.0))
+    bounced = np.where(difference == 0.0, 0.0, 0.5 * reduced * difference**2 / (p + q))
+    most = np.where(without_end, np.inf, np.where(np.less(q, 0.0), bounced, plastic))
+    possible = difference >= 0.0
+    return np.where(possible, np.where(without_end, plastic, 0.0), np.nan), np.where(possible, most, np.nan)
+
+
+def moving_apart(known: dict[str, Any], share_a: Any, share_b: Any) -> Any:
+    """Whether two known velocities leave no approach, whatever the energy: with p > -q and g > r, p g + q r is positive."""
+    v = {name: known[name] for name in VELOCITIES if name in known}
+    if len(v) != 2 or "energy_loss" not in known:
+        return False
+    p, q, difference = _relation(v, share_a, share_b)
+    return (difference < 0.0) & (p > 0.0) & (p >= -q)
 
 
 def losing_speed(loss: Any, reduced: Any, restitution: Any) -> Any:
@@ -85,28 +104,32 @@ def _names(v: dict[str, Any]) -> tuple[str, str]:
     return first, second
 
 
-def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any) -> list[Pair]:
+def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float) -> list[Pair]:
     """With (g - r)(g + r) given."""
     p, q, difference = _relation(v, share_a, share_b)
     root = np.sqrt(squared)
     match _names(v):
         case ("va", "vb"):
-            return [(difference, np.sqrt((difference - root) * (difference + root)))]
+            left = (difference - root) * (difference + root)
+            # What rounding leaves below 0 of an impact that loses all it can.
+            return [(difference, np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left)))]
         case ("va_after", "vb_after"):
             return [(np.hypot(difference, root), difference)]
         case ("va", "va_after") | ("vb", "vb_after"):
             total = difference / p
-            return [(0.5 * (total + squared / total), 0.5 * (total - squared / total))]
+            less = np.where(squared == 0.0, 0.0, squared / total)
+            return [(0.5 * (total + less), 0.5 * (total - less))]
     # p g + q r with p > 0 > q is a hyperbola cut by a line: the roots, each in the form that subtracts nothing.
     q = -q
     inside = difference * difference + (q - p) * squared
-    rounding = 16.0 * np.finfo(np.float64).eps * (difference * difference + squared)
+    rounding = 16.0 * eps * (difference * difference + squared)
     middle = np.sqrt(np.where(abs(inside) <= rounding, 0.0, inside))
     sign = np.where(difference < 0.0, -1.0, 1.0)
     size = abs(difference)
+    separation = sign * (p * p * squared - difference * difference) / (p * middle + q * size)
     near = (
         sign * (difference * difference + q * q * squared) / (q * middle + p * size),
-        sign * (p * p * squared - difference * difference) / (p * middle + q * size),
+        np.where(p == 0.0, 0.0 - difference / q, separation),
     )
     far = sign * (q * middle + p * size) / (p - q), sign * (p * middle + q * size) / (p - q)
     return [near, far]

@@ -1,5 +1,6 @@
 """From what was found to how fast they went: the impact solved backwards, one question a function."""
 
+from ..provenance import Reconstruction
 from .central import central
 from .crush import crush_energy
 from .inline import inline_closing_speed
@@ -11,6 +12,7 @@ from .speeds import speeds
 
 __all__ = [
     "MomentumSolution",
+    "Reconstruction",
     "central",
     "crush_energy",
     "friction",

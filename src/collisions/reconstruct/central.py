@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError, InputError
 from ..fields import show
-from ..impact import Asked, Impact
+from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..kernels.central import shares
-from ..kernels.in_line import VELOCITIES, plastic_loss, speeds
+from ..kernels.in_line import VELOCITIES, allowed_losses, moving_apart, speeds
 from ..provenance import Reconstruction
 from ..units import POSITIVE, UNIT_INTERVAL, Door, Input
 from ..vehicle import Vehicle
@@ -19,6 +20,7 @@ from .outcome import Cases, exactly, input_faults, plain_error, settle
 
 _ALONG: Any = (1.0, 0.0)
 _NONE: Any = 0.0
+_MOST_ROUNDING = 0.01  # of e; beyond it the data tell nothing, and are not bent further
 _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
 
 
@@ -96,15 +98,24 @@ def central(
     masses = door.number(mass_a, "kg", "mass_a", POSITIVE), door.number(mass_b, "kg", "mass_b", POSITIVE)
     known = {name: _read(door, value, name) for name, value in given.items()}
     door.close()
-    cases = Cases.of({"mass_a": masses[0], "mass_b": masses[1], **known})
+    cases = Cases.of({**_named(masses), **known})
+    eps = codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
+    numbers = {name: np.asarray(value, dtype=np.float64) for name, value in {**_named(masses), **known}.items()}
     with np.errstate(all="ignore"):
-        answers = _answers(masses, known)
-        fits = [answer["fits"] for answer in answers]
-        which = np.where(fits[0], 0, len(fits) - 1)
+        answers = _answers(numbers, eps)
+        one, other = answers[0], answers[-1]
+        which = np.where(one["fits"] | (~other["fits"] & (one["closing"] > 0.0)), 0, len(answers) - 1)
         found = {name: np.choose(which, [answer[name] for answer in answers]) for name in answers[0]}
-        found["plastic_loss"] = plastic_loss({name: np.asarray(value) for name, value in known.items()}, *shares(*masses)[:3])
-        condition = _condition(masses, known, found, which)
-        status = cases.verdict(((_differ(answers), codes.AMBIGUOUS), (found["fits"], codes.OK), *_faults(masses, known, found)))
+        found |= _limits(numbers)
+        condition = _condition(numbers, found, which, eps)
+        status = cases.verdict(
+            (
+                *input_faults({**_named(masses), **known}),
+                (_differ(answers, eps), codes.AMBIGUOUS),
+                (found["fits"], codes.OK),
+                *_faults(masses, known, found),
+            )
+        )
     sure = np.equal(status, codes.OK)
     origin = Reconstruction(method="central", known=tuple(known), condition=cases.values(np.where(sure, condition, np.nan)))
 
@@ -116,17 +127,30 @@ def central(
         e = cases.values(np.where(keep, answer["e"], 0.0))
         return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None)
 
+    def solution(which: int) -> Impact:
+        with np.errstate(all="ignore"):
+            condition = cases.values(_condition(numbers, answers[which], np.intp(which), eps))
+        impact = asked(answers[which], True).ask()
+        return found_by(replace(origin, condition=condition), impact._asked, impact._raw, codes.OK)
+
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is None and status == codes.AMBIGUOUS:
-            solutions = tuple(asked(answer, True).ask() for answer in answers)
+            solutions = tuple(solution(k) for k in range(len(answers)))
             told = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
             return AmbiguousSolutionError(
                 f"two impacts fit {', '.join(known)}: {told}; both are in .solutions, and a velocity of the other kind decides",
                 code="ambiguous",
                 solutions=solutions,
             )
-        one = {name: cases.one(value, index) for name, value in found.items()}
-        return _error(int(np.asarray(status)[index]), one, {name: cases.one(value, index) for name, value in known.items()})
+        code = int(np.asarray(status)[index])
+        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in {**_named(masses), **known}.items()}
+        if code == codes.AMBIGUOUS:
+            try:
+                central(**of_case)
+            except CollisionsError as both:
+                return both
+        given = {name: of_case[name] for name in known}
+        return _error(code, {name: cases.one(value, index) for name, value in found.items()}, given)
 
     return settle(asked(found, sure), status, origin, on_failure, error)
 
@@ -142,17 +166,34 @@ def _read(door: Door, value: Any, name: str) -> Any:
     return loss
 
 
-def _answers(masses: tuple[Any, Any], known: dict[str, Any]) -> list[dict[str, Any]]:
+def _named(masses: tuple[Any, Any]) -> dict[str, Any]:
+    return dict(zip(("mass_a", "mass_b"), masses, strict=True))
+
+
+def _answers(numbers: dict[str, Any], eps: float) -> list[dict[str, Any]]:
     """What fits, one dictionary a candidate, and whether it is an impact at all."""
-    share_a, share_b, reduced, fixed = shares(*(np.asarray(mass) for mass in masses))
-    numbers = {name: np.asarray(value) for name, value in known.items()}
+    share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
     return [
-        _whole(numbers, share_a, share_b, closing, separation, fixed)
-        for closing, separation in speeds(numbers, share_a, share_b, reduced)
+        _whole(numbers, share_a, share_b, closing, separation, fixed, eps)
+        for closing, separation in speeds(numbers, share_a, share_b, reduced, eps)
     ]
 
 
-def _whole(known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any) -> dict[str, Any]:
+def _limits(numbers: dict[str, Any]) -> dict[str, Any]:
+    """What the velocities allow, for the messages."""
+    share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
+    least, most = allowed_losses(numbers, share_a, share_b, reduced)
+    asked = "energy_loss" in numbers
+    return {
+        "least": least if asked else np.nan,
+        "most": most if asked else np.nan,
+        "apart": moving_apart(numbers, share_a, share_b),
+    }
+
+
+def _whole(
+    known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any, eps: float
+) -> dict[str, Any]:
     """The impact of a pair of closing and separation speed."""
     total = closing + separation
     va, vb = known.get("va"), known.get("vb")
@@ -165,31 +206,30 @@ def _whole(known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, sepa
         va = vb + closing
     if vb is None:
         vb = va - closing
-    # What rounding leaves of an e of exactly 0 or 1.
+    # What rounding leaves of an e of exactly 0 or 1; the change of velocity of a heavy body tells little of the impact.
     scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
-    rounding = 16.0 * codes.EPS * (1.0 + scale / abs(closing))
+    told = {"a": share_a, "b": share_b, "": 1.0}[_needs_motion_of(known)]
+    rounding = np.fmin(16.0 * eps * (1.0 + scale / (told * abs(closing))), _MOST_ROUNDING)
     e = known.get("restitution", separation / closing)
     e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
     fits = (closing > 0.0) & (e >= 0.0) & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
     return {"va": va, "vb": vb, "e": e, "closing": closing, "fits": fits}
 
 
-def _differ(answers: list[dict[str, Any]]) -> Any:
+def _differ(answers: list[dict[str, Any]], eps: float) -> Any:
     """Whether two answers fit, which are not one that rounding has split."""
     if len(answers) == 1:
         return False
     one, other = answers
-    apart = abs(one["closing"] - other["closing"]) > 64.0 * codes.EPS * abs(one["closing"])
+    apart = abs(one["closing"] - other["closing"]) > 64.0 * eps * abs(one["closing"])
     return one["fits"] & other["fits"] & apart
 
 
-def _condition(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any], which: Any) -> Any:
+def _condition(numbers: dict[str, Any], found: dict[str, Any], which: Any, eps: float) -> Any:
     """Sum over what was given of the change of the speeds before, in closing speeds, by its own relative change."""
     total = np.zeros(())
-    given = {"mass_a": masses[0], "mass_b": masses[1], **known}
-    for name, value in given.items():
-        moved = {**given, name: np.asarray(value) * (1.0 + _STEP)}
-        answers = _answers((moved.pop("mass_a"), moved.pop("mass_b")), moved)
+    for name, value in numbers.items():
+        answers = _answers({**numbers, name: value * (1.0 + _STEP)}, eps)
         change = sum(abs(np.choose(which, [answer[v] for answer in answers]) - found[v]) for v in ("va", "vb"))
         total = total + np.where(np.isinf(value), 0.0, change)
     condition = total / (_STEP * abs(found["closing"]))
@@ -202,12 +242,11 @@ def _faults(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any
     silent = _needs_motion_of(known)
     at_rest_a, at_rest_b = (np.isinf(mass) for mass in masses)
     return [
-        *input_faults({"mass_a": masses[0], "mass_b": masses[1], **known}),
         (at_rest_a & at_rest_b, codes.IMMOVABLE),
         ((at_rest_a & ("a" in silent)) | (at_rest_b & ("b" in silent)), codes.INFINITE_MASS),
         (np.equal(restitution, 0.0) & (known.keys() == {"va_after", "vb_after", "restitution"}), codes.INVERSE_E0),
-        (np.isnan(found["closing"]) & (("energy_loss" not in known) | np.equal(restitution, 1.0)), codes.UNDETERMINED),
-        (found["closing"] < 0.0, codes.SEPARATING),
+        (np.isnan(found["closing"]) & np.equal(known.get("energy_loss", 0.0), 0.0), codes.UNDETERMINED),
+        (((found["closing"] < 0.0) & np.isfinite(found["closing"])) | found["apart"], codes.SEPARATING),
         (found["closing"] == 0.0, codes.NO_CLOSING),
         (found["e"] < 0.0, codes.NOT_SEPARATING),
         (True, codes.CONTRADICTORY),
@@ -226,25 +265,42 @@ def _error(status: int, found: dict[str, float], known: dict[str, float]) -> Col
     closing, e = found["closing"], found["e"]
     given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
     along = "velocities are counted along the line from A to B, A behind"
+    speed = "no approach" if np.isnan(closing) else f"a closing speed of {closing:.6g} m/s"
     texts = {
-        codes.SEPARATING: f"{given} mean a closing speed of {closing:.6g} m/s, so the bodies moved apart; {along}: "
-        f"change the signs, or exchange A and B",
+        codes.SEPARATING: f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B",
         codes.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
         codes.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
-        f"one of them would pass through the other",
+        f"one of them would pass through the other{_limit(found)}",
         codes.INVERSE_E0: "after a plastic impact (restitution = 0) both move as one and nothing is left of the closing speed; "
         "give energy_loss, va or vb instead of restitution",
         codes.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
         f"velocity of the other body",
         codes.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
         codes.UNDETERMINED: f"{given} fit any closing speed; give another velocity",
-        codes.AMBIGUOUS: f"two impacts fit {given}; ask for this case alone to see both",
     }
-    text = texts.get(status)
-    if text is None and e > 1.0:
-        text = f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
-    if text is None:
-        most = found["plastic_loss"]
-        limit = f"; the most they allow, with restitution = 0, is {most:.6g} J" if np.isfinite(most) else ""
-        text = f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{limit}"
+    text = texts.get(status) or _contradiction(given, found, known)
     return plain_error(status, text, restitution=e, closing_speed=closing)
+
+
+def _contradiction(given: str, found: dict[str, float], known: dict[str, float]) -> str:
+    """What does not go together, and by how much."""
+    names = [name for name in VELOCITIES if name in known]
+    if "energy_loss" not in known and len(names) == 2:
+        apart = known[names[0]] - known[names[1]]
+        return (
+            f"{given}: with these masses and this restitution {names[0]} and {names[1]} are equal in every impact, and here "
+            f"they differ by {apart:.6g} m/s"
+        )
+    if len(names) == 1:
+        return f"{given}: an elastic impact (restitution = 1) loses no energy; give energy_loss = 0 and two velocities"
+    if found["e"] > 1.0:
+        return f"{given} mean a restitution of {found['e']:.6g}, above 1: the impact would gain energy; check masses and signs"
+    return f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{_limit(found)}"
+
+
+def _limit(found: dict[str, float]) -> str:
+    """What energy the masses and two velocities allow, where they say."""
+    least, most = found["least"], found["most"]
+    if np.isnan(least):
+        return ""
+    return f"; they allow at least {least:.6g} J" + ("" if np.isinf(most) else f" and at most {most:.6g} J")

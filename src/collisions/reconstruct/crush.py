@@ -11,8 +11,11 @@ import numpy as np
 
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..units import Door, Input, Value, broadcast, callers_level
+from ..kernels import codes
+from ..units import Door, Input, Value, callers_level
+from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
+_NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
 
 
@@ -48,7 +51,8 @@ def crush_energy(
     Returns
     -------
     float or array [J]
-        Energy absorbed at maximum crush as far as the residual profile tells it; what restitution gave back is not in it.
+        Energy absorbed at maximum crush as far as the residual profile tells it; what restitution gave back is not in it. NaN
+        for a refused case of a batch.
 
     Raises
     ------
@@ -90,11 +94,11 @@ def crush_energy(
         gaps = [whole / (len(depths) - 1)] * (len(depths) - 1)
     a = _not_negative(door, stiffness_a, "N/m", "stiffness_a")
     b = door.number(stiffness_b, "N/m**2", "stiffness_b")
-    if np.any(np.less_equal(b, 0.0)):
+    if isinstance(b, float) and b <= 0.0:
         door.refuse(InputError(f"stiffness_b must be > 0, got {stiffness_b!r}", code="not_positive", argument="stiffness_b"))
     angle = Angle(*door.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
-    if not np.all(np.greater(cosine, 0.0)):
+    if isinstance(cosine, float) and not (cosine > _NO_WORK or math.isnan(cosine)):
         door.refuse(
             InputError(
                 f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {force_angle!r}",
@@ -104,8 +108,11 @@ def crush_energy(
         )
     door.close()
     numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
-    broadcast({**numbers, "stiffness_a": a, "stiffness_b": b, "force_angle": angle.value})
-    if np.any(np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12))):
+    numbers["stiffness_a"] = a
+    cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
+    # What the door has looked at in single numbers; nothing is left of a cosine of 90 degrees.
+    oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _NO_WORK)
+    if np.any(oblique):
         warnings.warn(
             OutOfRangeWarning(
                 f"force_angle = {force_angle!r} is more than 45 deg, where the correction exceeds 2: outside what the crush "
@@ -114,12 +121,31 @@ def crush_energy(
             ),
             stacklevel=callers_level(),
         )
-    energy = sum(_gap_energy(gap, one, two, a, b) for gap, one, two in zip(gaps, crush, crush[1:], strict=False))
-    corrected: Any = energy / (cosine * cosine)
-    if np.ndim(corrected) == 0:
-        corrected = float(corrected)
-    absorbed: Value = corrected
+    with np.errstate(all="ignore"):
+        values = [np.asarray(value, dtype=np.float64) for value in crush]
+        pairs = zip(gaps, values, values[1:], strict=False)
+        energy = sum(_gap_energy(gap, one, two, np.asarray(a), b) for gap, one, two in pairs) / (cosine * cosine)
+        status = cases.verdict(
+            (
+                *input_faults({**numbers, "stiffness_b": b, "force_angle": angle.value}),
+                *((np.less(value, 0.0), codes.CONTRADICTORY) for value in numbers.values()),
+                (np.less_equal(b, 0.0), codes.NOT_POSITIVE),
+                (np.less_equal(cosine, _NO_WORK), codes.CONTRADICTORY),
+                (~np.isfinite(energy), codes.OUT_OF_RANGE),
+            )
+        )
+    if cases.shape is not None:
+        raise_or_warn(status, None, _too_large, ASK_ALONE)
+    elif status != codes.OK:
+        raise _too_large()
+    absorbed: Value = cases.values(np.where(np.equal(status, codes.OK), energy, np.nan))
     return absorbed
+
+
+def _too_large(index: tuple[int, ...] = ()) -> InputError:
+    return InputError(
+        "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
+    )
 
 
 def _gap_energy(width: Any, one: Any, two: Any, a: Any, b: Any) -> Any:
@@ -129,6 +155,6 @@ def _gap_energy(width: Any, one: Any, two: Any, a: Any, b: Any) -> Any:
 
 def _not_negative(door: Door, value: Any, unit: str, name: str) -> Any:
     number = door.number(value, unit, name)
-    if np.any(np.less(number, 0.0)):
+    if isinstance(number, float) and number < 0.0:
         door.refuse(InputError(f"{name} must be >= 0, got {value!r}", code="negative_length", argument=name))
     return number

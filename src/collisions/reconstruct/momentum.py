@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import check_options
 from ..directions import Angle, between, direction
 from ..errors import (
     CollisionsError,
@@ -96,7 +97,8 @@ def momentum(
     IllConditionedWarning
         They are within 10 degrees of one line.
     OutOfRangeWarning
-        A speed came out negative: backwards along its course.
+        A speed came out negative: backwards along its course. Along ``normal`` the restitution is outside 0 to 1, or the
+        vehicles did not approach, which leaves it NaN.
     EnergyGainWarning
         The vehicles leave with more energy than they came with.
 
@@ -115,6 +117,7 @@ def momentum(
     """
     if not isinstance(together, bool):
         raise InputError(f"together must be True or False, got {together!r}", code="bad_option", argument="together")
+    check_options(on_failure)
     speeds = {"speed_a": speed_a, "speed_b": speed_b, "speed_a_after": speed_a_after, "speed_b_after": speed_b_after}
     courses = {
         "course_a": course_a,
@@ -134,9 +137,6 @@ def momentum(
     impulse = None if outside_impulse is None else door.pair(outside_impulse, "N*s", "outside_impulse")
     along = None if normal is None else direction(door, normal, "normal")
     door.close()
-    if together:
-        _share(known, "speed")
-        _share(angles, "course")
     cases = Cases.of(
         {
             **masses,
@@ -147,11 +147,12 @@ def momentum(
             **{f"normal[{i}]": part for i, part in enumerate(along or ())},
         }
     )
+    unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
     terms = _terms(masses, known, angles, together)
     exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
     _need_courses(terms)
     with np.errstate(all="ignore"):
-        return _solve(cases, terms, masses, angles, headings, impulse, along, together, on_failure)
+        return _solve(cases, terms, masses, angles, headings, impulse, along, unlike, together, on_failure)
 
 
 def _speed(door: Door, value: Any, name: str) -> Any:
@@ -163,15 +164,16 @@ def _speed(door: Door, value: Any, name: str) -> Any:
     return speed
 
 
-def _share(given: dict[str, Any], kind: str) -> None:
-    """Makes what is common to both vehicles after the impact known for both; two that differ contradict each other."""
+def _share(given: dict[str, Any], kind: str) -> Any:
+    """Makes what is common to both vehicles after the impact known for both; where two differ, they contradict each other."""
     names = [f"{kind}_a_after", f"{kind}_b_after"]
     found = [given[name] for name in names if name in given]
     if not found:
-        return
+        return False
+    unlike: Any = False
     if len(found) == 2:
-        apart = abs(between(*found)[1]) if kind == "course" else np.subtract(*found)
-        if np.any(apart != 0.0):
+        unlike = np.logical_not(_same_course(*found)) if kind == "course" else np.not_equal(*found)
+        if np.ndim(unlike) == 0 and unlike:
             raise InputError(
                 f"{names[0]} and {names[1]} differ ({_shown(found[0])} and {_shown(found[1])}), which vehicles that leave "
                 f"together cannot; give one of them",
@@ -179,6 +181,17 @@ def _share(given: dict[str, Any], kind: str) -> None:
                 argument=names[1],
             )
     given.update(dict.fromkeys(names, found[0]))
+    return unlike
+
+
+def _same_course(one: Angle, other: Angle) -> Any:
+    cosine, sine = between(one, other)
+    return (abs(sine) <= _blur(one, other, codes.EPS)) & (cosine > 0.0)
+
+
+def _blur(one: Angle, other: Angle, eps: float) -> Any:
+    """What rounding leaves open of the angle between two courses; whole degrees leave nothing but their conversion."""
+    return 4.0 * eps * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
 
 
 def _shown(value: Any) -> str:
@@ -220,36 +233,50 @@ def _solve(
     headings: dict[str, tuple[Any, Any]],
     impulse: tuple[Any, Any] | None,
     along: tuple[Any, Any] | None,
+    unlike: Any,
     together: bool,
     on_failure: Any,
 ) -> MomentumSolution:
     known = {name: term for name, term in terms.items() if term.speed is not None}
     (first, one), (second, other) = ((name, term) for name, term in terms.items() if term.speed is None)
     cosine, sine = between(one.course, other.course)
-    # Two courses in radians are no better known than their own rounding.
-    blur = 4.0 * codes.EPS * (1.0 + sum(0.0 if t.course.in_degrees else abs(t.course.radians) for t in (one, other)))
+    eps = float(np.finfo(np.float64 if cases.shape is None else cases.dtype).eps)
     everything = [
         *masses.values(),
         *(term.speed for term in known.values()),
         *(angle.value for angle in angles.values()),
         *(impulse or ()),
+        *(part for vector in (*headings.values(), along or ()) for part in vector),
     ]
     unfit = np.logical_or.reduce(np.broadcast_arrays(*(~np.isfinite(value) for value in everything)))
     negative = np.logical_or.reduce(np.broadcast_arrays(False, *(np.less(term.speed, 0.0) for term in known.values())))
     endless = np.logical_or(*(np.isposinf(mass) for mass in masses.values()))
     light = np.logical_or(*(np.less_equal(mass, 0.0) for mass in masses.values()))
-    answers = {
-        first: unknown_speed(list(known.values()), impulse, one, other, between),
-        second: unknown_speed(list(known.values()), impulse, other, one, between),
-    }
+    nowhere = np.logical_or.reduce(
+        np.broadcast_arrays(False, *((v[0] == 0.0) & (v[1] == 0.0) for v in (*headings.values(), along) if v is not None))
+    )
+    full = {name: term.speed for name, term in terms.items()}
+    full[first] = unknown_speed(list(known.values()), impulse, one, other, between)
+    full[second] = unknown_speed(list(known.values()), impulse, other, one, between)
+    if together:
+        full["speed_b_after"] = full["speed_a_after"]
+    solution = _solution(full, masses, angles, headings, along)
+    condition = np.divide(1.0 + abs(cosine), abs(sine))
+    # What rounding makes of the answers, as speeds of the lighter vehicle.
+    flow = sum(masses[f"mass_{name[6]}"] * abs(full[name]) for name in _SPEEDS)
+    rounding = 16.0 * eps * condition * (flow / np.minimum(*masses.values()))
+    loss, worth = solution["translational_energy_loss"], sum(abs(full[name]) for name in _SPEEDS)
+    gains = -loss > 4.0 * rounding * np.minimum(*masses.values()) * worth
     status = cases.verdict(
         (
             (endless, codes.INFINITE_MASS),
-            (unfit, codes.NOT_FINITE),
             (light, codes.NOT_POSITIVE),
-            (negative, codes.CONTRADICTORY),
-            (abs(sine) <= blur, codes.PARALLEL_HEADINGS),
-            (~np.isfinite(answers[first] + answers[second]), codes.OUT_OF_RANGE),
+            (unfit, codes.NOT_FINITE),
+            (nowhere, codes.ZERO_NORMAL),
+            (negative | unlike, codes.CONTRADICTORY),
+            (abs(sine) <= _blur(one.course, other.course, eps), codes.PARALLEL_HEADINGS),
+            (~np.isfinite(full[first] + full[second] + loss), codes.OUT_OF_RANGE),
+            (gains & (impulse is None), codes.ENERGY_GAIN),
         )
     )
 
@@ -267,21 +294,25 @@ def _solve(
                 "reconstruct.central, reconstruct.planar or reconstruct.speeds",
                 code="infinite_mass",
             )
-        return InputError(f"momentum: {outcome.sentence}", code=outcome.label)
+        why = outcome.sentence
+        if outcome is Status.CONTRADICTORY:
+            why = (
+                "a known speed is below 0 (turn its course by 180 deg), or vehicles that leave together have two speeds or two "
+                "courses"
+            )
+        return InputError(f"momentum: {why}", code=outcome.label)
 
     if cases.shape is None:
-        if status != codes.OK and on_failure != "nan":
+        if status > codes.ENERGY_GAIN and on_failure != "nan":
             raise error(())
     else:
         raise_or_warn(status, on_failure, error)
-    sure = np.equal(status, codes.OK)
-    full = {name: np.where(sure, answers.get(name, term.speed), np.nan) for name, term in terms.items()}
-    if together:
-        full["speed_b_after"] = full["speed_a_after"]
-    solution = _solution(cases, full, masses, angles, headings, along)
-    condition = (1.0 + abs(cosine)) / abs(sine)
+    sure = np.less_equal(status, codes.ENERGY_GAIN)
+    full = {name: np.where(sure, speed, np.nan) for name, speed in full.items()}
+    solution = {name: None if value is None else np.where(sure, value, np.nan) for name, value in solution.items()}
     sensitivity = _sensitivity(cases, terms, full, masses, impulse, (first, one), (second, other), sure)
-    _warn(cases, sure, full, masses, (first, second), abs(sine), condition, sensitivity, solution, impulse)
+    _warn_of_speeds(cases, sure, full, (first, second), abs(sine), condition, sensitivity, rounding)
+    _warn_of_physics(cases, np.equal(status, codes.ENERGY_GAIN), solution, rounding)
     found: dict[str, Any] = {name: cases.values(mass) for name, mass in masses.items()}
     for name in _COURSES:
         found[name] = cases.values(angles[name].radians) if name in angles else None
@@ -299,7 +330,6 @@ def _solve(
 
 
 def _solution(
-    cases: Cases,
     full: dict[str, Any],
     masses: dict[str, Any],
     angles: dict[str, Angle],
@@ -331,7 +361,7 @@ def _solution(
         closing = along[0] * (ax - bx) + along[1] * (ay - by)
         parting = along[0] * (ex - cx) + along[1] * (ey - cy)
         found["closing_speed"] = closing
-        found["restitution"] = parting / np.where(closing == 0.0, np.nan, closing)
+        found["restitution"] = parting / np.where(closing > 0.0, closing, np.nan)
     return found
 
 
@@ -372,41 +402,35 @@ def _sensitivity(
     return found
 
 
-def _warn(
+def _warn_of_speeds(
     cases: Cases,
     sure: Any,
     full: dict[str, Any],
-    masses: dict[str, Any],
     unknowns: tuple[str, str],
     sine: Any,
     condition: Any,
     sensitivity: Sensitivity,
-    solution: dict[str, Any],
-    impulse: Any,
+    rounding: Any,
 ) -> None:
-    """Says what an analyst must know of the answer, once for a batch."""
+    """Says how little the answers may be worth, once for a batch."""
     level = callers_level()
     near = sure & (sine < math.sin(_NEARLY_COLLINEAR))
     if np.any(near):
         worst = float(np.max(np.where(near, condition, 0.0)))
-        degrees = math.degrees(math.asin(min(1.0, float(np.min(np.where(near, sine, 1.0))))))
-        numbers = "; ".join(
-            f"{answer} moves by {float(np.nanmax(np.abs(value))) * math.pi / 180.0:.3g} m/s per degree of {name}"
-            for answer, row in sensitivity.items()
-            for name, value in sorted(row.items(), key=lambda item: -float(np.nanmax(np.abs(item[1]))))[:1]
-            if name.startswith("course")
-        )
+        degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
+        numbers = "; ".join(_most(answer, row, near) for answer, row in sensitivity.items())
         warnings.warn(
             IllConditionedWarning(
                 f"{_count(near, cases)}the courses of {' and '.join(unknowns)} are {degrees:.2g} degrees from one line "
-                f"(condition {worst:.3g}){': ' if numbers else ''}{numbers}; an in-line method may tell more",
+                f"(condition {worst:.3g}): {numbers}; an in-line method may tell more",
                 code="nearly_collinear",
                 condition=worst,
             ),
             stacklevel=level,
         )
     for name in unknowns:
-        backward = sure & (full[name] < 0.0)
+        # What rounding leaves of 0 is no motion backwards.
+        backward = sure & (full[name] < -rounding)
         if np.any(backward):
             least = float(np.min(np.where(backward, full[name], 0.0)))
             warnings.warn(
@@ -418,18 +442,55 @@ def _warn(
                 ),
                 stacklevel=level,
             )
-    loss = solution["translational_energy_loss"]
-    energy = sum(masses[f"mass_{name[6]}"] * (full[name] * full[name]) for name in _SPEEDS)
-    # A rounding of the speeds by their condition is no gain.
-    gains = sure & (-loss > 64.0 * codes.EPS * condition * energy)
-    if impulse is None and np.any(gains):
-        most = -float(np.min(np.where(gains, loss, 0.0)))
+
+
+def _most(answer: str, row: dict[str, Any], near: Any) -> str:
+    """The course that an answer depends on most, and by how much."""
+    moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
+    name = max(moves, key=moves.__getitem__)
+    return f"{answer} moves by {moves[name] * math.pi / 180.0:.3g} m/s per degree of {name}"
+
+
+def _warn_of_physics(cases: Cases, gains: Any, solution: dict[str, Any], rounding: Any) -> None:
+    """Says where the answers are no impact, once for a batch."""
+    level = callers_level()
+    if np.any(gains):
+        most = -float(np.min(np.where(gains, solution["translational_energy_loss"], 0.0)))
         warnings.warn(
             EnergyGainWarning(
                 f"{_count(gains, cases)}the vehicles leave with {most:.6g} J more than they came with, which no impact gives; "
                 f"check courses and speeds",
                 code="energy_gain",
                 gain=most,
+            ),
+            stacklevel=level,
+        )
+    closing, e = solution["closing_speed"], solution["restitution"]
+    if closing is None:
+        return
+    apart = closing <= 0.0
+    if np.any(apart):
+        least = float(np.min(np.where(apart, closing, 0.0)))
+        warnings.warn(
+            OutOfRangeWarning(
+                f"{_count(apart, cases)}the centres do not approach along the normal, which must point from A into B: closing "
+                f"speed {least:.6g} m/s, so there is no restitution",
+                code="separating",
+                closing_speed=least,
+            ),
+            stacklevel=level,
+        )
+    slack = rounding / closing
+    outside = (e < -slack) | (e > 1.0 + slack)
+    if np.any(outside):
+        worst = float(np.min(np.where(outside, e, np.inf)))
+        worst = worst if worst < 0.0 else float(np.max(np.where(outside, e, 0.0)))
+        warnings.warn(
+            OutOfRangeWarning(
+                f"{_count(outside, cases)}the restitution of the centres along the normal is {worst:.4g}, outside 0 to 1: "
+                f"check the normal, courses and speeds, or ask reconstruct.restitution with the contact point",
+                code="observed_restitution",
+                value=worst,
             ),
             stacklevel=level,
         )

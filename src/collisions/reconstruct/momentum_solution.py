@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from ..fields import Quantities, derived, show, table
+from ..fields import Quantities, derived, lock, show, table
 from ..kernels import codes
 from ..units import Value, to_quantity
 
@@ -57,6 +57,9 @@ class MomentumSolution:
     unknowns: tuple[str, ...] = field()
     status: Any = field()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, ({f.name: getattr(self, f.name) for f in fields(self)},)
+
     @property
     def q(self) -> Any:
         """The same attributes as pint Quantities; sensitivities to courses per degree."""
@@ -64,7 +67,7 @@ class MomentumSolution:
 
     @derived()
     def ok(self) -> Any:
-        """Whether the case was answered."""
+        """Whether the case was answered, and without energy that came from nowhere."""
         return self.status == codes.OK
 
     def __repr__(self) -> str:
@@ -78,3 +81,11 @@ class MomentumSolution:
             value = getattr(self, f.name)
             if value is not None and "unit" in f.metadata:
                 yield f.name, show(value, f.metadata["unit"])
+
+
+def _rebuild(values: dict[str, Any]) -> MomentumSolution:
+    """An unpickled solution; arrays come out of a pickle unlocked."""
+    for row in values["sensitivity"].values():
+        lock(tuple(row.values()))
+    lock(tuple(values.values()))
+    return MomentumSolution(**values)

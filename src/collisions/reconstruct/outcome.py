@@ -12,6 +12,7 @@ from ..errors import CollisionsError, InputError, NoImpactError, NoSolutionError
 from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import checks, codes
+from ..kernels.batch import precision
 from ..provenance import Reconstruction
 from ..units import broadcast
 
@@ -22,13 +23,20 @@ def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
     if len(given) == count:
         return given
     missing = [name for name in known if name not in given]
-    advice = f"leave out {len(given) - count}" if len(given) > count else f"give {count - len(given)} of {', '.join(missing)}"
+    named, missed = ", ".join(known), ", ".join(missing)
+    if "ees_a" in known:
+        named, missed = (text.replace("ees_a", "ees_a with ees_b") for text in (named, missed))
+    advice = f"leave out {len(given) - count}" if len(given) > count else f"give {count - len(given)} of {missed}"
     raise InputError(
-        f"{what} takes exactly {count} of {', '.join(known)}; got {len(given)} ({', '.join(given) or 'none'}): {advice}",
+        f"{what} takes exactly {count} of {named}; got {len(given)} ({', '.join(given) or 'none'}): {advice}",
         code="too_many_knowns" if len(given) > count else "too_few_knowns",
         argument=", ".join(given),
         given=tuple(given),
     )
+
+
+# For functions that answer with plain numbers, which have no status.
+ASK_ALONE = "asked alone, each says why"
 
 
 class Cases(NamedTuple):
@@ -40,8 +48,7 @@ class Cases(NamedTuple):
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Cases:
         """As many cases as the arrays among the values go together to."""
-        arrays = [value for value in values.values() if isinstance(value, np.ndarray)]
-        return cls(broadcast(values), np.float32 if all(array.dtype == np.float32 for array in arrays) else np.float64)
+        return cls(broadcast(values), precision(values.values()))
 
     def values(self, found: Any) -> Any:
         """A plain float for a single case, a locked array of its own for a batch."""
@@ -64,19 +71,20 @@ class Cases(NamedTuple):
 def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
     """What is wrong with values that the door does not look into: those of arrays."""
     found: list[tuple[Any, int]] = []
-    for name, value in numbers.items():
-        kind = name.rpartition(".")[2]
-        if kind.startswith(("mass", "yaw_inertia")):
-            found += [(checks.not_a_number(value), codes.NOT_FINITE), (checks.not_positive(value), codes.NOT_POSITIVE)]
-        elif kind in ("restitution", "critical_fraction"):
-            code = codes.BAD_RESTITUTION if kind == "restitution" else codes.BAD_FRACTION
-            found.append((checks.outside_unit_interval(value), code))
-        elif kind == "friction":
-            found.append((checks.negative(value), codes.BAD_FRICTION))
-        else:
-            found.append((checks.not_finite(value), codes.NOT_FINITE))
-            if kind.startswith(("energy", "closing_speed")):
-                found.append((checks.negative(value), codes.CONTRADICTORY))
+    with np.errstate(invalid="ignore"):
+        for name, value in numbers.items():
+            kind = name.rpartition(".")[2]
+            if kind.startswith(("mass", "yaw_inertia")):
+                found += [(checks.not_a_number(value), codes.NOT_FINITE), (checks.not_positive(value), codes.NOT_POSITIVE)]
+            elif kind in ("restitution", "critical_fraction"):
+                code = codes.BAD_RESTITUTION if kind == "restitution" else codes.BAD_FRACTION
+                found.append((checks.outside_unit_interval(value), code))
+            elif kind == "friction":
+                found.append((checks.negative(value), codes.BAD_FRICTION))
+            else:
+                found.append((checks.not_finite(value), codes.NOT_FINITE))
+                if kind.startswith(("energy", "closing_speed")):
+                    found.append((checks.negative(value), codes.CONTRADICTORY))
     return found
 
 
@@ -99,14 +107,16 @@ def settle(
     return found
 
 
-def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
+def raise_or_warn(
+    status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError], advice: str | None = None
+) -> None:
     """What a batch does about its refused cases."""
     if on_failure != "nan" and np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
             index, place = first_refused(status)
             problem = error(index)
             raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
-        warn_of_refusals(status)
+        warn_of_refusals(status, *([] if advice is None else [advice]))
 
 
 def plain_error(status: int, text: str, **fields: Any) -> CollisionsError:

@@ -47,9 +47,9 @@ def planar(
     """The impact that ended in these motions: ``eccentric`` backwards.
 
     The states after, the contact and the material determine the states before, except where the impact has wiped them out. A
-    contact that ended without slip under "brach" keeps no trace of the slip before; after a plastic impact nothing is left of
-    the closing speed, unless it or the energy loss is known; and an end state may have two origins. Those are refused, with
-    what there is in ``solutions`` and what would decide.
+    contact that ended without slip under "brach", or at rest under either law, keeps no trace of the slip before; after a
+    plastic impact nothing is left of the closing speed, unless it or the energy loss is known; and an end state may have two
+    origins. Those are refused, with what there is in ``solutions`` and what would decide.
 
     Parameters
     ----------
@@ -77,8 +77,8 @@ def planar(
     Returns
     -------
     Impact
-        The answer of ``eccentric`` for the states found; ``reconstruction.condition`` is (1+e)/e for a given restitution, 1 for
-        a closing speed, between 1 and 2 for an energy loss.
+        The answer of ``eccentric`` for the states found; ``reconstruction.condition`` is (1+e)/e for a given restitution and
+        for a contact that sticks under "kudlich-slibar", else 1 for a closing speed, and at most 2 for an energy loss.
 
     Raises
     ------
@@ -128,6 +128,9 @@ def planar(
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     for label, body in zip("ab", bodies, strict=True):
         everything |= {f"{label}_after.{name}": number for name, number in zip(_NUMBERS, body, strict=True)}
+    everything |= {
+        f"{label}_after.heading": body.heading for label, body in (("a", a_after), ("b", b_after)) if body.heading is not None
+    }
     if rule == codes.CRITICAL_FRACTION and kind == "energy_loss" and np.any((bound > 0.0) & (bound < 1.0)):
         raise InputError(
             "a critical_fraction between 0 and 1 cannot be used with energy_loss; give impulse_ratio=, or the restitution or "
@@ -152,12 +155,13 @@ def _amount(door: Door, kind: str, value: Any) -> Any:
 
 
 class _Origin(NamedTuple):
-    """A candidate for the state before: how the contact ended, the impulse on B, restitution, and the motions before."""
+    """A candidate for the state before: how the contact ended, the impulse on B, restitution, condition, motions before."""
 
     regime: str
     normal: Any
     tangential: Any
     restitution: Any
+    condition: Any
     motions: tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
     fits: Any
 
@@ -184,7 +188,10 @@ class _End:
         speeds = [np.hypot(body[2], body[3]) for body in self.bodies]
         levers = [np.hypot(self.p[0] - body[5], self.p[1] - body[6]) for body in self.bodies]
         scale = sum(speeds) + sum(abs(body[4]) * lever for body, lever in zip(self.bodies, levers, strict=True))
-        self.rounding = 64.0 * codes.EPS * scale
+        # The motion before leaves its rounding in the one after.
+        closing = np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
+        self.rounding = 64.0 * codes.EPS * (scale + np.where(closing > 0.0, closing, 0.0))
+        self.at_rest = (abs(self.slip) <= self.rounding) & (abs(self.separation) <= self.rounding)
 
     def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None) -> tuple[Any, ...]:
         law = self.law if rule == self.rule else codes.BRACH
@@ -202,7 +209,8 @@ class _End:
                 *(self._along("sliding", np.where(self.bound > 0.0, sign * finite, np.nan)) for sign in (1.0, -1.0)),
                 self._sticking("sticking", self.bound > 0.0),
             ]
-        return [*(self._along("given", ratio) for ratio in self._shared_ratios()), self._sticking("given", self.bound == 1.0)]
+        shared = (np.where(self.bound < 1.0, ratio, np.nan) for ratio in self._shared_ratios())
+        return [*(self._along("given", ratio) for ratio in shared), self._sticking("given", self.bound == 1.0)]
 
     def _along(self, regime: str, ratio: Any) -> _Origin:
         """The origin for a given impulse ratio."""
@@ -217,17 +225,21 @@ class _End:
             impulse = mass * np.where(parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting))
             normal = impulse / length
             closing = resistance * normal - self.separation
-            return self._origin(regime, normal, ratio * normal, self.separation / closing, resistance > 0.0)
-        closing = self.known if self.kind == "closing_speed" else self.separation / self.known
-        normal = (closing + self.separation) / resistance
+            return self._origin(regime, normal, ratio * normal, self.separation / closing, 2.0, resistance > 0.0)
+        normal = (self._closing() + self.separation) / resistance
         e = self.separation / self.known if self.kind == "closing_speed" else self.known
-        return self._origin(regime, normal, ratio * normal, e, resistance > 0.0)
+        condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
+        return self._origin(regime, normal, ratio * normal, e, condition, resistance > 0.0)
+
+    def _closing(self) -> Any:
+        """The closing speed, where it or the restitution is known."""
+        return self.known if self.kind == "closing_speed" else self.separation / self.known
 
     def _sticking(self, regime: str, possible: Any) -> _Origin:
         """The origin of a contact that does not slip under "kudlich-slibar", which sends all of the velocity back e-fold."""
         if self.law == codes.BRACH:
             nothing = np.full((), np.nan)
-            return self._origin(regime, nothing, nothing, nothing, False)
+            return self._origin(regime, nothing, nothing, nothing, nothing, False)
         if self.kind == "energy_loss":
             stored = self.whole[0] * self.separation + self.whole[1] * self.slip
             inverse = np.sqrt(1.0 + 2.0 * self.known / stored)
@@ -235,7 +247,9 @@ class _End:
             inverse = self.known / self.separation
         else:
             inverse = 1.0 / self.known
-        return self._origin(regime, (1.0 + inverse) * self.whole[0], (1.0 + inverse) * self.whole[1], 1.0 / inverse, possible)
+        factor = 1.0 + inverse
+        possible = possible & ~self.at_rest
+        return self._origin(regime, factor * self.whole[0], factor * self.whole[1], 1.0 / inverse, factor, possible)
 
     def _shared_ratios(self) -> tuple[Any, Any]:
         """Impulse ratios that are the given share of the critical one.
@@ -248,15 +262,14 @@ class _End:
             # With e = -1 the wanted change along the normal is 0, and what remains is the slip.
             only_slip = self._kernel(np.full((), -1.0), codes.FRICTION, np.zeros(()), self.bodies)
             y_n, y_t = 0.0 - only_slip[codes.AT["no_slip_normal"]], 0.0 - only_slip[codes.AT["no_slip_tangential"]]
-        closing = self.known if self.kind == "closing_speed" else self.separation / self.known
         share = self.bound
         square = y_n * self.k_nt
-        linear = y_n * self.k_nn - share * y_t * self.k_nt - (1.0 - share) * (closing + self.separation)
+        linear = y_n * self.k_nn - share * y_t * self.k_nt - (1.0 - share) * (self._closing() + self.separation)
         constant = 0.0 - share * y_t * self.k_nn
         half = -0.5 * (linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear))
         return half / square, constant / half
 
-    def _origin(self, regime: str, normal: Any, tangential: Any, e: Any, possible: Any) -> _Origin:
+    def _origin(self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, possible: Any) -> _Origin:
         e = np.where((e < 0.0) & (abs(self.separation) <= self.rounding), 0.0, e)
         e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * codes.EPS + self.rounding / abs(self.separation)), 1.0, e)
         (nx, ny), (px, py) = self.n, self.p
@@ -272,7 +285,7 @@ class _End:
         n_again, t_again = forward[codes.AT["normal_impulse"]], forward[codes.AT["tangential_impulse"]]
         again = abs(n_again - normal) + abs(t_again - tangential) <= _SAME * (abs(normal) + abs(tangential))
         fits = possible & again & (forward[0] <= codes.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
-        return _Origin(regime, normal, tangential, e, (motions[0], motions[1]), fits)
+        return _Origin(regime, normal, tangential, e, condition, (motions[0], motions[1]), fits)
 
     def origin(self, regime: str | None) -> tuple[list[_Origin], Any]:
         """The candidates, and for each whether it fits and is none of those before it."""
@@ -287,11 +300,11 @@ class _End:
         return origins, fits
 
     def forgets_slip(self) -> Any:
-        """Whether the contact ended without slip under a law that then keeps no trace of the slip before."""
-        if self.law != codes.BRACH or self.rule == codes.IMPULSE_RATIO:
+        """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
+        if self.rule == codes.IMPULSE_RATIO:
             return False
         could_stick = self.bound > 0.0 if self.rule == codes.FRICTION else self.bound == 1.0
-        return could_stick & (abs(self.slip) <= self.rounding)
+        return could_stick & (self.at_rest if self.law == codes.KUDLICH_SLIBAR else abs(self.slip) <= self.rounding)
 
 
 def _answer(
@@ -317,7 +330,7 @@ def _answer(
     )
     sure = np.equal(status, codes.OK)
     which = np.argmax(np.stack(np.broadcast_arrays(*fits)), axis=0) if fits else 0
-    condition = {"restitution": (1.0 + end.known) / end.known, "closing_speed": 1.0, "energy_loss": 2.0}[end.kind]
+    condition = np.choose(which, [one.condition for one in origins]) if origins else np.nan
     origin = Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(np.where(sure, condition, np.nan)))
 
     def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
@@ -363,11 +376,11 @@ def _error(
             solutions=solutions,
         )
     if status == codes.STICK_INVERSE:
+        other = ", or law='kudlich-slibar' if that is the model" if end.law == codes.BRACH else ""
         return NoSolutionError(
-            f"the contact ended without slip (slip after {slip:.3g} m/s), and under 'brach' any slip before may end so: the "
-            f"motion across the normal is lost. .solutions holds the {len(solutions)} ends of the range, where friction is "
-            f"just used up; regime='sliding' or impulse_ratio= of either sign decides, or law='kudlich-slibar' if "
-            f"that is the model",
+            f"the contact ended without slip (slip after {slip:.3g} m/s), and under {end.law!r} any slip before may end so: "
+            f"the motion across the normal is lost. .solutions holds the {len(solutions)} ends of the range, where friction is "
+            f"just used up; regime='sliding' or impulse_ratio= of either sign decides{other}",
             code="stick_inverse",
             solutions=solutions,
         )

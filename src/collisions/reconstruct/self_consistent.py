@@ -2,80 +2,90 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
 
-_STEPS = 60
+_PIECES = 16
+# Sixteenths of a grid cell until they are rounding.
+_ROUNDS = 13
+# A jump changes sign as well; at a root what is left is rounding.
+_ROOT = 1e-6
+
+_Mismatch = Callable[[Any], Sequence[Any]]
 
 
-def crossings(mismatch: Callable[[Any], Any], grid: Any) -> list[tuple[int, float]]:
+def crossings(mismatch: _Mismatch, grid: Any) -> list[tuple[int, float]]:
     """Every root of each row of ``mismatch(values)`` that the grid shows: row and root.
 
-    NaN marks where a row has no answer. A sign change is bisected, also between the grid and the place where a row ends;
-    where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there. A
-    pole is found too: the caller tells it from a root by what it leads to.
+    NaN marks where a row has no answer. A change of sign is narrowed down, also between the grid and the place where a row
+    ends; where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there.
     """
-    found: list[tuple[int, float]] = []
-    for row, values in enumerate(mismatch(grid)):
+    values = np.stack(list(mismatch(grid)))
+    signs, known = np.sign(values), np.isfinite(values)
+    brackets = [_Brackets(row, grid[i], grid[i + 1]) for row, i in [np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)]]
 
-        def at(x: float, row: int = row) -> float:
-            return float(mismatch(np.array([x]))[row][0])
+    row, i = np.nonzero(known[:, :-1] != known[:, 1:])
+    i, outside = np.where(known[row, i], (i, i + 1), (i + 1, i))
+    ending = _Brackets(row, grid[i], grid[outside])
+    brackets.append(_Brackets(row, grid[i], _narrowed(mismatch, ending, _last_answer, 1).low))
 
-        brackets = [(grid[i], grid[i + 1]) for i in range(len(grid) - 1) if values[i] * values[i + 1] < 0.0]
-        for i in range(len(grid) - 1):
-            for inside, outside in ((i, i + 1), (i + 1, i)):
-                if np.isfinite(values[inside]) and np.isnan(values[outside]):
-                    end = _end_of_row(at, grid[inside], grid[outside])
-                    if at(end) * values[inside] < 0.0:
-                        brackets.append((min(end, grid[inside]), max(end, grid[inside])))
-        for i in range(1, len(grid) - 1):
-            here, sides = abs(values[i]), (abs(values[i - 1]), abs(values[i + 1]))
-            if here <= min(sides) and values[i - 1] * values[i] > 0.0 and values[i] * values[i + 1] > 0.0:
-                turn = _turning_point(at, grid[i - 1], grid[i + 1], float(np.sign(values[i])))
-                if at(turn) * values[i] < 0.0:
-                    brackets += [(grid[i - 1], turn), (turn, grid[i + 1])]
-        found += [(row, float(x)) for x, value in zip(grid, values, strict=True) if value == 0.0]
-        found += [(row, _bisected(at, float(low), float(high))) for low, high in brackets]
-    return found
+    size, same = abs(values), signs[:, :-1] * signs[:, 1:] > 0.0
+    row, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
+    around, side = _Brackets(row, grid[i], grid[i + 2]), signs[row, i][:, np.newaxis]
+    turn = _narrowed(mismatch, around, lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1, 2).low
+    brackets += [_Brackets(row, around.low, turn), _Brackets(row, turn, around.high)]
 
-
-def _bisected(at: Callable[[float], float], low: float, high: float) -> float:
-    falling = at(low) > 0.0
-    for _ in range(_STEPS):
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            break
-        if (at(middle) > 0.0) == falling:
-            low = middle
-        else:
-            high = middle
-    return low
+    whole = _Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
+    _, ends = _sampled(mismatch, whole, 1)
+    changing = ends[:, 0] * ends[:, 1] <= 0.0
+    found = _narrowed(mismatch, _Brackets(*(part[changing] for part in whole)), _change_of_sign, 1)
+    _, rest = _sampled(mismatch, found, 1)
+    roots = np.where(abs(rest[:, 0]) <= abs(rest[:, 1]), found.low, found.high)
+    sure = np.min(abs(rest), axis=1, initial=np.inf) <= _ROOT
+    return sorted({(int(row), float(root)) for row, root in zip(found.row[sure], roots[sure], strict=True)})
 
 
-def _end_of_row(at: Callable[[float], float], inside: float, outside: float) -> float:
-    """The last place towards ``outside`` that has an answer."""
-    for _ in range(_STEPS):
-        middle = 0.5 * (inside + outside)
-        if np.isnan(at(middle)):
-            outside = middle
-        else:
-            inside = middle
-    return inside
+class _Brackets(NamedTuple):
+    """Row and two places, for each of several."""
+
+    row: Any
+    low: Any
+    high: Any
 
 
-def _turning_point(at: Callable[[float], float], low: float, high: float, sign: float) -> float:
-    """Where the magnitude is least between two places, or where it first changes sign."""
-    for _ in range(_STEPS):
-        one, other = low + (high - low) / 3.0, high - (high - low) / 3.0
-        a, b = sign * at(one), sign * at(other)
-        if a < 0.0 or b < 0.0:
-            return one if a < b else other
-        low, high = (low, other) if a < b else (one, high)
-    return 0.5 * (low + high)
+def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any, Any]:
+    """The ends of so many pieces of each bracket, and the mismatch of its row there."""
+    row, low, high = (part[:, np.newaxis] for part in brackets)
+    places = np.append(low + (high - low) * (np.arange(pieces) / pieces), high, axis=1)
+    if not places.size:
+        return places, places
+    values = np.stack(list(mismatch(places.ravel()))).reshape(-1, *places.shape)
+    return places, values[row, np.arange(len(row))[:, np.newaxis], np.arange(pieces + 1)]
+
+
+def _narrowed(mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int) -> _Brackets:
+    """The brackets cut down, again and again, to so many pieces from the one that is chosen by the mismatch at their ends."""
+    row, low, high = brackets
+    for _ in range(_ROUNDS):
+        places, values = _sampled(mismatch, _Brackets(row, low, high), _PIECES)
+        if places.size:
+            first = np.clip(first_piece(values), 0, _PIECES - count)
+            low, high = places[range(len(row)), first], places[range(len(row)), first + count]
+    return _Brackets(row, low, high)
+
+
+def _change_of_sign(values: Any) -> Any:
+    signs = np.sign(values)
+    return np.argmax(signs[:, :-1] * signs[:, 1:] <= 0.0, axis=1)
+
+
+def _last_answer(values: Any) -> Any:
+    return np.argmax(np.isnan(values), axis=1) - 1
 
 
 class RestitutionOf:
@@ -93,12 +103,13 @@ class RestitutionOf:
         if not closing > 0.0:
             return float("nan")
         try:
-            e = float(self.function(closing))
+            given = self.function(closing)
+            e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
             self.refused = f"restitution({closing:.6g}) raised {type(error).__name__}: {error}"
             return float("nan")
         if not 0.0 <= e <= 1.0:
-            self.refused = f"restitution({closing:.6g}) gave {e:.6g}, which is not from 0 to 1"
+            self.refused = f"restitution({closing:.6g}) gave {given!r}, which is not a number from 0 to 1"
             return float("nan")
         return e
 

@@ -2,7 +2,8 @@
 
 As long as the contact keeps sliding one way, or sticks, the impulse is linear in the two speeds, and what was observed of it
 quadratic. So in each regime the candidates are roots of a quadratic, read off the forward kernel at three places, polished on
-it, and kept if the law as asked leads from them to what was observed.
+it, and kept if the law as asked leads from them to what was observed. A share of the critical ratio makes the impulse a
+quotient, with a divisor that is linear in the speeds; times its square what was observed is a quartic, read off at five places.
 """
 
 from __future__ import annotations
@@ -32,9 +33,15 @@ from .self_consistent import RestitutionOf, crossings
 _forward: Callable[..., tuple[Any, ...]] = eccentric
 _NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 _STICK = "stick"
+_SHARE = "share"
 _SAME = 1e-6
 _REDUNDANT = 1e-9
 _POLISH = 3
+# Part of the speeds that a derivative is taken over: exact for quadratics, to 1e-8 for quotients of them.
+_STEP = 1e-4
+# Where a quartic is read off: nowhere a multiple of another or 0, for a scene at rest there tells nothing.
+_PLACES = np.array([-1.06, -0.47, 0.13, 0.61, 1.27])
+_FROM_PLACES = np.linalg.inv(np.vander(_PLACES, increasing=True)).T
 
 
 def speeds(
@@ -70,7 +77,9 @@ def speeds(
     course_a, course_b : angle [rad]
         Directions of motion before the impact; None for a vehicle whose speed is known to be 0.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s: solved together with the speeds.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s: solved together with the speeds,
+        in single cases. With a number every root is found in closed form. With a function they are looked for on a grid of
+        129 restitutions, between its places and where it turns or ends; two roots that the grid does not tell may be missed.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m]
@@ -175,7 +184,6 @@ def speeds(
         law,
         [*door.problems, *missing_numbers(a, b, point)],
     )
-    _refuse_pairs(given, known, a, b)
     everything: dict[str, Any] = {**known, "restitution": e, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     for label, body in (("a", a), ("b", b)):
@@ -184,10 +192,13 @@ def speeds(
             f"{label}.{name}": value for name, value in zip(_NUMBERS, numbers, strict=True) if name not in ("vx", "vy")
         }
         everything |= {f"course_{label}[{i}]": part for i, part in enumerate(courses[label])}
+        if body.heading is not None:
+            everything[f"{label}.heading"] = body.heading
     cases = Cases.of(everything)
     with np.errstate(all="ignore"):
+        _refuse_pairs(given, known, a, b)
         scene = _Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
-        roots = _joint(scene, cases, function) if function is not None or scene.shares_critical() else scene.roots()
+        roots = scene.roots() if function is None else _joint(scene, cases, function)
         return _answers(cases, scene, _sorted(cases, scene, roots), a, b, (n, rule, bound, law, contact, e), function)
 
 
@@ -198,7 +209,8 @@ def _refuse_pairs(given: dict[str, Any], known: dict[str, Any], a: Vehicle, b: V
         )
     if given.keys() == {"delta_v_a", "delta_v_b"}:
         on_a, on_b = (np.multiply(body.mass, known[f"delta_v_{label}"]) for label, body in (("a", a), ("b", b)))
-        apart = float(np.max(abs(on_a - on_b) / np.maximum(on_a, on_b)))
+        # fmax passes over the NaN of infinite masses.
+        apart = float(np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0))
         raise InputError(
             f"delta_v_a and delta_v_b tell the same, the impulse (here they differ by {apart:.1%}); give one of them and a "
             f"speed or an energy",
@@ -224,8 +236,9 @@ class _Scene:
         self.numbers, self.rule, self.law, self.kinds = numbers, rule, law, kinds
         self.e, self.bound = numbers["restitution"], numbers[rule]
         self.targets = {kind: self._target(kind) for kind in kinds}
-        # Set where a regime would let any slip fit.
+        # Set where a regime would let any slip fit; and where it might, with another restitution.
         self.open: Any = np.zeros((), dtype=bool)
+        self.blind = False
 
     def _target(self, kind: str) -> Any:
         """What was observed, in the form that is quadratic in the speeds."""
@@ -238,7 +251,7 @@ class _Scene:
         return value
 
     def shares_critical(self) -> bool:
-        """Whether the ratio depends on the answer."""
+        """Whether the impulse ratio depends on the answer."""
         return self.rule == codes.CRITICAL_FRACTION and bool(np.any((self.bound > 0.0) & (self.bound < 1.0)))
 
     def regimes(self) -> list[Any]:
@@ -246,7 +259,7 @@ class _Scene:
         if self.rule == codes.IMPULSE_RATIO:
             return [self.bound]
         if self.rule == codes.CRITICAL_FRACTION:
-            return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK]
+            return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK, *([_SHARE] if self.shares_critical() else [])]
         finite = np.where(np.isinf(self.bound), np.nan, self.bound)
         return [finite, np.where(self.bound > 0.0, -finite, np.nan), _STICK]
 
@@ -261,11 +274,17 @@ class _Scene:
         return _forward(e, *place, *bodies, rule, self.law, False, False)
 
     def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
-        """What would be observed at these speeds if the contact were in this regime; quadratic in the speeds."""
+        """What would be observed at these speeds if the contact were in this regime; times its weight, a polynomial of them."""
+        weight: Any = 1.0
         if isinstance(regime, str):
             raw = self.run(speed_a, speed_b, e, codes.FRICTION, 0.0)
             closing, slip = raw[codes.AT["closing_speed"]], raw[codes.AT["slip_before"]]
             normal, tangential = raw[codes.AT["no_slip_normal"]], raw[codes.AT["no_slip_tangential"]]
+        if regime is _SHARE:
+            shared = self.bound * tangential
+            weight = (normal + shared * (raw[codes.AT["coupling"]] * raw[codes.AT["effective_mass"]])) ** 2
+            regime = shared / normal
+        if isinstance(regime, str):
             kept = sticking_slip(e, self.law)
             loss = energy_losses(
                 e,
@@ -284,7 +303,7 @@ class _Scene:
         else:
             raw = self.run(speed_a, speed_b, e, codes.IMPULSE_RATIO, regime)
             normal, tangential, loss = (raw[codes.AT[name]] for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
-        return self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)
+        return {"weight": weight, **self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)}
 
     def _seen(self, raw: Any, normal: Any, tangential: Any, loss: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
         squared = normal * normal + tangential * tangential
@@ -300,30 +319,36 @@ class _Scene:
             "ees_a": 0.5 * closing * normal / (1.0 + e),
         }
 
-    def roots(self, e: Any = None, regimes: Sequence[Any] | None = None, polish: int = _POLISH) -> list[_Root]:
-        """Both candidates of every regime, whether the law leads from them to what was observed or not."""
+    def roots(self, e: Any = None, polish: int = _POLISH) -> list[_Root]:
+        """All candidates of every regime, whether the law leads from them to what was observed or not."""
         e = self.e if e is None else e
         found: list[_Root] = []
-        for regime in self.regimes() if regimes is None else regimes:
+        for regime in self.regimes():
             pairs = self._on_a_line(regime, e) if self.kinds[0].startswith("speed") else self._crossing(regime, e)
             found += [self._polished(regime, e, *pair, polish) for pair in pairs]
         return found
 
     def _on_a_line(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
-        """With one speed known: where the parabola along the other meets what was observed."""
+        """With one speed known: where the curve along the other meets what was observed."""
         fixed, kind = self.kinds
-        value = self.targets[fixed]
-        step = np.maximum(1.0, abs(value))
+        value, target = self.targets[fixed], self.targets[kind]
+
+        def seen(x: Any) -> dict[str, Any]:
+            return self.observe(regime, *((value, x) if fixed == "speed_a" else (x, value)), e)
 
         def at(x: Any) -> Any:
-            pair = (value, x) if fixed == "speed_a" else (x, value)
-            return self.observe(regime, *pair, e)[kind] - self.targets[kind]
+            here = seen(x)
+            return (here[kind] - target) * here["weight"]
 
-        xs = _parabola_roots((at(-step), at(np.zeros(())), at(step)), step)
+        # The speeds that are there, and the one that one unit of speed would have to grow to.
+        rest, one = seen(np.zeros(())), seen(np.ones(()))
+        needed = np.sqrt(abs(target / (one[kind] - rest[kind])))
+        step = abs(value) + abs(rest["closing"]) + abs(rest["slip"]) + np.where(np.isfinite(needed), needed, 0.0)
+        xs = _roots(regime, at, np.where(step > 0.0, step, 1.0))
         return [(value + 0.0 * x, x) if fixed == "speed_a" else (x, value + 0.0 * x) for x in xs]
 
     def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
-        """With two quadratic observations: their ratio depends on slip over closing speed alone, and is quadratic in it."""
+        """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         zero, one = np.zeros(()), np.ones(())
         rest, per_a, per_b = (self.observe(regime, *pair, e) for pair in ((zero, zero), (one, zero), (zero, one)))
         (ga, gb), (sa, sb) = ([part[name] - rest[name] for part in (per_a, per_b)] for name in ("closing", "slip"))
@@ -336,34 +361,44 @@ class _Scene:
 
         first, second = self.kinds
 
-        def at(ratio: Any) -> tuple[Any, Any]:
+        def at(ratio: Any) -> tuple[Any, Any, Any]:
             seen = self.observe(regime, *speeds_at(one, ratio), e)
-            return seen[first], seen[second]
+            return seen[first], seen[second], seen["weight"]
 
-        samples = [at(np.full((), ratio)) for ratio in (-1.0, 0.0, 1.0)]
         c1, c2 = self.targets[first], self.targets[second]
-        differences = [c2 * q1 - c1 * q2 for q1, q2 in samples]
-        # Where both tell of the closing speed alone, every ratio fits, or none.
-        scale = sum(abs(c2 * q1) + abs(c1 * q2) for q1, q2 in samples)
-        leaves_open = np.logical_and.reduce([abs(d) <= _REDUNDANT * scale for d in differences])
+        samples = [at(np.full((), ratio)) for ratio in (-1.0, 0.0, 1.0)]
+
+        def everywhere(p1: Any, p2: Any) -> Any:
+            scale = sum(abs(p2 * q1) + abs(p1 * q2) for q1, q2, _ in samples)
+            return np.logical_and.reduce([abs(p2 * q1 - p1 * q2) <= _REDUNDANT * scale for q1, q2, _ in samples])
+
+        # Where both tell the same of every slip, every slip fits, or none.
+        leaves_open = everywhere(c1, c2)
         self.open = self.open | leaves_open
-        differences = [np.where(leaves_open, np.nan, d) for d in differences]
+        self.blind = self.blind or bool(np.any(everywhere(*samples[1][:2])))
+
+        def difference(ratio: Any) -> Any:
+            q1, q2, weight = at(ratio)
+            return np.where(leaves_open, np.nan, (c2 * q1 - c1 * q2) * weight)
+
         pairs = []
-        for ratio in _parabola_roots(differences, one):
-            q1, q2 = at(ratio)
+        for ratio in _roots(regime, difference, one):
+            q1, q2, _ = at(ratio)
             closing = np.sqrt(np.where(c1 > 0.0, c1 / q1, c2 / q2))
             pairs.append(speeds_at(closing, ratio * closing))
         return pairs
 
     def _polished(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, steps: int) -> _Root:
-        """Newton's method on the kernel; central differences of a quadratic are its derivatives."""
+        """Newton's method on the kernel, with central differences for its derivatives."""
         condition: Any = np.nan
         for _ in range(steps):
             here = self.observe(regime, speed_a, speed_b, e)
-            ahead_a, behind_a = (self.observe(regime, speed_a + h, speed_b, e) for h in (1.0, -1.0))
-            ahead_b, behind_b = (self.observe(regime, speed_a, speed_b + h, e) for h in (1.0, -1.0))
+            size = _STEP * (abs(speed_a) + abs(speed_b) + abs(here["closing"]))
+            ahead_a, behind_a = (self.observe(regime, speed_a + h, speed_b, e) for h in (size, -size))
+            ahead_b, behind_b = (self.observe(regime, speed_a, speed_b + h, e) for h in (size, -size))
             (j11, j12), (j21, j22) = (
-                (0.5 * (ahead_a[kind] - behind_a[kind]), 0.5 * (ahead_b[kind] - behind_b[kind])) for kind in self.kinds
+                ((ahead_a[kind] - behind_a[kind]) / (2.0 * size), (ahead_b[kind] - behind_b[kind]) / (2.0 * size))
+                for kind in self.kinds
             )
             r1, r2 = (here[kind] - self.targets[kind] for kind in self.kinds)
             determinant = j11 * j22 - j12 * j21
@@ -396,7 +431,7 @@ class _Scene:
 
 
 def _parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
-    """Roots of the parabola through three points a step apart, the middle one at 0; NaN where there are none."""
+    """Roots of the parabola through three points a step apart, the middle one at 0, rising; NaN where there are none."""
     behind, middle, ahead = samples
     square = 0.5 * (ahead + behind) - middle
     linear = 0.5 * (ahead - behind)
@@ -408,52 +443,52 @@ def _parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
     half = -0.5 * (linear + np.copysign(np.sqrt(inside), linear))
     one = np.where(square == 0.0, np.nan, half / square)
     other = np.where(half == 0.0, np.where(square == 0.0, np.nan, 0.0), middle / half)
-    return step * one, step * other
+    return step * np.fmin(one, other), step * np.fmax(one, other)
 
 
-def _joint(scene: _Scene, cases: Cases, function: RestitutionOf | None) -> list[_Root]:
-    """Candidates where restitution or impulse ratio depends on the answer: solved on a grid, then where both agree."""
+def _quartic_roots(samples: Sequence[Any], step: Any) -> list[Any]:
+    """Real roots of the quartic through five points at ``_PLACES`` times the step; NaN in place of those that are not real."""
+    values = np.stack(np.broadcast_arrays(*samples), axis=-1)
+    values = np.where(np.all(np.isfinite(values), axis=-1, keepdims=True), values, 1.0)
+    coefficients = (values / np.max(abs(values), axis=-1, keepdims=True)) @ _FROM_PLACES
+    leading = coefficients[..., 4:]
+    companion = np.zeros((*values.shape[:-1], 4, 4))
+    companion[..., range(1, 4), range(3)] = 1.0
+    companion[..., 3] = -coefficients[..., :4] / np.where(abs(leading) < codes.EPS, codes.EPS, leading)
+    found = np.linalg.eigvals(companion)
+    # A double root, where the line only touches the curve, survives rounding.
+    real = abs(found.imag) <= _SAME * abs(found)
+    return [step * np.where(real[..., i], found[..., i].real, np.nan) for i in range(4)]
+
+
+def _roots(regime: Any, at: Callable[[Any], Any], step: Any) -> Sequence[Any]:
+    """Roots of what a regime makes of the observations, on a scale that the step gives."""
+    if regime is _SHARE:
+        return _quartic_roots([at(step * place) for place in _PLACES], step)
+    return _parabola_roots([at(-step), at(0.0 * step), at(step)], step)
+
+
+def _joint(scene: _Scene, cases: Cases, function: RestitutionOf) -> list[_Root]:
+    """Candidates where the restitution depends on the answer: solved on a grid of it, then where both agree."""
     if cases.shape is not None:
         raise InputError(
-            "a function of restitution, or a critical_fraction between 0 and 1, takes single cases; call once for each",
-            code="bad_shape",
-            argument="restitution" if function is not None else "critical_fraction",
+            "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
         )
-    if function is not None and scene.shares_critical():
+    if scene.shares_critical():
         raise InputError(
             "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
             "or a number for the restitution",
             code="bad_combination",
             argument="critical_fraction",
         )
-    if function is not None:
 
-        def mismatch(e: Any) -> list[Any]:
-            return [function(scene.fits(root)[1] + 0.0 * e) - e for root in scene.roots(e, polish=0)]
-
-        found = crossings(mismatch, np.linspace(0.0, 1.0, 129))
+    def mismatch(e: Any) -> list[Any]:
         scene.open = np.zeros((), dtype=bool)
-        return [scene.roots(np.full((), e))[row] for row, e in found]
-    if "ees_a" in scene.kinds and not scene.kinds[0].startswith("speed"):
-        raise InputError(
-            "with a critical_fraction between 0 and 1, both EES go with a known speed only; give one, or impulse_ratio=",
-            code="bad_combination",
-            argument="critical_fraction",
-        )
+        return [function(scene.fits(root)[1] + 0.0 * e) - e for root in scene.roots(e, polish=0)]
 
-    def ratio_mismatch(ratio: Any) -> list[Any]:
-        found = []
-        for root in scene.roots(scene.e, [ratio], polish=0):
-            raw = scene.run(root.speed_a, root.speed_b, scene.e, codes.FRICTION, 0.0)
-            normal, tangential = raw[codes.AT["no_slip_normal"]], raw[codes.AT["no_slip_tangential"]]
-            closing = raw[codes.AT["closing_speed"]]
-            found.append(np.where((normal > 0.0) & (closing > 0.0), scene.bound * tangential / normal - ratio, np.nan))
-        return found
-
-    grid = np.tan(np.linspace(-1.5, 1.5, 257))
-    found = crossings(ratio_mismatch, grid)
+    found = crossings(mismatch, np.linspace(0.0, 1.0, 129))
     scene.open = np.zeros((), dtype=bool)
-    return [scene.roots(scene.e, [np.full((), ratio)])[row] for row, ratio in found]
+    return [scene.roots(np.full((), e))[row] for row, e in found]
 
 
 def _sorted(cases: Cases, scene: _Scene, roots: list[_Root]) -> list[tuple[_Root, Any]]:
@@ -539,7 +574,7 @@ def _refuse(cases: Cases, scene: _Scene, faults: list[tuple[Any, int]], function
                 f"the courses are parallel, so {kinds} tell of the closing speed alone; give one of the speeds",
                 code="parallel_headings",
             )
-        if scene.open:
+        if scene.open or (function is not None and scene.blind):
             raise NoSolutionError(
                 f"where the contact slides, {kinds} tell of the closing speed alone and leave the slip open; give one of "
                 f"the speeds",

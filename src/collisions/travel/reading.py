@@ -29,7 +29,7 @@ def for_each(door: Door, value: Any, name: str, count: int | None, read: _Reader
     if not isinstance(value, (list, tuple)):
         one = read(door, value, name)
         return [one] * (count or 1)
-    if len(value) == count or count is None:
+    if count is None or len(value) == count > 0:
         return [read(door, part, f"{name}[{i}]") for i, part in enumerate(value)]
     kind = type(value).__name__
     if count:

@@ -1,0 +1,437 @@
+"""Impact speeds from two things known: against the forward solver, against a scan of all slips, and every refusal."""
+
+import itertools
+import math
+import pickle
+import warnings
+from functools import cache
+
+import numpy as np
+import pint
+import pytest
+
+import collisions as col
+from collisions.reconstruct import speeds
+from scenes import LAWS, RULES
+
+VALUES = {"friction": (0.0, 0.3, 0.8, math.inf), "impulse_ratio": (-0.4, 0.3), "critical_fraction": (0.0, 0.3, 0.7, 1.0)}
+PAIRS = [
+    pair
+    for pair in itertools.combinations(("speed_a", "speed_b", "delta_v_a", "delta_v_b", "energy_loss", "ees"), 2)
+    if pair not in (("speed_a", "speed_b"), ("delta_v_a", "delta_v_b"))
+]
+A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0)
+B = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8)
+CONTACT = {"normal": 0.0, "point": (0.0, 0.4), "friction": 0.05}
+COURSES = {"course_a": 0.1, "course_b": 2.0}
+HIT = col.eccentric(
+    A.replace(vx=20 * math.cos(0.1), vy=20 * math.sin(0.1)),
+    B.replace(vx=10 * math.cos(2.0), vy=10 * math.sin(2.0)),
+    0.1,
+    **CONTACT,
+)
+
+
+@cache
+def forward_scenes(seed, count, rules=RULES, turning=True):
+    """Random cars that meet: both speeds, both courses, the contact and the forward answer."""
+    rng, found = np.random.default_rng(seed), []
+    while len(found) < count:
+        rule = rules[rng.integers(len(rules))]
+        contact = {"normal": rng.uniform(-0.6, 0.6), "point": tuple(rng.uniform((-0.4, -0.8), (0.4, 0.8)).tolist())}
+        contact |= {rule: float(rng.choice(VALUES[rule])), "law": LAWS[rng.integers(2)]}
+        bodies, courses = [], rng.uniform(-3, 3, 2)
+        for x, course in zip((-2.0, 2.0), courses, strict=True):
+            bodies.append(
+                col.Vehicle.from_speed(
+                    speed=rng.uniform(1, 25),
+                    course=course,
+                    mass=rng.uniform(800, 3000),
+                    yaw_inertia=rng.uniform(800, 4000),
+                    x=x + rng.uniform(-0.5, 0.5),
+                    y=rng.uniform(-1, 1),
+                    yaw_rate=rng.choice((0.0, rng.uniform(-1, 1))) if turning else 0.0,
+                )
+            )
+        try:
+            impact = col.eccentric(*bodies, rng.uniform(0.0, 0.5), **contact)
+        except (col.NoImpactError, col.NoSolutionError, col.EnergyGainWarning):
+            continue
+        if abs(math.sin(courses[0] - courses[1])) > 0.1:
+            found.append((impact, courses, contact))
+    return found
+
+
+def knowledge(impact, pair, share=0.4):
+    """The named two, from a forward answer."""
+    found = {}
+    for kind in pair:
+        if kind == "ees":
+            found["ees_a"], found["ees_b"] = impact.ees(share)
+        elif kind.startswith("speed"):
+            found[kind] = getattr(impact, kind[-1]).before.speed
+        else:
+            found[kind] = getattr(impact, kind[-1]).delta_v if kind.startswith("delta_v") else impact.energy_loss
+    return found
+
+
+def asked(impact, courses, contact, **known):
+    """Speeds for the vehicles of a forward answer, whose own velocities must not matter."""
+    a, b = (side.before.replace(vx=77.0, vy=-55.0) for side in (impact.a, impact.b))
+    given = {
+        "course_a": float(courses[0]),
+        "course_b": float(courses[1]),
+        "restitution": impact.restitution,
+        **contact,
+        **known,
+    }
+    with warnings.catch_warnings():
+        # A root backwards along its course, or with an energy gain, is one nevertheless.
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        return speeds(a, b, **given)
+
+
+def attempt(solver, *inputs, **given):
+    """What a reverse solver answers, and its refusal: one of them is None."""
+    try:
+        return solver(*inputs, **given), None
+    except col.NoSolutionError as refusal:
+        return None, refusal
+
+
+def off(one, other):
+    """Largest difference of a velocity before."""
+    return max(
+        abs(getattr(getattr(one, s).before, v) - getattr(getattr(other, s).before, v)) for s in "ab" for v in ("vx", "vy")
+    )
+
+
+def check_roots(found, known, courses, contact):
+    """Each runs forward to what was known, along the courses; none twice; by rising closing speed."""
+    for root in found:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.EnergyGainWarning)
+            again = col.eccentric(root.a.before, root.b.before, root.restitution, **contact)
+        # Newton's method ends within rounding of a root; a double one at the square root of it.
+        for kind, value in known.items():
+            if kind == "ees_b":
+                continue
+            if kind == "ees_a":
+                absorbed = sum(0.5 * getattr(root, s).before.mass * known[f"ees_{s}"] ** 2 for s in "ab")
+                assert again.energy_absorbed == pytest.approx(absorbed, rel=1e-9)
+            elif kind.startswith("speed"):
+                side = getattr(again, kind[-1]).before
+                assert math.hypot(side.vx, side.vy) == pytest.approx(value, rel=1e-12)
+            else:
+                seen = getattr(again, kind[-1]).delta_v if kind.startswith("delta_v") else again.energy_loss
+                assert seen == pytest.approx(value, rel=1e-9), kind
+        for side, course in zip((root.a, root.b), courses, strict=True):
+            across = side.before.vx * math.sin(course) - side.before.vy * math.cos(course)
+            assert abs(across) <= 1e-12 * (1 + abs(side.before.vx) + abs(side.before.vy))
+    closing = [root.closing_speed for root in found]
+    assert closing == sorted(closing)
+    for one, other in itertools.pairwise(found):
+        assert off(one, other) > 1e-7 * other.closing_speed
+
+
+def roots_of_a_scan(impact, courses, contact, known):
+    """How many roots a scan shows: forward over a fine row of speeds, or of slips, and changes of sign counted.
+
+    With a speed known, the other one runs from -200 to 200 m/s. Without, every slip per closing speed is tried, at the size that
+    gives the first of the two known; velocities at the contact are linear in the speeds, so two forward answers give them.
+    """
+    one = {"speed_a": "speed_b", "speed_b": "speed_a"}
+    fixed = next((kind for kind in known if kind in one), None)
+    other = [kind for kind in known if kind not in ("ees_b", fixed)]
+
+    def run(speed_a, speed_b):
+        a, b = (
+            side.before.replace(vx=speed * math.cos(course), vy=speed * math.sin(course))
+            for side, speed, course in zip((impact.a, impact.b), (speed_a, speed_b), courses, strict=True)
+        )
+        return col.eccentric(a, b, impact.restitution, on_failure="nan", **contact)
+
+    def seen(found, kind):
+        if kind == "ees_a":
+            return found.energy_absorbed / sum(0.5 * getattr(impact, s).before.mass * known[f"ees_{s}"] ** 2 for s in "ab")
+        value = getattr(found, kind[-1]).delta_v ** 2 if kind.startswith("delta_v") else found.energy_loss
+        return value / (known[kind] ** 2 if kind.startswith("delta_v") else known[kind])
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        if fixed:
+            row = np.linspace(-200.0, 200.0, 10001)
+            value = np.full_like(row, known[fixed])
+            excess = seen(run(*((value, row) if fixed == "speed_a" else (row, value))), other[0]) - 1.0
+        else:
+            # Without yaw rates all answers scale: any direction in the plane of the speeds, made as long as the first demands.
+            angle = np.linspace(-math.pi, math.pi, 10001)
+            found = run(np.cos(angle), np.sin(angle))
+            excess = seen(found, other[1]) / seen(found, other[0]) - 1.0
+    return int(np.sum(excess[:-1] * excess[1:] < 0.0))
+
+
+# Against the forward solver
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids="-".join)
+def test_the_true_speeds_are_found(pair):
+    """Among the roots, to 1e-9 of the speeds times the condition that comes with them; undetermined only where the slip is open."""
+    answered = 0
+    for impact, courses, contact in forward_scenes(11, 10):
+        known = knowledge(impact, pair)
+        found, refusal = attempt(asked, impact, courses, contact, **known)
+        if refusal is not None:
+            assert refusal.code == "undetermined", (impact, contact, refusal)
+            assert not {"speed_a", "speed_b"} & set(pair)
+            slipless = impact.tangential_impulse == 0.0
+            assert slipless or set(pair) in ({"delta_v_a", "ees"}, {"delta_v_b", "ees"}), contact
+            continue
+        check_roots(found, known, courses, contact)
+        best = min(found, key=lambda root: off(root, impact))
+        assert off(best, impact) <= 1e-9 * (1 + best.reconstruction.condition) * 25, (impact, contact)
+        assert best.reconstruction.method == "speeds"
+        answered += 1
+    assert answered >= 2
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize(
+    "pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("delta_v_a", "energy_loss")], ids="-".join
+)
+def test_no_root_is_missed(rule, pair):
+    """As many as a scan of 10001 forward answers shows, or more: two within a step of it show as none."""
+    shown = 0
+    for impact, courses, contact in forward_scenes(5, 10, (rule,), turning=False):
+        known = knowledge(impact, pair)
+        found, refusal = attempt(asked, impact, courses, contact, **known)
+        if refusal is not None:
+            assert refusal.code == "undetermined"
+            continue
+        within = [root for root in found if max(root.a.before.speed, root.b.before.speed) < 200.0]
+        scanned = roots_of_a_scan(impact, courses, contact, known)
+        assert len(within) >= scanned, (impact, contact)
+        shown += scanned
+    assert shown >= 6
+
+
+def test_two_roots_close_together():
+    """With a share of the critical ratio, two roots may be a few percent apart and nearer: both are there."""
+    found = []
+    for impact, courses, contact in forward_scenes(3, 60, ("critical_fraction",)):
+        if 0.0 < contact["critical_fraction"] < 1.0:
+            roots = asked(impact, courses, contact, **knowledge(impact, ("delta_v_a", "energy_loss")))
+            assert min(off(root, impact) for root in roots) < 1e-6
+            found += [one.closing_speed / other.closing_speed for one, other in itertools.pairwise(roots)]
+    assert max(found) > 0.97
+
+
+def test_a_parked_car_needs_no_course():
+    """A course of None goes with a known speed of 0; a barrier too."""
+    impact = col.eccentric(A.replace(vx=12.0), B, 0.1, **CONTACT)
+    for pair in (("speed_b", "delta_v_a"), ("speed_b", "energy_loss"), ("speed_b", "ees")):
+        (found,) = speeds(A, B, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, **knowledge(impact, pair))
+        assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
+        assert found.b.before.speed == 0.0
+    wall = col.Vehicle.barrier()
+    impact = col.eccentric(A.replace(vx=12.0), wall, 0.1, **CONTACT)
+    known = {"speed_b": 0.0, "ees_a": math.sqrt(2 * impact.energy_absorbed / A.mass), "ees_b": 0.0}
+    (found,) = speeds(A, wall, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, **known)
+    assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
+    (found,) = speeds(A, wall, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, speed_b=0.0, delta_v_a=impact.a.delta_v)
+    assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
+
+
+def test_dissipated_and_absorbed_energy_differ_by_restitution():
+    """Without friction the energy dissipated is 1 - e**2 of that absorbed at maximum crush, which the EES stand for."""
+    contact = {**CONTACT, "friction": 0.0}
+    for e in (0.0, 0.1, 0.4):
+        impact = col.eccentric(A.replace(vx=12.0), B, e, **contact)
+        absorbed = impact.energy_loss / (1 - e * e)
+        ees = math.sqrt(2 * absorbed / (A.mass + B.mass))
+        known = {"speed_b": 0.0, "ees_a": ees, "ees_b": ees}
+        (found,) = speeds(A, B, course_a=0.0, course_b=None, restitution=e, **contact, **known)
+        assert found.a.before.vx == pytest.approx(12.0, rel=1e-13)
+
+
+def test_parallel_courses():
+    """One speed tells the other; without one only the closing speed is told, and that is said."""
+    impact = col.eccentric(A.replace(vx=20.0), B.replace(vx=8.0), 0.1, **CONTACT)
+    given = {"course_a": 0.0, "course_b": 0.0, "restitution": 0.1, **CONTACT}
+    (found,) = speeds(A, B, **given, speed_a=20.0, delta_v_b=impact.b.delta_v)
+    assert found.b.before.vx == pytest.approx(8.0, rel=1e-12)
+    with pytest.raises(col.NoSolutionError, match=r"parallel.*give one of the speeds") as caught:
+        speeds(A, B, **given, delta_v_a=impact.a.delta_v, energy_loss=impact.energy_loss)
+    assert caught.value.code == "parallel_headings"
+
+
+def test_a_slip_that_stays_open():
+    """Where the contact slides, delta-V and EES tell of the closing speed alone."""
+    assert HIT.regime == "sliding"
+    for pair in (("delta_v_a", "ees"), ("delta_v_b", "ees")):
+        with pytest.raises(col.NoSolutionError, match="leave the slip open") as caught:
+            speeds(A, B, **COURSES, restitution=0.1, **CONTACT, **knowledge(HIT, pair))
+        assert caught.value.code == "undetermined"
+
+
+def test_a_negative_speed_is_said():
+    """Backwards along its course: the value is returned, and warned of."""
+    impact = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT)
+    known = {"speed_a": 12.0, "delta_v_b": impact.b.delta_v}
+    with pytest.warns(col.OutOfRangeWarning, match=r"-5 m/s: backwards") as caught:
+        (found,) = speeds(A, B, course_a=0.0, course_b=0.0, restitution=0.1, **CONTACT, **known)
+    assert len(caught) == 1
+    assert caught[0].message.code == "negative_speed"
+    assert caught[0].filename == __file__
+    assert found.b.before.vx == pytest.approx(-5.0, rel=1e-12)
+
+
+# Restitution that depends on the closing speed
+
+
+def falling(closing):
+    """A restitution that falls as the closing speed rises."""
+    return 0.05 + 0.45 * math.exp(-closing / 6.0)
+
+
+@pytest.mark.parametrize(
+    "pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_b", "ees"), ("delta_v_a", "energy_loss")]
+)
+def test_restitution_as_a_function(pair):
+    """Every root has the restitution of its own closing speed, and the true one is among them."""
+    checked = 0
+    for known_e, courses, contact in forward_scenes(2, 3, ("friction", "impulse_ratio")):
+        impact = col.eccentric(known_e.a.before, known_e.b.before, falling(known_e.closing_speed), **contact)
+        if pair[0].startswith("delta") and (impact.tangential_impulse == 0.0 or impact.energy_loss < 0.0):
+            continue
+        known = knowledge(impact, pair)
+        found = asked(impact, courses, contact, **known, restitution=falling)
+        for root in found:
+            assert root.restitution == pytest.approx(falling(root.closing_speed), abs=1e-9)
+        check_roots(found, known, courses, contact)
+        assert min(off(root, impact) for root in found) < 1e-6
+        checked += 1
+    assert checked >= 2
+
+
+def low_speed(**known):
+    return speeds(A, B, course_a=0.0, course_b=None, speed_b=0.0, **{**CONTACT, **known})
+
+
+def test_a_jump_of_the_function_is_no_root():
+    """A table with a step has a change of sign there, but no closing speed with its own restitution."""
+    above = low_speed(delta_v_a=2.0, restitution=0.4)[0].closing_speed
+    below = low_speed(delta_v_a=2.0, restitution=0.1)[0].closing_speed
+    assert above < below
+    with pytest.raises(col.NoSolutionError) as caught:
+        low_speed(delta_v_a=2.0, restitution=lambda g: 0.1 if g < 0.5 * (above + below) else 0.4)
+    assert caught.value.code == "contradictory"
+    both = low_speed(delta_v_a=2.0, restitution=lambda g: 0.4 if g < 0.5 * (above + below) else 0.1)
+    assert [root.restitution for root in both] == pytest.approx([0.4, 0.1], abs=1e-12)
+
+
+def test_functions_that_cannot_be_used():
+    """Values out of range, or an exception of its own, are quoted with the closing speed; batches and shares are refused."""
+    with pytest.raises(col.InputError, match=r"gave 1\.5, which is not .*from 0 to 1") as caught:
+        low_speed(delta_v_a=2.0, restitution=lambda g: 1.5)
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_restitution", "restitution")
+    with pytest.raises(col.InputError, match=r"raised KeyError: 'nothing'") as caught:
+        low_speed(delta_v_a=2.0, restitution=lambda g: {}["nothing"])
+    assert caught.value.code == "bad_restitution"
+    with pytest.raises(col.InputError, match="single cases") as caught:
+        low_speed(delta_v_a=np.array([2.0, 3.0]), restitution=falling)
+    assert caught.value.code == "bad_shape"
+    with pytest.raises(col.InputError, match="solved together") as caught:
+        low_speed(delta_v_a=2.0, restitution=falling, friction=None, critical_fraction=0.5)
+    assert caught.value.code == "bad_combination"
+
+
+def test_a_function_that_leaves_the_slip_open():
+    """A sliding contact with delta-V and EES: undetermined for a function as for a number."""
+    impact = col.eccentric(HIT.a.before, HIT.b.before, falling(HIT.closing_speed), **CONTACT)
+    with pytest.raises(col.NoSolutionError) as caught:
+        speeds(A, B, **COURSES, restitution=falling, **CONTACT, **knowledge(impact, ("delta_v_a", "ees")))
+    assert caught.value.code == "undetermined"
+
+
+# Refused
+
+
+KNOWN = {"speed_a": 20.0, "delta_v_b": HIT.b.delta_v}
+REFUSED = [
+    ("too_few_knowns", col.InputError, {"delta_v_b": None}, "give 1 of"),
+    ("too_many_knowns", col.InputError, {"energy_loss": 5e4}, "leave out 1"),
+    ("too_many_knowns", col.InputError, {"delta_v_b": None, "speed_b": 10.0}, "eccentric"),
+    ("one_ees", col.InputError, {"delta_v_b": None, "ees_b": 10.0}, "both ees_a and ees_b"),
+    ("same_information", col.InputError, {"speed_a": None, "delta_v_a": 1.1 * HIT.a.delta_v}, "differ by 9.1%"),
+    ("missing_course", col.MissingInputError, {"course_b": None}, "course_b is None"),
+    ("missing_course", col.MissingInputError, {"course_a": None}, "course_a is None"),
+    ("negative_speed", col.InputError, {"speed_a": -3.0}, "speed_a must be >= 0, got -3.0"),
+    ("negative_energy", col.InputError, {"delta_v_b": None, "energy_loss": -3.0}, "energy_loss must be >= 0"),
+    ("bad_restitution", col.InputError, {"restitution": 1.5}, "1.5"),
+    ("missing_inertia", col.MissingInputError, {"a": A.replace(yaw_inertia=None)}, "a has no yaw_inertia"),
+    ("pinned", col.InputError, {"b": B.replace(pivot=(3.0, 0.0))}, "b has a pivot"),
+    ("contradictory", col.NoSolutionError, {"speed_a": 200.0, "delta_v_b": 0.5, "course_b": math.pi / 2}, "no speeds along these courses fit speed_a and delta_v_b"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("code", "kind", "changes", "words"), REFUSED, ids=[f"{i}-{row[0]}" for i, row in enumerate(REFUSED)])
+def test_refusals(code, kind, changes, words):
+    """The class, the code, and what the message names."""
+    given = {"a": A, "b": B, "restitution": 0.1, **COURSES, **CONTACT, **KNOWN, **changes}
+    places = {name: given.pop(name) for name in ("a", "b")}
+    given = {name: value for name, value in given.items() if value is not None or name.startswith("course")}
+    with pytest.raises(kind) as caught:
+        speeds(**places, **given)
+    assert caught.value.code == code
+    assert words in str(caught.value)
+    assert type(pickle.loads(pickle.dumps(caught.value))) is type(caught.value)
+
+
+# Batches, units and records
+
+
+@pytest.mark.parametrize("rule", [{"friction": 0.5}, {"critical_fraction": 0.6}])
+@pytest.mark.parametrize(
+    "pair", [("speed_a", "delta_v_b"), ("speed_a", "energy_loss"), ("delta_v_a", "energy_loss")], ids="-".join
+)
+def test_a_batch_is_as_its_cases(pair, rule):
+    """Every case as alone, by rising closing speed; a NaN, or what fits nothing, leaves its neighbours untouched."""
+    contact = {**{name: CONTACT[name] for name in ("normal", "point")}, **rule}
+    impact = col.eccentric(HIT.a.before, HIT.b.before, 0.1, **contact)
+    known = knowledge(impact, pair)
+    factors = np.array([1.0, 1.02, np.nan, 1.05, 1e-6, 0.99])
+    many = {name: (value * factors if name == pair[1] else value) for name, value in known.items()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        found = speeds(A, B, **COURSES, restitution=0.1, **contact, **many)
+        for i, factor in enumerate(factors):
+            here = [root.closing_speed[i] for root in found if np.isfinite(root.closing_speed[i])]
+            assert here == sorted(here)
+            if np.isnan(factor):
+                assert here == []
+                assert found[0].status[i] == col.Status.NOT_FINITE
+                continue
+            given = {**COURSES, "restitution": 0.1, **contact, **known, pair[1]: float(known[pair[1]] * factor)}
+            alone, refusal = attempt(speeds, A, B, **given)
+            if refusal is not None:
+                assert here == []
+                assert col.Status(int(found[0].status[i])).label == refusal.code
+                continue
+            assert here == pytest.approx([root.closing_speed for root in alone], rel=1e-9)
+    assert np.sum(np.isfinite(found[0].closing_speed)) >= 3
+
+
+def test_units_single_precision_and_records():
+    """Texts and Quantities are the same numbers; float32 stays float32; a record replays."""
+    (found,) = speeds(A, B, **COURSES, restitution=0.1, **CONTACT, **KNOWN)
+    assert off(found, HIT) < 1e-12
+    delta_v = pint.UnitRegistry().Quantity(HIT.b.delta_v * 3.6, "km/h")
+    degrees = {name: f"{math.degrees(value)!r} deg" for name, value in COURSES.items()}
+    (same,) = speeds(A, B, **degrees, restitution=0.1, **CONTACT, speed_a="72 km/h", delta_v_b=delta_v)
+    assert off(same, found) < 1e-12
+    assert off(col.Impact.from_dict(found.to_dict()), found) == 0.0
+    assert off(pickle.loads(pickle.dumps(found)), found) == 0.0
+    assert found.reconstruction.known == ("speed_a", "delta_v_b")
+    single = speeds(A, B, **COURSES, restitution=np.array([0.1, 0.2], dtype=np.float32), **CONTACT, **KNOWN)
+    assert all(root.a.before.vx.dtype == np.float32 for root in single)
