@@ -33,9 +33,9 @@ def inline_closing_speed(
 ) -> Value:
     """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or both EES.
 
-    Only where the line of impact passes both centres of mass and nothing moves across it. In two oblique crash tests this shortcut
-    reads 10 to 16 percent high from the whole delta-V and 17 to 24 percent from the whole energy loss (NHTSA 4363 and 4474, on the
-    documentation's page "Reverse reconstruction"): for anything else use ``speeds``.
+    Only where the line of impact passes both centres of mass and nothing moves across it. In two oblique crash tests this
+    shortcut reads 10 to 16 percent high from the whole delta-V and 17 to 24 percent from the whole energy loss (NHTSA 4363 and
+    4474, on the documentation's page "Reverse reconstruction"): for anything else use ``speeds``.
 
     Parameters
     ----------
