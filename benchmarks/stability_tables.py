@@ -33,7 +33,7 @@ def number(value: float | None) -> str:
     if value is None:
         return "none"
     if value == 0 or 0.01 <= abs(value) < 1000:
-        return f"{value:.2g}" if value < 100 else f"{value:.0f}"
+        return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
     digits, power = f"{value:.1e}".split("e")
     return f"{digits}×10{str(int(power)).translate(SUPERSCRIPT)}"
 

@@ -164,3 +164,19 @@ def test_infinities_mix_with_finite_cases():
         )
         assert impact.normal_impulse[i] == pytest.approx(alone.normal_impulse, rel=1e-14)
         assert impact.regime[i] == alone.regime
+
+
+@pytest.mark.parametrize("size", [3, BLOCK + 1])
+def test_a_plain_zero_beside_arrays_divides_nothing(size):
+    """Two fixed bodies and a normal in arrays: every case is refused as immovable, with the rest of the numbers plain."""
+    wall = col.Vehicle.barrier()
+    impact = col.eccentric(wall, wall, 0.0, normal=np.zeros(size), point=(0.0, 0.0), friction=0.0, on_failure="nan")
+    assert set(impact.status.tolist()) == {int(col.Status.IMMOVABLE)}
+
+
+def test_a_velocity_too_small_for_float32_is_none():
+    """Beside float32 arrays it is 0, so a pinned body's velocity is worked out, as it is again from a record."""
+    spin = np.array([1.0, 2.0], dtype=np.float32)
+    pinned = col.Vehicle(mass=300.0, vx=1e-200, yaw_rate=spin, yaw_inertia=200.0, x=0.0, y=1.0, pivot=(0.0, 0.0))
+    assert pinned.vx.tolist() == [-1.0, -2.0]
+    assert pinned == pinned.replace()

@@ -198,6 +198,125 @@ def test_many_observations():
     )
 
 
+def test_both_kinds_outside_the_range_are_counted():
+    """How many below 0 and above 1, each with its worst, and what each means; the values are returned."""
+    with pytest.warns(col.OutOfRangeWarning) as caught:
+        found = reconstruct.restitution(
+            body(vx=10.0), body(), body(vx=np.array([2.7, -16.0, 3.0, 5.0, 1.0])), body(vx=4.0), normal=0.0
+        )
+    assert found == pytest.approx([0.13, 2.0, 0.1, -0.1, 0.3], rel=1e-13)
+    assert [w.message.fields["counts"] for w in caught] == [{"below": 1, "above": 1}]
+    with pytest.warns(col.OutOfRangeWarning) as caught:
+        reconstruct.restitution(body(vx=10.0), body(), body(vx=np.array([6.7, -16.0, 3.0, 5.0, 1.0])), body(vx=4.0), normal=0.0)
+    (message,) = (w.message for w in caught)
+    assert message.fields == {"value": pytest.approx(-0.27), "counts": {"below": 2, "above": 1}}
+    for part in ("3 of 5 cases", "2 below 0, down to -0.27: ", "incomplete", "1 above 1, up to 2: ", "contradict"):
+        assert part in str(message)
+
+
+# The same bodies before and after
+
+
+def observed(**changes):
+    """The motions of an impact that turned both bodies, with something of them changed after it."""
+    a = body(mass=1500.0, yaw_inertia=2500.0, vx=15.0, x=-2.0, y=0.3)
+    b = body(mass=1200.0, yaw_inertia=1800.0, x=0.5, y=-0.4)
+    impact = col.eccentric(a, b, 0.1, normal=0.0, point=(-0.5, 0.2), friction=0.3)
+    ends = {"a": impact.a.after, "b": impact.b.after}
+    for name, value in changes.items():
+        ends[name[0]] = ends[name[0]].replace(**{name[2:]: value})
+    return impact, (a, b, ends["a"], ends["b"]), {"normal": 0.0, "point": (-0.5, 0.2)}
+
+
+BOTH = [reconstruct.restitution, reconstruct.friction]
+
+
+@pytest.mark.parametrize("ask", BOTH)
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"a_x": 14.0, "a_y": 5.3}, ["a_before.x = -2 m and a_after.x = 14 m, 16 m apart", "a_after.y = 5.3 m, 5 m apart"]),
+        ({"b_y": 7.6}, ["b_before.y = -0.4 m and b_after.y = 7.6 m, 8 m apart", "b_before.replace("]),
+        ({"a_mass": 900.0}, ["a_before.mass = 1500 kg and a_after.mass = 900 kg, 600 kg apart", "a_before.replace("]),
+        ({"b_mass": INF}, ["b_after.mass = inf kg"]),
+        (
+            {"b_yaw_inertia": 1900.0},
+            ["b_before.yaw_inertia = 1800 kg m2 and b_after.yaw_inertia = 1900 kg m2, 100 kg m2 apart"],
+        ),
+        ({"a_mass": 1500.0 * (1 + 2e-9)}, ["a_before.mass = 1500 kg", "3e-06 kg apart"]),
+        ({"a_x": -2.0 - 5e-9}, ["5e-09 m apart"]),
+    ],
+)
+def test_bodies_that_became_others_are_refused(ask, changes, said):
+    """Rest positions with the yaw rate at separation, or another mass, answer with a number of no impact at all."""
+    _, motions, place = observed(**changes)
+    error = refusal(lambda: ask(*motions, **place))
+    assert (type(error), error.code) == (col.InputError, "different_bodies")
+    for part in (*said, "An impulse moves nothing", "position at the moment of impact, not at rest"):
+        assert part in str(error)
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
+@pytest.mark.parametrize("ask", BOTH)
+def test_the_same_bodies_with_what_rounding_and_silence_leave(ask):
+    """1e-9 of the mass, or of the size of the scene, is the same; what was not given is not compared."""
+    impact, motions, place = observed()
+    true = {reconstruct.restitution: 0.1, reconstruct.friction: abs(impact.impulse_ratio)}[ask]
+    assert ask(*motions, **place) == pytest.approx(true, rel=1e-12)
+    # 5e-10 of the mass or of 2 m, and a yaw inertia that is unknown after: at most as much in the answer, by the lever.
+    for changes in ({"a_mass": 1500.0 * (1 + 5e-10)}, {"a_x": -2.0 + 1e-9}, {"b_yaw_inertia": None}):
+        assert ask(*observed(**changes)[1], **place) == pytest.approx(true, rel=1e-8)
+    a, b = body(vx=10.0, vy=2.0, x=0.0, y=1.0), body(x=3.0, y=1.0)
+    end = col.oblique_central(a, b, 0.1, normal=0.0, friction=0.1)
+    placed = end.a.after.replace(x=1e-17), end.b.after.replace(x=None, y=None)
+    assert ask(a, b, *placed, normal=0.0) == pytest.approx(0.1, rel=1e-13)
+
+
+@pytest.mark.parametrize("ask", BOTH)
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_other_bodies_in_a_batch(ask, dtype):
+    """The lane of another body is NaN and counted as contradictory, its neighbours as without it; single precision stays."""
+    mass = np.array([1500.0, 900.0, 1500.0, 1500.0], dtype=dtype)
+    x = np.array([-2.0, -2.0, 14.0, -2.0], dtype=dtype)
+    _, (a, b, after_a, after_b), place = observed()
+    many = [one.replace(vx=np.full(4, one.vx, dtype=dtype)) for one in (a, b, after_a, after_b)]
+    many[2] = many[2].replace(mass=mass, x=x)
+    with pytest.warns(col.CollisionsWarning, match=r"2 of 4 cases were refused and are NaN \(2 contradictory\)"):
+        found = ask(*many, **place)
+    assert found.dtype == dtype
+    assert np.isnan(found).tolist() == [False, True, True, False]
+    many[2] = many[2].replace(mass=1500.0, x=-2.0)
+    assert found[[0, 3]].tolist() == ask(*many, **place)[[0, 3]].tolist()
+    # A single number that differs is refused for all of them, as at every door.
+    error = refusal(lambda: ask(many[0].replace(mass=900.0), *many[1:], **place))
+    assert error.code == "different_bodies"
+
+
+@pytest.mark.parametrize("ask", BOTH)
+def test_refusals_name_the_vehicle_that_is_meant(ask):
+    """By the name of the argument, all at once; also the one without a position, and the state of a refused case."""
+    a, b = body(vx=10.0), body()
+    error = refusal(lambda: ask(a, b, None, b, normal=0.0))
+    assert (error.code, error.fields["argument"]) == ("not_a_vehicle", "a_after")
+    assert "a_after must be a Vehicle, got NoneType" in str(error)
+    text = str(refusal(lambda: ask(3, b, a, "b", normal=(0.0, 0.0))))
+    for part in ("\n- a_before must be a Vehicle, got int", "\n- b_after must be a Vehicle, got str", "\n- normal"):
+        assert part in text
+    error = refusal(lambda: ask(a, b, a, body(yaw_rate=1.0), normal=0.0, point=(0.0, 0.0)))
+    assert (type(error), error.fields["vehicle"]) == (col.MissingInputError, "b_after")
+    assert str(error).startswith("b_after has no x")
+    refused = col.linear_central(b, a, 0.1, on_failure="nan")
+    error = refusal(lambda: ask(a, b, refused.b.after, refused.a.after, normal=0.0))
+    assert (type(error), error.code) == (col.InputError, "not_finite")
+    assert "NaN" in str(error)
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
+        ends = col.linear_central(body(vx=np.array([10.0, -10.0])), b, 0.1)
+    with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*1 not_finite"):
+        found = ask(a, b, ends.a.after, ends.b.after, normal=0.0)
+    expected = {reconstruct.restitution: 0.1, reconstruct.friction: 0.0}[ask]
+    assert found == pytest.approx([expected, math.nan], rel=1e-13, nan_ok=True)
+
+
 # Friction
 
 
@@ -260,8 +379,13 @@ def test_friction_is_refused():
     a, b = body(vx=10.0), body()
     pinned = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=2.0, y=0.0, pivot=(0.0, 0.0))
     ask = reconstruct.friction
-    for bodies, label in (((pinned, b), "a_before"), ((a, pinned), "b_before")):
-        error = refusal(lambda bodies=bodies: ask(*bodies, a, b, normal=0.0))
+    for bodies, label in (
+        ((pinned, b, a, b), "a_before"),
+        ((a, pinned, a, b), "b_before"),
+        ((a, b, pinned, b), "a_after"),
+        ((a, b, a, pinned), "b_after"),
+    ):
+        error = refusal(lambda bodies=bodies: ask(*bodies, normal=0.0))
         assert (type(error), error.code) == (col.InputError, "pinned")
         assert f"{label} has a pivot" in str(error)
     error = refusal(lambda: ask(a, b, a.replace(vx=12.0), b, normal=0.0))
@@ -540,17 +664,30 @@ CRUSH = [
     ("bad_angle", (1.5, [0.3, 0.3], 4e4, 6e5), {"force_angle": "90 deg"}, ["force_angle", "less than 90 deg", "'90 deg'"]),
     ("bad_angle", (1.5, [0.3, 0.3], 4e4, 6e5), {"force_angle": math.pi / 2}, ["less than 90 deg"]),
     ("bad_angle", (1.5, [0.3, 0.3], 4e4, 6e5), {"force_angle": "-100 deg"}, ["less than 90 deg", "'-100 deg'"]),
-    ("bad_shape", (1.5, [0.3], 4e4, 6e5), {}, ["depths must be a list of at least two"]),
-    ("bad_shape", (1.5, np.array([0.3, 0.2]), 4e4, 6e5), {}, ["depths must be a list", "ndarray", "[0.2, 0.35, 0.1]"]),
+    ("bad_shape", (1.5, [0.3], 4e4, 6e5), {}, ["depths must be a list or an array of at least two", "got list of 1"]),
+    ("bad_shape", (1.5, np.array([0.3]), 4e4, 6e5), {}, ["got ndarray of 1", "[0.2, 0.35, 0.1]"]),
+    ("bad_shape", (1.5, "0.3 m", 4e4, 6e5), {}, ["depths must be a list or an array", "got str"]),
+    ("bad_shape", (1.5, np.ones((5, 2)), 4e4, 6e5), {}, ["depths is an array of shape (5, 2)", "list(depths.T)"]),
+    ("bad_shape", (np.ones((5, 1)), [0.3, 0.2], 4e4, 6e5), {}, ["widths is an array of shape (5, 1)", "list(widths.T)"]),
     ("bad_shape", ([1.0, 1.0], [0.3, 0.2], 4e4, 6e5), {}, ["widths has 2 values and depths 2", "1 in all"]),
-    ("bad_shape", (np.ones(3), [np.ones(2), 0.2], 4e4, 6e5), {}, ["depths[0] (2,)", "widths[0] (3,)"]),
+    (
+        "bad_shape",
+        (np.ones(3), [np.ones(2), 0.2], 4e4, 6e5),
+        {},
+        ["widths has 3 values and depths 2", "one array for each gap"],
+    ),
+    ("bad_shape", ([np.ones(3)], [np.ones(2), 0.2], 4e4, 6e5), {}, ["depths[0] (2,)", "widths[0] (3,)"]),
     ("negative_length", (1.5, [0.3, -0.1], 4e4, 6e5), {}, ["depths[1] must be >= 0, got -0.1"]),
     ("negative_length", (-1.5, [0.3, 0.1], 4e4, 6e5), {}, ["widths must be >= 0"]),
     ("negative_length", ([-1.5], [0.3, 0.1], 4e4, 6e5), {}, ["widths[0] must be >= 0"]),
-    ("negative_length", (1.5, [0.3, 0.1], -1, 6e5), {}, ["stiffness_a must be >= 0, got -1"]),
+    ("negative_length", (1.5, np.array([0.3, -0.1]), 4e4, 6e5), {}, ["depths[1] must be >= 0, got -0.1"]),
+    ("negative_stiffness", (1.5, [0.3, 0.1], -1, 6e5), {}, ["stiffness_a must be >= 0, got -1"]),
     ("not_positive", (1.5, [0.3, 0.1], 4e4, 0), {}, ["stiffness_b must be > 0, got 0"]),
     ("not_finite", (1.5, [0.3, math.nan], 4e4, 6e5), {}, ["depths[1] is NaN"]),
+    ("not_finite", (1.5, np.array([0.3, math.nan]), 4e4, 6e5), {}, ["depths[1] is NaN"]),
     ("not_finite", (1.5, [0.3, 0.1], 4e4, INF), {}, ["stiffness_b must be finite"]),
+    ("not_a_number", (1.5, np.array(["0.3", "0.1"]), 4e4, 6e5), {}, ["depths is an array of <U3"]),
+    ("bad_units", (1.5, pint.Quantity([0.3, 0.1], "kg"), 4e4, 6e5), {}, ["depths: [0.3 0.1] kilogram cannot be taken as m"]),
     ("bad_units", (1.5, [0.3, "4 kg"], 4e4, 6e5), {}, ["depths[1]"]),
     ("bad_units", (1.5, [0.3, 0.1], "200 lb/in", 6e5), {}, ["stiffness_a", "lbf/in"]),
     ("out_of_range", (1.5, [1e200, 0.1], 4e4, 6e5), {}, ["not a finite number"]),
@@ -587,6 +724,42 @@ def test_crush_in_units_and_batches():
         assert np.isnan(ask(1.5, [0.3, 0.2], 4e4, 6e5, force_angle=angles)).tolist() == [False, False, True, True]
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases .*not_positive"):
         assert np.isnan(ask(1.5, [0.3, 0.2], 4e4, np.array([6e5, 0.0]))).tolist() == [False, True]
-    single = ask(np.ones(2, np.float32), [0.3, 0.2], 4e4, 6e5)
+    single = ask([np.ones(2, np.float32)], [0.3, 0.2], 4e4, 6e5)
     assert single.dtype == np.float32
     assert single[0] == pytest.approx(ask(1.0, [0.3, 0.2], 4e4, 6e5), rel=2.0**-23)
+
+
+def test_an_array_is_a_profile_like_a_list():
+    """What stands in a list, a tuple, an array or a Quantity of one dimension is one case, for widths as for depths."""
+    ask = reconstruct.crush_energy
+    depths, widths = [0.12, 0.25, 0.38], [0.7, 0.4]
+    even, uneven = ask(1.1, depths, 4e4, 6e5), ask(widths, depths, 4e4, 6e5)
+    assert even != uneven
+    for kind in (
+        tuple,
+        np.array,
+        lambda values: pint.Quantity(np.array(values), "m"),
+        lambda values: pint.Quantity(values, "m"),
+    ):
+        for found, expected in (
+            (ask(1.1, kind(depths), 4e4, 6e5), even),
+            (ask(kind(widths), depths, 4e4, 6e5), uneven),
+            (ask(kind(widths), kind(depths), 4e4, 6e5), uneven),
+        ):
+            assert type(found) is float
+            assert found == expected
+    # 100 is exact, and a centimetre is a rounding of a hundredth.
+    assert ask(1.1, pint.Quantity([12.0, 25.0, 38.0], "cm"), 4e4, 6e5) == pytest.approx(even, rel=8 * EPS)
+    rows = np.array([[0.12, 0.25, 0.38], [0.2, 0.1, 0.0]])
+    many = ask([np.array([0.7, 0.6]), 0.4], list(rows.T), 4e4, 6e5)
+    assert many.tolist() == [uneven, ask([0.6, 0.4], rows[1], 4e4, 6e5)]
+
+
+def test_speeds_beyond_floats_are_refused():
+    """Closing and separation that overflow have no quotient."""
+    far = col.Vehicle(mass=1.0, yaw_rate=-3.0, yaw_inertia=math.inf, x=0.0, y=-6e307)
+    near = far.replace(yaw_rate=-18.0, y=-1e307)
+    still = col.Vehicle(mass=1.0, yaw_inertia=math.inf)
+    with pytest.raises(col.InputError) as caught:
+        reconstruct.restitution(far, near, still, still, normal=0.0, point=(1.0, 1.0))
+    assert caught.value.code == "out_of_range"

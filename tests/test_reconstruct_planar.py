@@ -2,6 +2,8 @@
 
 import math
 import pickle
+import random
+import re
 import warnings
 
 import numpy as np
@@ -117,7 +119,10 @@ def test_there_and_back(family, law, rule):
                 assert law == "brach" or e < 1e-12, scene
                 continue
             else:
-                assert found.reconstruction.condition <= condition * (1 + 1e-12 * condition)
+                # A share of the critical ratio leaves this part of the slip, whose errors grow by as much.
+                kept = -e if law == "kudlich-slibar" else 0.0
+                most = max(condition, 1.0 / abs(1.0 - value * (1.0 - kept))) if shares else condition
+                assert found.reconstruction.condition <= most * (1 + 1e-12 * most)
                 origins = [found]
             assert min(beyond_promise(scene, answer, forward, origin, condition) for origin in origins) <= 1.0, (kind, scene)
             answered += 1
@@ -326,7 +331,8 @@ REFUSED = [
     ("bad_restitution", col.InputError, {"restitution": 1.2}, "1.2"),
     ("bad_friction", col.InputError, {"friction": -0.2}, "-0.2"),
     ("not_positive", col.InputError, {"restitution": None, "closing_speed": 0.0}, "closing_speed must be > 0"),
-    ("not_positive", col.InputError, {"restitution": None, "energy_loss": -1.0}, "energy_loss must be >= 0"),
+    ("negative_energy", col.InputError, {"restitution": None, "energy_loss": -1.0}, "energy_loss must be >= 0"),
+    ("negative_speed", col.InputError, {"restitution": None, "closing_speed": -1.0}, "closing_speed must be >= 0, got -1.0"),
     ("bad_law", col.InputError, {"law": "newton"}, "newton"),
     ("missing_inertia", col.MissingInputError, {"a_after": END.a.after.replace(yaw_inertia=None)}, "a (Golf) has no yaw_inertia"),
     ("missing_position", col.MissingInputError, {"b_after": END.b.after.replace(x=None)}, "b has no x"),
@@ -427,3 +433,92 @@ def test_units_single_precision_and_records():
     single = planar(**{**APART, "restitution": np.array([0.2, 0.25], dtype=np.float32)})
     assert single.a.before.vx.dtype == np.float32
     assert single.a.before.vx[0] == pytest.approx(20.0, rel=1e-5)  # the rounding of 0.2 to 24 bits, times (1+e)/e
+
+
+def measured(end, digits):
+    """The motions after as somebody wrote them down."""
+    return [
+        side.after.replace(**{name: round(getattr(side.after, name), digits) for name in ("vx", "vy", "yaw_rate")})
+        for side in (end.a, end.b)
+    ]
+
+
+STUCK = {"normal": 0.0, "point": (1.6, 0.3), "friction": 0.9}
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3])
+def test_a_measured_slip_that_may_be_none_is_said_loudly(digits):
+    """A sticking end in written digits looks like one that slid; the warning holds both ends and the condition the jump."""
+    a = col.Vehicle(mass=1100, vx=20.0, yaw_inertia=1800, x=0.0, y=0.0)
+    b = col.Vehicle(mass=950, vx=2.0, vy=8.0, yaw_inertia=1500, x=2.5, y=0.4)
+    end = col.eccentric(a, b, 0.2, **STUCK)
+    assert end.regime == "sticking"
+    with pytest.warns(col.IllConditionedWarning, match="so small that it may be none") as caught:
+        found = planar(*measured(end, digits), restitution=0.2, **STUCK)
+    assert caught[0].message.code == "nearly_sticking"
+    assert abs(found.slip_before - end.slip_before) > 1.0
+    # The written digits move the slip by their half units at both contact points, a few of them; the jump is tens of m/s.
+    assert found.reconstruction.condition > 1.0 / (5.0 * 10.0**-digits)
+    low, high = map(float, re.search(r"anything in (\S+) to (\S+) m/s", str(caught[0].message)).groups())
+    assert low < end.slip_before < high
+    for rule in ({"friction": math.inf}, {"friction": None, "critical_fraction": 1.0}):
+        with pytest.raises(col.NoSolutionError, match="ends without slip, but the slip after is") as refused:
+            planar(*measured(end, digits), restitution=0.2, **{**STUCK, **rule})
+        assert refused.value.code == "contradictory"
+
+
+def test_a_batch_counts_the_slips_that_may_be_none():
+    """Only the case whose slip is small is counted."""
+    a = col.Vehicle(mass=1100, vx=20.0, yaw_inertia=1800, x=0.0, y=0.0)
+    b = col.Vehicle(mass=950, vx=2.0, vy=np.array([8.0, 60.0]), yaw_inertia=1500, x=2.5, y=0.4)
+    end = col.eccentric(a, b, 0.2, **{**STUCK, "friction": 0.3})
+    assert end.regime.tolist() == ["sticking", "sliding"]
+    after = [side.after.replace(vy=side.after.vy + 0.001 * (side is end.a)) for side in (end.a, end.b)]
+    with pytest.warns(col.IllConditionedWarning, match="in 1 of 2 cases"):
+        planar(*after, restitution=0.2, **{**STUCK, "friction": 0.3})
+
+
+@pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
+def test_a_plastic_end_in_written_digits_is_answered(kind):
+    """The contact points may seem to approach still; the answer is the start to the digits of the end, and says so."""
+    rng = random.Random(6)
+    warned = 0
+    for _ in range(60):
+        a = col.Vehicle(mass=1100, vx=20.0, vy=rng.uniform(6.0, 15.0), yaw_inertia=1800, x=0.0, y=0.0)
+        b = col.Vehicle(mass=950, vx=2.0, yaw_inertia=1500, x=2.5, y=0.4)
+        contact = {"normal": rng.uniform(-0.4, 0.4), "point": (1.6, 0.3), "friction": rng.uniform(0.02, 0.1)}
+        end = col.eccentric(a, b, 0.0, **contact)
+        if end.regime != "sliding":
+            continue
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            found = planar(*measured(end, 4), **{kind: getattr(end, kind)}, **contact)
+        warned += any(one.message.code == "nearly_plastic" for one in said)
+        # Half a unit of the fourth decimal in six numbers, levers of about a metre; the impulse weighs masses of one size.
+        assert found.a.before.vx == pytest.approx(a.vx, abs=5e-4)
+        assert found.a.before.vy == pytest.approx(a.vy, abs=5e-4)
+        assert found.restitution == pytest.approx(0.0, abs=1e-4)
+    assert 15 <= warned <= 45
+
+
+def test_bodies_that_go_on_approaching_are_no_plastic_end():
+    """Beyond 1 percent of the closing speed it is not what measurement leaves."""
+    a, b = (
+        col.Vehicle(mass=1100, vx=11.0, yaw_inertia=1800, x=0.0, y=0.0),
+        col.Vehicle(mass=950, vx=10.0, yaw_inertia=1500, x=2.5, y=0.0),
+    )
+    with pytest.raises(col.NoSolutionError, match="do not part") as caught:
+        planar(a, b, closing_speed=50.0, normal=0.0, point=(1.2, 0.0), friction=0.1)
+    assert caught.value.code == "not_separating"
+
+
+def test_solutions_say_what_found_them():
+    """Each solution of an ambiguous end carries method, knowns and condition, like an answer."""
+    a = col.Vehicle(mass=1100, vx=20.0, yaw_inertia=1800, x=0.0, y=0.0)
+    b = col.Vehicle(mass=950, vx=2.0, vy=8.0, yaw_inertia=1500, x=2.5, y=0.4)
+    end = col.eccentric(a, b, 0.2, law="kudlich-slibar", **STUCK)
+    with pytest.raises(col.AmbiguousSolutionError) as caught:
+        planar(end.a.after, end.b.after, restitution=0.2, law="kudlich-slibar", **STUCK)
+    for solution in caught.value.solutions:
+        assert solution.reconstruction.method == "planar"
+        assert solution.reconstruction.condition == pytest.approx(6.0, rel=1e-12)

@@ -3,6 +3,7 @@
 import itertools
 import math
 import pickle
+import re
 import warnings
 from functools import cache
 
@@ -11,7 +12,8 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.reconstruct import speeds
+from collisions.kernels.roots import PLACES, parabola_roots, quartic_roots
+from collisions.reconstruct import momentum, speeds
 from scenes import LAWS, RULES
 
 VALUES = {"friction": (0.0, 0.3, 0.8, math.inf), "impulse_ratio": (-0.4, 0.3), "critical_fraction": (0.0, 0.3, 0.7, 1.0)}
@@ -278,7 +280,7 @@ def test_a_negative_speed_is_said():
     """Backwards along its course: the value is returned, and warned of."""
     impact = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT)
     known = {"speed_a": 12.0, "delta_v_b": impact.b.delta_v}
-    with pytest.warns(col.OutOfRangeWarning, match=r"-5 m/s: backwards") as caught:
+    with pytest.warns(col.OutOfRangeWarning, match=r"-5 m/s: backwards.* check the courses, and the normal") as caught:
         (found,) = speeds(A, B, course_a=0.0, course_b=0.0, restitution=0.1, **CONTACT, **known)
     assert len(caught) == 1
     assert caught[0].message.code == "negative_speed"
@@ -354,6 +356,67 @@ def test_a_function_that_leaves_the_slip_open():
     assert caught.value.code == "undetermined"
 
 
+# How well-posed
+
+
+def sensitivity(ask, known):
+    """Finite differences of the whole call: what relative changes of each known move, of the speed they move most."""
+    step, moved = 1e-4, np.zeros(2)
+    names = [("ees_a", "ees_b") if kind == "ees_a" else (kind,) for kind in known if kind != "ees_b"]
+    middle = ask(**known)
+    for group in names:
+        ends = [ask(**{**known, **{name: known[name] * (1 + change) for name in group}}) for change in (step, -step)]
+        moved += [
+            abs(one - other) / (2 * step)
+            for one, other in zip(*((found.a.before.vx, found.b.before.vx) for found in ends), strict=True)
+        ]
+    (ca, cb) = math.cos(COURSES["course_a"]), math.cos(COURSES["course_b"])
+    return max(moved[0] / abs(ca), moved[1] / abs(cb)) / middle.closing_speed
+
+
+def steep(closing):
+    """A restitution that falls by a third of itself over one metre per second."""
+    return 0.5 * math.exp(-closing / 3.0)
+
+
+@pytest.mark.parametrize("restitution", [0.1, steep], ids=["number", "steep"])
+@pytest.mark.parametrize("pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_a", "ees"), ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
+def test_the_condition_is_that_of_the_whole_call(pair, restitution):
+    """With finite differences of answers, whose curvature leaves 1e-8 and rounding 1e-12 / 1e-4 of them: to 1e-5.
+
+    At low speed, where a function of the closing speed is steep.
+    """
+    start = [side.before.replace(vx=side.before.vx / 8, vy=side.before.vy / 8) for side in (HIT.a, HIT.b)]
+    closing = HIT.closing_speed / 8
+    impact = col.eccentric(*start, restitution(closing) if callable(restitution) else restitution, **CONTACT)
+    known = knowledge(impact, pair)
+
+    def ask(**given):
+        found = asked(impact, list(COURSES.values()), CONTACT, **given, restitution=restitution)
+        return min(found, key=lambda root: off(root, impact))
+
+    assert ask(**known).reconstruction.condition == pytest.approx(sensitivity(ask, known), rel=1e-5)
+
+
+def test_the_slope_of_the_function_counts():
+    """With the published example of a falling restitution the condition is not that of the same restitution as a number."""
+    function = low_speed(delta_v_a=2.0, restitution=lambda g: 0.5 * math.exp(-g / 1.5))[0]
+    number = low_speed(delta_v_a=2.0, restitution=function.restitution)[0]
+    assert number.closing_speed == pytest.approx(function.closing_speed, rel=1e-9)
+    assert number.reconstruction.condition == pytest.approx(1.0, rel=1e-9)
+    # de/dg / (1 + e) = -e / 1.5 / (1 + e), and delta-V is as (1 + e) g.
+    e, g = function.restitution, function.closing_speed
+    assert function.reconstruction.condition == pytest.approx(1.0 / (1.0 - e / 1.5 / (1.0 + e) * g), rel=1e-6)
+
+
+def test_the_slope_at_the_end_of_a_function():
+    """Where the function ends the slope is taken to the side that is there; where it holds at one place only there is none."""
+    whole = low_speed(delta_v_a=2.0, restitution=steep)[0]
+    below = low_speed(delta_v_a=2.0, restitution=lambda g: steep(g) if g <= whole.closing_speed * (1 + 1e-9) else math.nan)[0]
+    # A one-sided difference over 1e-4 of the closing speed.
+    assert below.reconstruction.condition == pytest.approx(whole.reconstruction.condition, rel=1e-3)
+
+
 # Refused
 
 
@@ -370,7 +433,15 @@ REFUSED = [
     ("negative_energy", col.InputError, {"delta_v_b": None, "energy_loss": -3.0}, "energy_loss must be >= 0"),
     ("bad_restitution", col.InputError, {"restitution": 1.5}, "1.5"),
     ("missing_inertia", col.MissingInputError, {"a": A.replace(yaw_inertia=None)}, "a has no yaw_inertia"),
-    ("pinned", col.InputError, {"b": B.replace(pivot=(3.0, 0.0))}, "b has a pivot"),
+    ("pinned", col.InputError, {"b": B.replace(pivot=(3.0, 0.0))}, "b has a pivot, so its velocity has no course of its own; use planar"),
+    ("bad_shape", col.ShapeError, {"course_a": (0.0, 1.0)}, "course_a is a tuple, and a course is an angle; many angles go in a numpy array"),
+    ("bad_shape", col.ShapeError, {"course_b": [0.0, 1.0]}, "course_b is a list, and a course is an angle; many angles go in a numpy array"),
+    ("infinite_mass", col.NoSolutionError, {"b": col.Vehicle.barrier(), "course_b": None, "speed_a": None, "speed_b": 0.0}, "delta_v_b is that of an infinite mass, whose motion tells nothing of the impact; give delta_v_a"),
+    ("contradictory", col.NoSolutionError, {"course_a": math.pi, "course_b": math.pi / 2}, "whatever the other speed, the bodies move apart along the normal, which must point from A into B"),
+    ("contradictory", col.NoSolutionError, {"friction": None, "impulse_ratio": 50.0}, "whatever the other speed, the impulse ratio is at or beyond the value at which the bodies jam"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "ees_a": 5.0, "ees_b": 5.0, "restitution": 1.0, "friction": 0.0}, "nothing leads to energy_loss = 1000 J"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 0.0}, "both are 0, which no impact leaves behind"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 1e3}, "make delta_v_b more than 0 and at most"),
     ("contradictory", col.NoSolutionError, {"speed_a": 200.0, "delta_v_b": 0.5, "course_b": math.pi / 2}, "no speeds along these courses fit speed_a and delta_v_b"),
 ]  # fmt: skip
 
@@ -388,7 +459,235 @@ def test_refusals(code, kind, changes, words):
     assert type(pickle.loads(pickle.dumps(caught.value))) is type(caught.value)
 
 
+EDGES = re.compile(r"(between|at least|at most) (\d[\d.e+-]*)(?: and (\d[\d.e+-]*))? (?:J|m/s), and (?:\w+ = )?(\d[\d.e+-]*)")
+
+
+@pytest.mark.parametrize("pair", [pair for pair in PAIRS if pair[1] != "ees" or not pair[0].startswith("speed")], ids="-".join)
+def test_a_contradiction_says_what_would_fit(pair):
+    """The ends of the range that is printed to 6 digits: 2e-5 inside there is an answer, 1e-3 outside none.
+
+    A speed and both EES never contradict each other in these scenes.
+    """
+    names = ("ees_a", "ees_b") if pair[1] == "ees" else (pair[1],)
+    checked = 0
+    for impact, courses, contact in forward_scenes(21, 8):
+        if impact.energy_loss <= 0.0:
+            continue
+        for factor in (1e-3, 1e3):
+            known = knowledge(impact, pair)
+            known |= {name: known[name] * factor for name in names}
+            found, refusal = attempt(asked, impact, courses, contact, **known)
+            if refusal is None or refusal.code == "undetermined":
+                continue
+            assert refusal.code == "contradictory"
+            said = EDGES.search(str(refusal))
+            if said is None:
+                continue
+            kind, first, last, given = said.groups()
+            ends = [(float(first), -1.0 if kind == "at most" else 1.0), *([(float(last), -1.0)] if last else [])]
+            for end, inwards in ends:
+                for by, answered in ((2e-5, True), (-1e-3, False)):
+                    size = end * (1.0 + inwards * by) / float(given)
+                    moved = {name: known[name] * (math.sqrt(size) if pair[1] == "ees" else size) for name in names}
+                    found, _ = attempt(asked, impact, courses, contact, **{**known, **moved})
+                    assert (found is not None) is answered, (str(refusal), end, by)
+                    checked += 1
+    assert checked >= 2
+
+
+def test_what_a_contradiction_says():
+    """Both knowns with their units, what the first allows for the second, and in the words of each kind."""
+    given = {**COURSES, "restitution": 0.1, **CONTACT}
+    for known, words in (
+        ({"energy_loss": 1e3}, r"with delta_v_a = 6 m/s .* dissipate at least 50085\.8 J, and energy_loss = 1000 J was given"),
+        (
+            {"ees_a": 1.0, "ees_b": 1.0},
+            r"absorb, at maximum crush, between 51547 and 53950\.9 J, and 1400 J of both EES was given",
+        ),
+    ):
+        with pytest.raises(col.NoSolutionError, match=words) as caught:
+            speeds(A, B, **given, delta_v_a=6.0, **known)
+        assert caught.value.code == "contradictory"
+    straight = {**given, "course_b": math.pi / 2}
+    with pytest.raises(
+        col.NoSolutionError, match=r"with speed_a = 200 m/s .* make delta_v_b between 104\.336 and 109\.201 m/s"
+    ) as caught:
+        speeds(A, B, **straight, speed_a=200.0, delta_v_b=0.5)
+
+
+def test_a_contradiction_with_a_function():
+    """The range is that of the restitutions which belong to the closing speeds, to three digits."""
+    given = {**COURSES, **CONTACT, "delta_v_a": 6.0}
+    with pytest.raises(col.NoSolutionError, match="dissipate at least") as caught:
+        speeds(A, B, **given, energy_loss=1e3, restitution=falling)
+    least = float(EDGES.search(str(caught.value)).group(2))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.OutOfRangeWarning)
+        assert speeds(A, B, **given, energy_loss=1.01 * least, restitution=falling)
+    with pytest.raises(col.NoSolutionError):
+        speeds(A, B, **given, energy_loss=0.99 * least, restitution=falling)
+
+
+def test_a_function_is_refused_as_its_number():
+    """A constant function is the number, in the reason too: nothing fits, however blind another restitution would be."""
+    for restitution in (0.3, lambda g: 0.3):
+        with pytest.raises(col.NoSolutionError, match="dissipate at least") as caught:
+            speeds(A, B, **COURSES, **CONTACT, law="kudlich-slibar", restitution=restitution, delta_v_a=2.0, energy_loss=3e3)
+        assert caught.value.code == "contradictory"
+
+
+@pytest.mark.parametrize("size", [1e-150, 1e-100, 1e-30, 1e30, 1e75, 1e100])
+def test_very_small_and_very_large_speeds(size):
+    """Speeds scale with what is known, energies with its square; nothing in between overflows or vanishes."""
+    for pair in (("speed_a", "delta_v_b"), ("delta_v_b", "energy_loss"), ("speed_b", "ees")):
+        known = knowledge(HIT, pair)
+        plain = asked(HIT, list(COURSES.values()), CONTACT, **known)
+        scaled = {kind: value * size * (size if kind == "energy_loss" else 1.0) for kind, value in known.items()}
+        found = asked(HIT, list(COURSES.values()), CONTACT, **scaled)
+        # Only rounding: the condition times a few eps.
+        assert [root.closing_speed / size for root in found] == pytest.approx([root.closing_speed for root in plain], rel=1e-11)
+        assert [root.reconstruction.condition for root in found] == pytest.approx(
+            [root.reconstruction.condition for root in plain], rel=1e-6
+        )
+
+
+def test_speeds_beyond_floats():
+    """Where the energy of the answer overflows that is said, alone and in a batch."""
+    with pytest.raises(col.InputError) as caught:
+        low_speed(delta_v_a=6e200, restitution=0.1)
+    assert caught.value.code == "out_of_range"
+    with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*\(1 out_of_range\)"):
+        (found,) = low_speed(delta_v_a=np.array([6.0, 6e200]), restitution=0.1)
+    assert found.status.tolist() == [col.Status.OK, col.Status.OUT_OF_RANGE]
+    assert np.isnan(found.reconstruction.condition).tolist() == [False, True]
+
+
+def test_a_course_is_an_angle_to_momentum_too():
+    """Courses and headings as tuples or lists are refused, arrays of angles answered."""
+    given = {
+        "course_a": 0.0,
+        "course_b": 1.5,
+        "course_a_after": 0.5,
+        "course_b_after": 0.7,
+        "speed_a_after": 8.0,
+        "speed_b_after": 9.0,
+    }
+    for name, value in (
+        ("course_a", (0.0, 1.0)),
+        ("course_b_after", [0.5, 0.6]),
+        ("heading_a", (1.0, 0.0)),
+        ("heading_b", [0.1]),
+    ):
+        noun = name.partition("_")[0]
+        with pytest.raises(
+            col.ShapeError, match=f"{name} is a .*, and a {noun} is an angle; many angles go in a numpy array"
+        ) as caught:
+            momentum(1500.0, 1300.0, **{**given, name: value})
+        assert (caught.value.code, caught.value.fields["argument"]) == ("bad_shape", name)
+    found = momentum(1500.0, 1300.0, **{**given, "course_a": np.array([0.0, 0.1])}, heading_a=np.array([0.0, 0.2]))
+    assert found.speed_a.shape == found.pdof_a.shape == (2,)
+
+
 # Batches, units and records
+
+
+@pytest.mark.parametrize(
+    ("known", "wrong"),
+    [
+        ({"speed_a": 20.0, "delta_v_b": np.array([7.0, -7.0])}, -1),
+        ({"speed_a": 20.0, "delta_v_a": np.array([-7.0, 7.0])}, 0),
+        ({"speed_a": np.array([20.0, -20.0]), "delta_v_b": 7.0}, -1),
+        ({"speed_b": np.array([-10.0, 10.0]), "delta_v_b": 7.0}, 0),
+        ({"speed_a": 20.0, "energy_loss": np.array([6e4, -6e4])}, -1),
+        ({"speed_a": 20.0, "ees_a": np.array([7.0, -7.0]), "ees_b": 7.0}, -1),
+        ({"speed_a": 20.0, "ees_a": 7.0, "ees_b": np.array([-7.0, 7.0])}, 0),
+    ],
+    ids=["delta_v_b", "delta_v_a", "speed_a", "speed_b", "energy_loss", "ees_a", "ees_b"],
+)
+def test_negative_lanes_are_refused(known, wrong):
+    """As contradictory, counted in one warning; the lane beside is answered as alone."""
+    given = {**COURSES, "restitution": 0.1, **CONTACT}
+    right = {name: abs(float(np.ravel(value)[0])) for name, value in known.items()}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = speeds(A, B, **given, **known)
+        alone = speeds(A, B, **given, **right)
+    counted = [one.message for one in caught if one.category is col.CollisionsWarning]
+    assert [one.fields["counts"] for one in counted] == [{"contradictory": 1}]
+    lane = 1 + wrong
+    for root, single in zip(found, alone, strict=True):
+        assert np.ravel(root.status)[wrong] == col.Status.CONTRADICTORY
+        assert np.isnan(root.closing_speed[wrong])
+        assert np.isnan(root.a.after.vx[wrong])
+        assert np.isnan(root.reconstruction.condition[wrong])
+        assert root.closing_speed[lane] == pytest.approx(single.closing_speed, rel=1e-12)
+
+
+def test_a_batch_says_what_it_refused():
+    """One warning for lanes without any root, at the caller's line; none where every lane has one, be it not two."""
+    given = {**COURSES, "restitution": 0.1, **CONTACT}
+    with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*\(1 contradictory\); asked alone, each says why") as caught:
+        found = speeds(A, B, **given, delta_v_b=HIT.b.delta_v, energy_loss=np.array([HIT.energy_loss, 1e3]))
+    assert len(found) == 2
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+    with pytest.warns(col.CollisionsWarning, match=r"2 of 2 cases .*\(2 contradictory\)"):
+        (found,) = speeds(A, B, **given, delta_v_b=HIT.b.delta_v, energy_loss=np.array([1e3, 2e3]))
+    assert np.isnan(found.closing_speed).all()
+    with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*\(1 infinite_mass\)"):
+        (found,) = speeds(A, B.replace(mass=np.array([1300.0, math.inf])), **given, **KNOWN)
+    assert found.status.tolist() == [col.Status.OK, col.Status.INFINITE_MASS]
+    # Two roots in one lane and one in the other: both have an answer, so nothing but the backward one is said.
+    stuck = {"normal": 0.0, "point": (0.0, 0.4), "critical_fraction": 1.0}
+    with pytest.warns(col.OutOfRangeWarning, match="backwards") as caught:
+        found = speeds(A, B, **COURSES, restitution=0.1, **stuck, speed_a=20.0, energy_loss=np.array([1.8e5, 3e5]))
+    assert len(caught) == 1
+    assert [np.isfinite(root.closing_speed).tolist() for root in found] == [[True, True], [True, False]]
+
+
+# Roots of parabolas and quartics
+
+
+def test_parabolas():
+    """Against the roots they are made from; a double root, a line, and none at all."""
+    rng = np.random.default_rng(4)
+    one, other = np.sort(rng.uniform(-3.0, 3.0, (2, 50)), axis=0)
+    low, high = parabola_roots([2.0 * (x - one) * (x - other) for x in (-1.5, 0.0, 1.5)], 1.5)
+    assert low == pytest.approx(one, abs=1e-13)
+    assert high == pytest.approx(other, abs=1e-13)
+    with np.errstate(all="ignore"):
+        assert [float(x) for x in parabola_roots([x * x for x in (-1.0, 0.0, 1.0)], 1.0)] == [0.0, 0.0]
+        assert [float(x) for x in parabola_roots([x - 0.5 for x in (-1.0, 0.0, 1.0)], 1.0)] == [0.5, 0.5]
+        assert np.isnan(parabola_roots([x * x + 1.0 for x in (-1.0, 0.0, 1.0)], 1.0)).all()
+
+
+def test_quartics():
+    """Against the roots they are made from; what is not real, not known or 0 everywhere is NaN and touches no neighbour."""
+    rng = np.random.default_rng(4)
+    made = np.sort(rng.uniform(-2.0, 2.0, (50, 4)), axis=1)
+    apart = np.min(np.diff(made, axis=1), axis=1)
+    values = [np.prod(2.0 * place - made, axis=1) for place in PLACES]
+    found = np.sort(np.stack(quartic_roots(values, 2.0)), axis=0).T
+    # A root moves by the rounding of the values over its derivative, the product of its distances.
+    assert np.all(abs(found - made)[apart > 0.05] < 1e-9)
+    with np.errstate(all="ignore"):
+        lanes = [np.array([place**4 - 1.0, place**4 + 1.0, 0.0, math.nan, math.inf, place**4 - 1.0]) for place in PLACES]
+        answers = np.stack(quartic_roots(lanes, 1.0))
+    assert np.sum(np.isfinite(answers), axis=0).tolist() == [2, 0, 0, 0, 0, 2]
+    assert np.nanmax(answers[:, 5]) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_share_of_the_critical_ratio_at_no_speed():
+    """Zero, or nearly zero, of everything that is known leaves a quartic of zeros: refused, not an error of numpy."""
+    given = {**COURSES, "restitution": 0.1, **CONTACT, "friction": None, "critical_fraction": 0.5}
+    for known in (
+        {"speed_a": 2.2e-313, "delta_v_b": 0.0},
+        {"speed_b": 0.0, "delta_v_a": 0.0},
+        {"delta_v_a": 0.0, "energy_loss": 0.0},
+    ):
+        with pytest.raises(col.NoSolutionError) as caught:
+            speeds(A, B, **given, **known)
+        assert caught.value.code == "contradictory"
 
 
 @pytest.mark.parametrize("rule", [{"friction": 0.5}, {"critical_fraction": 0.6}])

@@ -1,5 +1,6 @@
 """Run-outs: against published tables, against 50 digits, against a body integrated forward in time, and every refusal."""
 
+import inspect
 import json
 import math
 import pickle
@@ -707,7 +708,9 @@ def test_paths_in_units_of_every_kind():
         (STRAIGHT, [0, np.zeros(2), 0], FULL_LOCK, "bad_shape", "headings[1] is an array, and path takes one case a call"),
         (STRAIGHT, ["0 deg", "north", 0], FULL_LOCK, "bad_units", "headings[1]: cannot read 'north'"),
         (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "headings[0] to headings[1] turn by -340 deg"),
-        (STRAIGHT, [0, 30, 60], FULL_LOCK, "turns_too_far", "write degrees as '30 deg'"),
+        (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "(350 deg, then 370 deg), and give points between"),
+        (STRAIGHT, [0, 30, 60], FULL_LOCK, "turns_too_far", "bare numbers are radians, so write degrees as '30 deg'"),
+        (STRAIGHT, np.array([0.0, 30.0, 60.0]), FULL_LOCK, "turns_too_far", "so write degrees as '30 deg'"),
         (STRAIGHT, [0, 0, 0], {"friction": -0.1, "lock": 1}, "bad_friction", "friction must be >= 0, got -0.1"),
         (STRAIGHT, [0, 0, 0], {"friction": math.inf, "lock": 1}, "not_finite", "friction must be finite, got inf"),
         (STRAIGHT, [0, 0, 0], {"friction": pint.Quantity(math.nan), "lock": 1}, "not_finite", "friction must be finite"),
@@ -758,6 +761,20 @@ def test_refused_paths(points, headings, rest, code, said):
     error = refusal(lambda: travel.path(points, headings, **rest))
     assert error.code == code
     assert said in str(error)
+
+
+@pytest.mark.parametrize(
+    "headings",
+    [["350 deg", "10 deg", "20 deg"], pint.Quantity([350.0, 10.0, 20.0], "deg"), ["350 deg", pint.Quantity(10, "deg"), 0]],
+)
+def test_headings_with_units_are_not_told_to_write_them(headings):
+    """10 deg is what was meant; only a jump at a full turn, or a spin that was faster than the points, can be mended."""
+    text = str(refusal(lambda: travel.path(STRAIGHT, headings, **FULL_LOCK)))
+    assert "turn by -340 deg" in text
+    assert "count headings on without a jump at a full turn (350 deg, then 370 deg)" in text
+    assert "0.174533" not in text
+    assert "radians" not in text
+    assert travel.path(STRAIGHT, ["350 deg", "370 deg", "380 deg"], **FULL_LOCK).yaw_rate > 0.0
 
 
 def test_all_wrong_arguments_of_a_path_are_named_at_once():
@@ -818,3 +835,22 @@ def test_a_run_out_is_a_frozen_record_with_units():
         run.speed = 3.0
     after = col.Vehicle.from_speed(speed=run.speed, course=run.course, yaw_rate=run.yaw_rate, mass=1200)
     assert after.speed == pytest.approx(run.speed, rel=4 * EPS)
+
+
+@pytest.mark.parametrize("function", [travel.speed, travel.distance, travel.time, travel.path])
+def test_what_is_documented_of_each_function(function):
+    """The sections a reader needs: what goes in, what comes out, what is refused and warned of, one worked example."""
+    for section in ("Parameters", "Returns", "Raises", "Warns", "Examples"):
+        assert f"\n    {section}\n    {'-' * len(section)}\n" in function.__doc__
+    named = re.findall(
+        r"^    ([a-z_, ]+?)(?: :|$)", function.__doc__.split("Parameters\n")[1].split("Returns\n")[0], re.MULTILINE
+    )
+    assert {name for line in named for name in line.split(", ")} >= set(inspect.signature(function).parameters)
+
+
+def test_every_function_of_travel_has_a_docstring():
+    """Also those that are not public, where a name is shared between the files."""
+    for module in (travel.chain, travel.places, travel.reading, travel.run_out, travel.straight):
+        for name, member in vars(module).items():
+            if inspect.isfunction(member) and member.__module__ == module.__name__ and not name.startswith("_"):
+                assert member.__doc__, name

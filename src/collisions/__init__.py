@@ -28,10 +28,13 @@ from .errors import (
 from .impact import Impact
 from .linear import linear_central
 from .oblique import oblique_central
+from .provenance import ModelChoice
+from .scene import required_model, solve
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
     from . import reconstruct, travel
+    from .idealisation import left_out
 
 __version__ = "0.1.0"
 
@@ -44,6 +47,7 @@ __all__ = [
     "Impact",
     "InputError",
     "MissingInputError",
+    "ModelChoice",
     "NoImpactError",
     "NoSolutionError",
     "OutOfRangeWarning",
@@ -53,17 +57,22 @@ __all__ = [
     "UnitsError",
     "Vehicle",
     "eccentric",
+    "left_out",
     "linear_central",
     "oblique_central",
     "reconstruct",
+    "required_model",
+    "solve",
     "travel",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Modules that not every caller needs are imported when they are first asked for."""
+    """What not every caller needs is imported when it is first asked for."""
     if name in ("reconstruct", "travel"):
         return import_module(f".{name}", __name__)
+    if name == "left_out":
+        return import_module(".idealisation", __name__).left_out
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

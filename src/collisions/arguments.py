@@ -14,29 +14,32 @@ from .directions import direction, from_radians
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
 from .impact import Asked, Impact, build
 from .kernels import checks, codes
-from .kernels.batch import Check, precision, solve_lanes
+from .kernels.batch import Check, Scoped, precision, solve_lanes
 from .kernels.select import verdict
+from .progress import reporter
 from .refusals import refusal
 from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, callers_level
 from .vehicle import DOMAINS, Vehicle
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
-Progress: TypeAlias = Callable[[int, int], None]
+# What finds the motion that a model cannot hold, and the values it looks at.
+Scope: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
 
 # A NamedTuple made from a tuple costs a third of one made from arguments.
 _as_asked: Callable[..., Asked] = tuple.__new__
 _as_read: Callable[..., Read] = tuple.__new__
 _ALONG_X = (1.0, 0.0)
 _TANGENTIAL_DOMAINS = {codes.FRICTION: NOT_NEGATIVE, codes.IMPULSE_RATIO: FINITE, codes.CRITICAL_FRACTION: UNIT_INTERVAL}
-_VALUE_CHECKS: dict[str, tuple[tuple[int, Callable[..., Any]], ...]] = {
-    FINITE: ((codes.NOT_FINITE, checks.not_finite),),
-    POSITIVE: ((codes.NOT_FINITE, checks.not_a_number), (codes.NOT_POSITIVE, checks.not_positive)),
-}
-_BOUND_CHECKS = {
-    codes.FRICTION: (codes.BAD_FRICTION, checks.negative),
-    codes.IMPULSE_RATIO: (codes.NOT_FINITE, checks.not_finite),
-    codes.CRITICAL_FRACTION: (codes.BAD_FRACTION, checks.outside_unit_interval),
+# By domain: what is wrong with a value, its status, and what tells that an array has none.
+_FAULTS: dict[str, tuple[tuple[tuple[int, Callable[..., Any]], ...], Callable[..., bool]]] = {
+    FINITE: (((codes.NOT_FINITE, checks.not_finite),), checks.all_finite),
+    POSITIVE: (
+        ((codes.NOT_FINITE, checks.not_a_number), (codes.NOT_POSITIVE, checks.not_positive)),
+        checks.all_positive,
+    ),
+    UNIT_INTERVAL: (((codes.BAD_FRACTION, checks.outside_unit_interval),), checks.all_in_unit_interval),
+    NOT_NEGATIVE: (((codes.BAD_FRICTION, checks.negative),), checks.all_not_negative),
 }
 
 
@@ -155,7 +158,7 @@ def answer(
     settings: tuple[Any, ...],
     asked: tuple[Any, ...],
     plain: bool,
-    scope: Check | None,
+    scope: Scope | None,
     on_failure: Any,
     threads: Any,
     progress: Any,
@@ -168,9 +171,10 @@ def answer(
         check_options(on_failure, threads, progress)
     question = _as_asked(Asked, asked)
     if not (plain and question.a._given is None and question.b._given is None):
-        shape = broadcast(dict(_values(question)))
+        shape = broadcast(dict(numbers_of(question)))
         if shape is not None:
-            return _batch(kernel, inputs, settings, question, scope, shape, on_failure, threads, progress)
+            raw = solved(kernel, inputs, settings, question, scope, shape, threads, progress)
+            return concluded(question, raw, on_failure)
     raw = kernel(*inputs, *settings)
     fault = scope[0](*scope[1]) if scope is not None else codes.OK
     if fault or raw[0]:
@@ -185,23 +189,36 @@ def answer(
     return build(question, raw)
 
 
-def _batch(
+def solved(
     kernel: Callable[..., tuple[Any, ...]],
     inputs: tuple[Any, ...],
     settings: tuple[Any, ...],
     asked: Asked,
-    scope: Check | None,
+    scope: Scope | None,
     shape: tuple[int, ...],
-    on_failure: Any,
     threads: int,
     progress: Any,
-) -> Impact:
-    dtype = precision(value for _, value in _values(asked))
+    lanes: Any = None,
+) -> Any:
+    """The outputs of the cases of a batch, or in a row those of the cases that ``lanes`` picks."""
+    dtype = precision(value for _, value in numbers_of(asked))
     eps = float(np.finfo(dtype).eps)
-    found = _value_checks(asked, eps)
     if scope is not None:
-        found.append((partial(scope[0], eps=eps), scope[1]))
-    raw = solve_lanes(lambda *block: kernel(*block, *settings, eps), inputs, found, shape, dtype, threads, progress)
+        kernel = Scoped(kernel, scope[0], len(inputs), len(scope[1]))
+        inputs = (*inputs, *scope[1])
+    found = _value_checks(asked, eps)
+    if lanes is not None:
+
+        def picked(values: Sequence[Any]) -> tuple[Any, ...]:
+            return tuple(np.broadcast_to(v, shape)[lanes] if isinstance(v, np.ndarray) else v for v in values)
+
+        inputs, found = picked(inputs), [check._replace(values=picked(check.values)) for check in found]
+        shape = (int(np.count_nonzero(lanes)),)
+    return solve_lanes(kernel, (*settings, eps), inputs, found, shape, dtype, threads, reporter(progress))
+
+
+def concluded(asked: Asked, raw: Any, on_failure: Any) -> Impact:
+    """The Impact of a batch, after what is to be said of its refused and its gaining cases."""
     status = raw[0]
     if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
@@ -215,7 +232,7 @@ def _batch(
     return build(asked, raw)
 
 
-def _values(asked: Asked) -> list[tuple[str, Any]]:
+def numbers_of(asked: Asked) -> list[tuple[str, Any]]:
     """Every number of the question by the name the caller knows it by."""
     found = [("restitution", asked.restitution), (asked.rule, asked.bound)]
     found += [(f"normal[{i}]", part) for i, part in enumerate(asked.normal)]
@@ -232,26 +249,25 @@ def _value_checks(asked: Asked, eps: float) -> list[Check]:
     """What the door checks of scalars, for the arrays of the question."""
     found: list[Check] = []
 
-    def add(code: int, condition: Callable[..., Any], *values: Any) -> None:
-        found.append((lambda *block: verdict((condition(*block), code)), values))
+    def add(passes: Callable[..., bool] | None, values: tuple[Any, ...], *findings: tuple[int, Callable[..., Any]]) -> None:
+        found.append(Check(lambda *block: verdict(*((at_fault(*block), code) for code, at_fault in findings)), values, passes))
 
-    for label, value in _values(asked):
+    for label, value in numbers_of(asked):
         if not isinstance(value, np.ndarray):
             continue
         if label == "restitution":
-            add(codes.BAD_RESTITUTION, checks.outside_unit_interval, value)
-        elif label == asked.rule:
-            add(*_BOUND_CHECKS[asked.rule], value)
-        else:
-            for code, condition in _VALUE_CHECKS[DOMAINS.get(label.partition(".")[2], FINITE)]:
-                add(code, condition, value)
+            add(checks.all_in_unit_interval, (value,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
+            continue
+        domain = _TANGENTIAL_DOMAINS[asked.rule] if label == asked.rule else DOMAINS.get(label.partition(".")[2], FINITE)
+        findings, passes = _FAULTS[domain]
+        add(passes, (value,), *findings)
     if any(isinstance(part, np.ndarray) for part in asked.normal):
-        add(codes.ZERO_NORMAL, checks.without_length, *asked.normal)
+        add(checks.all_with_length, asked.normal, (codes.ZERO_NORMAL, checks.without_length))
     for vehicle in (asked.a, asked.b):
         if vehicle.pivot is not None:
-            add(codes.PINNED_INFINITE, checks.either_infinite, vehicle.mass, vehicle.yaw_inertia)
-            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y)
-            add(codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps), *motion, *vehicle.pivot)
+            add(None, (vehicle.mass, vehicle.yaw_inertia), (codes.PINNED_INFINITE, checks.either_infinite))
+            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
+            add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
     return found
 
 
@@ -326,9 +342,9 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
         )
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise InputError(f"threads must be a whole number from 1, got {threads!r}", code="bad_option", argument="threads")
-    if progress is not None and not callable(progress):
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
         raise InputError(
-            f"progress must be a function of (done, total), got {type(progress).__name__}",
+            f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}",
             code="bad_option",
             argument="progress",
         )

@@ -60,6 +60,21 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
     return Angle(*door.angle(value, argument)).direction
 
 
+def course(door: Door, value: Any, argument: str) -> Angle:
+    """The angle of a course or a heading (number, text, Quantity or array); a vector is none."""
+    if isinstance(value, (tuple, list)):
+        door.refuse(
+            ShapeError(
+                f"{argument} is a {type(value).__name__}, and a {argument.partition('_')[0]} is an angle; many angles go in a "
+                f"numpy array",
+                code="bad_shape",
+                argument=argument,
+            )
+        )
+        return Angle(math.nan, False)
+    return Angle(*door.angle(value, argument))
+
+
 def between(one: Angle, other: Angle) -> tuple[Any, Any]:
     """Cosine and sine of the angle from one to the other, from their difference: exact where two courses are nearly one."""
     if one.in_degrees and other.in_degrees:

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from .arguments import Law, OnFailure, Progress, answer, read
+from .arguments import Law, OnFailure, answer, read
 from .errors import InputError, MissingInputError
 from .impact import SOLVERS, Impact
 from .kernels.eccentric import eccentric as kernel
+from .progress import Progress
 from .units import Input, Pair
 from .vehicle import Vehicle, missing
 
@@ -114,13 +115,20 @@ def missing_numbers(a: Any, b: Any, point: Any) -> list[InputError]:
                 argument="point",
             )
         )
+    bodies = {"a": a, "b": b}
+    return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
+
+
+def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+    """Vehicle and field of what the model needs and the vehicles do not have; a fixed body needs no position."""
+    found: list[tuple[str, str]] = []
     for label, body in (("a", a), ("b", b)):
         if type(body) is not Vehicle or (body.yaw_inertia is not None and body.x is not None and body.y is not None):
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
         fixed = np.all(np.isinf(body.mass) & np.isinf(inertia) & np.equal(body.yaw_rate, 0.0))
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
-        found += [missing(body, name, "eccentric", label) for name in needed if getattr(body, name) is None]
+        found += [(label, name) for name in needed if getattr(body, name) is None]
     return found
 
 

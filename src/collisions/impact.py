@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from .fields import Quantities, attributes, derived, hypot, lock, numeric, retur
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
-from .provenance import Reconstruction
+from .provenance import ModelChoice, Reconstruction
 from .records import bad_record, from_record, to_columns, to_record
 from .side import Side
 from .units import UNIT_INTERVAL, Door, Input, Value, broadcast
@@ -78,9 +79,9 @@ class Impact:
         return Side(self._asked, self._raw, 1)
 
     @derived()
-    def model(self) -> str:
-        """The solver used: "linear_central", "oblique_central" or "eccentric"."""
-        return self._asked.model
+    def model(self) -> Any:
+        """The solver used: "linear_central", "oblique_central" or "eccentric"; an array of them in a batch of ``solve``."""
+        return self._asked.model if self.choice is None else self.choice.model
 
     @derived()
     def law(self) -> str | None:
@@ -103,8 +104,8 @@ class Impact:
         return self._asked.point
 
     @derived()
-    def choice(self) -> Any:
-        """How the model was chosen; None when its solver was called by name."""
+    def choice(self) -> ModelChoice | None:
+        """How ``solve`` chose the model; None when its solver was called by name."""
         return None
 
     @derived()
@@ -314,6 +315,11 @@ class Impact:
         answered: Value = select(self.refused, math.nan, value)
         return answered
 
+    def _again(self, **changes: Any) -> Impact:
+        """The answer to the same question with some of it changed, NaN where it is refused."""
+        options = {} if self.choice is None else {"tolerance": self.choice.tolerance}
+        return self._asked._replace(**changes).ask(on_failure="nan", **options)
+
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
         return to_record(self)
@@ -321,11 +327,11 @@ class Impact:
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
-        question, refused, origin, status = from_record(record)
+        question, options, origin, status = from_record(record)
         if question["model"] not in SOLVERS:
             raise bad_record(f"its model is {question['model']!r}; known are {', '.join(SOLVERS)}")
         try:
-            impact = Asked(**question).ask(**({"on_failure": "nan"} if refused else {}))
+            impact = Asked(**question).ask(**options)
             return impact if origin is None else found_by(origin, impact._asked, impact._raw, status)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {question['model']}") from error
@@ -348,7 +354,7 @@ class Impact:
         raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self._asked, self._raw, self._cache.get("reconstruction"))
+        return _rebuild, (self._asked, self._raw, {name: self._cache.get(name) for name in ("reconstruction", "choice")})
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -392,12 +398,14 @@ def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status:
     return impact
 
 
-def _rebuild(asked: Asked, raw: tuple[Any, ...], origin: Reconstruction | None) -> Impact:
+def _rebuild(asked: Asked, raw: tuple[Any, ...], provenance: dict[str, Any]) -> Impact:
     """An unpickled Impact; arrays come out of a pickle unlocked."""
     impact = build(lock(asked), lock(raw))
-    if origin is not None:
-        lock(origin.condition)
-        impact._cache["reconstruction"] = origin
+    for found in provenance.values():
+        if found is not None:
+            parts = (getattr(found, f.name) for f in fields(found))
+            lock(tuple(tuple(part.values()) if isinstance(part, dict) else part for part in parts))
+    impact._cache.update(provenance)
     return impact
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from .arguments import OnFailure, Progress, answer, pivots, read
+from .arguments import OnFailure, answer, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels import codes
 from .kernels.linear import linear_central as kernel
 from .kernels.linear import outside_linear
+from .progress import Progress
 from .units import Input, Pair
 from .vehicle import Vehicle
 
@@ -41,8 +42,8 @@ def linear_central(
         warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a warning.
     threads : int, optional
         Threads for a batch.
-    progress : callable, optional
-        Called as ``progress(done, total)`` after each block of a batch.
+    progress : callable or True, optional
+        Called as ``progress(done, total)`` after each block of a batch; True shows a bar once a run takes over a second.
 
     Returns
     -------

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from .arguments import Law, OnFailure, Progress, answer, pivots, read
+from .arguments import Law, OnFailure, answer, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels.oblique import oblique_central as kernel
 from .kernels.oblique import outside_central
+from .progress import Progress
 from .units import Input, Pair
 from .vehicle import Vehicle
 

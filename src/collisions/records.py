@@ -12,7 +12,7 @@ import numpy as np
 from .errors import InputError, Status
 from .fields import attributes
 from .kernels import codes
-from .provenance import Reconstruction
+from .provenance import ModelChoice, Reconstruction
 from .side import Side
 from .vehicle import NAMES, Vehicle
 
@@ -36,8 +36,8 @@ def to_record(impact: Any) -> dict[str, Any]:
     }
 
 
-def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Reconstruction | None, Any]:
-    """The question of a record by its parts, whether some of its cases had been refused, what found it, and its status."""
+def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], Reconstruction | None, Any]:
+    """The question of a record by its parts, the options to ask it with, what found it, and its status."""
     try:
         if not isinstance(record["format"], str) or record["format"] != _FORMAT:
             raise bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
@@ -48,6 +48,10 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Recons
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
+        options: dict[str, Any] = {"on_failure": "nan"} if refused else {}
+        choice = record["results"]["choice"]
+        if choice is not None:
+            options["tolerance"] = _number(choice["tolerance"])
         origin = record["results"]["reconstruction"]
         if origin is not None:
             known = tuple(str(name) for name in origin["known"])
@@ -60,7 +64,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], bool, Recons
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
-    return question, refused, origin, status
+    return question, options, origin, status
 
 
 def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
@@ -99,6 +103,9 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
             columns[f"{name}.{axis}"] = part
     elif isinstance(value, Reconstruction):
         columns[f"{name}.condition"] = value.condition
+    elif isinstance(value, ModelChoice):
+        columns[f"{name}.tolerance"] = value.tolerance
+        columns |= {f"{name}.errors.{model}": error for model, error in value.errors.items()}
     elif value is not None:
         columns[name] = value
 
@@ -129,8 +136,10 @@ def _strict(value: Any) -> Any:
         return [_strict(part) for part in value]
     if isinstance(value, Status):
         return int(value)
-    if isinstance(value, Reconstruction):
+    if isinstance(value, (Reconstruction, ModelChoice)):
         return {f.name: _strict(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, dict):
+        return {name: _strict(part) for name, part in value.items()}
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
     return value

@@ -53,6 +53,7 @@ _EXAMPLES = {
     "rad/s": "0.5 (rad/s) or '30 deg/s'",
     "m/s**2": "6.9 (m/s2), '6.9 m/s**2' or '22.5 ft/s**2'",
     "kg*m**2": "1800 (kg m2), '1800 kg*m**2', '1330 slug*ft**2' or '1330 lbf*ft*s**2'",
+    "s": "0.1 (s) or '100 ms'",
     "m": "2.1 (m), '2.1 m' or '7 ft'",
     "rad": "1.57 (rad) or '90 deg'",
     "degree": "90 (deg)",

@@ -496,6 +496,8 @@ def _pinned(
                     argument="vx",
                 )
             return wanted_x, wanted_y
+        # In the precision they are kept in: what is too small for it counts as not given.
+        vx, vy = (np.asarray(v, dtype=np.result_type(v, wanted)) for v, wanted in ((vx, wanted_x), (vy, wanted_y)))
         resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
         moved_x, moved_y = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
     moved: tuple[Any, Any] = lock((moved_x.copy(), moved_y.copy()))

@@ -6,18 +6,63 @@ Every case is worked out by itself. A refused one is NaN in every output and car
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, TypeAlias
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import chain
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .codes import ENERGY_GAIN, OK, OUTPUTS
+from .replay import Replay, record
+from .select import select
 
 BLOCK = 8192
+# What most callers read of a large batch, and the rest, which needs the status to blank the refused cases.
+FIRST = (
+    "status",
+    "closing_speed",
+    "normal_impulse",
+    "tangential_impulse",
+    "energy_loss",
+    "delta_vx_a",
+    "delta_vy_a",
+    "delta_yaw_rate_a",
+    "delta_vx_b",
+    "delta_vy_b",
+    "delta_yaw_rate_b",
+)
+LATER = ("status", *(name for name in OUTPUTS if name not in FIRST))
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
-# What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
-Check: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
+
+class Check(NamedTuple):
+    """What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
+
+    ``passes`` tells of whole arrays, at less cost, that they hold no fault; it may say no where there is none.
+    """
+
+    fault: Callable[..., Any]
+    values: tuple[Any, ...]
+    passes: Callable[..., bool] | None = None
+
+
+@dataclass(frozen=True)
+class Scoped:
+    """A kernel and the check of what its model cannot hold, whose values stand between the kernel's inputs and its settings."""
+
+    kernel: Callable[..., tuple[Any, ...]]
+    scope: Callable[..., Any]
+    inputs: int
+    values: int
+
+    def __call__(self, *given: Any) -> tuple[Any, ...]:
+        settings = given[self.inputs + self.values :]
+        status, *answers = self.kernel(*given[: self.inputs], *settings)
+        fault = self.scope(*given[self.inputs : self.inputs + self.values], settings[-1])
+        return select(np.not_equal(fault, OK), fault, status), *answers
 
 
 def precision(values: Iterable[Any]) -> Any:
@@ -35,39 +80,95 @@ def precision(values: Iterable[Any]) -> Any:
 
 def solve_lanes(
     kernel: Callable[..., tuple[Any, ...]],
+    settings: tuple[Any, ...],
     inputs: Sequence[Any],
     checks: Sequence[Check],
     shape: tuple[int, ...],
     dtype: Any,
     threads: int = 1,
     progress: Callable[[int, int], None] | None = None,
-) -> tuple[Any, ...]:
+) -> Any:
     """The kernel's outputs as locked arrays of the given shape; the first check that applies decides the status of a case.
 
     ``progress(done, total)`` is called after every block, from the calling thread.
     """
-    size = int(np.prod(shape, dtype=np.int64))
-    lanes = [_flat(value, shape) for value in inputs]
-    checked = [(check, [_flat(value, shape) for value in values]) for check, values in checks]
-    outputs = [np.empty(size, dtype={"status": np.uint8, "sticks": np.bool_}.get(name, dtype)) for name in OUTPUTS]
+    solve = partial(_solved, kernel, settings, inputs, checks, shape, np.dtype(dtype), threads)
+    if math.prod(shape) > BLOCK:
+        return Answers(solve, solve(FIRST, progress))
+    return tuple(solve(OUTPUTS, progress).values())
+
+
+class Answers:
+    """The outputs of many cases, in order: a few at once, the others together when the first of them is asked for.
+
+    Writing an output costs as much as several steps of the formula, and most of them are never read.
+    """
+
+    def __init__(self, solve: Callable[[Sequence[str]], dict[str, Any]], found: dict[str, Any]) -> None:
+        self._solve = solve
+        self._found = found
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return tuple(self)[index]
+        name = OUTPUTS[index]
+        if name not in self._found:
+            self._found = {**self._solve(LATER), **self._found}
+        return self._found[name]
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[index] for index in range(len(OUTPUTS)))
+
+    def __len__(self) -> int:
+        return len(OUTPUTS)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return tuple, (tuple(self),)
+
+
+def _solved(
+    kernel: Callable[..., tuple[Any, ...]],
+    settings: tuple[Any, ...],
+    inputs: Sequence[Any],
+    checks: Sequence[Check],
+    shape: tuple[int, ...],
+    dtype: Any,
+    threads: int,
+    names: Sequence[str],
+    progress: Callable[[int, int], None] | None = None,
+) -> dict[str, Any]:
+    """The outputs of these names, the status always among them."""
+    size = math.prod(shape)
+    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
+    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
+    outputs = [None if kind is None else np.empty(size, dtype=kind) for kind in kinds]
+    # An array that is looked at more than once is cut once.
+    given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
+    lanes = {key: value if isinstance(value, float) else _flat(value, shape) for key, value in given.items()}
+    work: Callable[[], Callable[[Sequence[Any], Sequence[Any]], None]] = partial(_Straight, kernel, settings)
+    if size > BLOCK:
+        texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
+        work = partial(Replay, record(kernel, settings, texts, dtype, kinds), BLOCK)
+    mine = threading.local()
 
     def solve(start: int) -> int:
         block = slice(start, min(start + BLOCK, size))
-
-        def cut(values: Sequence[Any]) -> list[Any]:
-            return [value if isinstance(value, float) else value[block].astype(dtype, copy=False) for value in values]
-
+        if not hasattr(mine, "run"):
+            mine.run = work()
+        cut = {key: _part(lane, block, dtype) for key, lane in lanes.items()}
+        answers = [None if output is None else output[block] for output in outputs]
+        status: Any = answers[0]
         with np.errstate(all="ignore"):
-            answers = kernel(*cut(lanes))
-            status = outputs[0][block]
-            status[...] = answers[0]
-            for check, values in reversed(checked):
-                fault = check(*cut(values))
-                status[...] = np.where(np.equal(fault, OK), status, fault)
+            faults = [_faults(check, [cut[id(value)] for value in check.values]) for check in checks]
+            mine.run([cut[id(value)] for value in inputs], answers)
+        for fault in reversed(faults):
+            if fault is not None:
+                np.copyto(status, fault, where=np.not_equal(fault, OK), casting="unsafe")
+        if status.max() > ENERGY_GAIN:
             refused = status > ENERGY_GAIN
-            for name, output, answer in zip(OUTPUTS[1:], outputs[1:], answers[1:], strict=True):
-                output[block] = answer
-                output[block][refused] = False if name == "sticks" else np.nan
+            for name, answer in zip(OUTPUTS[1:], answers[1:], strict=True):
+                if answer is not None:
+                    answer[refused] = False if name == "sticks" else np.nan
         return block.stop - block.start
 
     starts = range(0, size, BLOCK)
@@ -83,9 +184,23 @@ def solve_lanes(
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
-    for output in outputs:
+    found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
+    for output in found.values():
         output.setflags(write=False)
-    return tuple(output.reshape(shape) for output in outputs)
+    return found
+
+
+class _Straight:
+    """A kernel called on a block as it is: for so few cases that recording it would cost more."""
+
+    def __init__(self, kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...]) -> None:
+        self.kernel = kernel
+        self.settings = settings
+
+    def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
+        for output, answer in zip(outputs, self.kernel(*inputs, *self.settings), strict=True):
+            if output is not None:
+                output[...] = answer
 
 
 def _report(counts: Any, size: int, progress: Callable[[int, int], None] | None) -> None:
@@ -96,10 +211,21 @@ def _report(counts: Any, size: int, progress: Callable[[int, int], None] | None)
             progress(done, size)
 
 
+def _faults(check: Check, values: Sequence[Any]) -> Any:
+    """The status a check gives each case of a block, None if all of them pass."""
+    return None if check.passes is not None and check.passes(*values) else check.fault(*values)
+
+
+def _part(lane: Any, block: slice, dtype: Any) -> Any:
+    """The cases of a block, in the precision of the batch; a plain number as it is."""
+    if isinstance(lane, float):
+        return lane
+    part = lane[block]
+    return part if part.dtype == dtype else part.astype(dtype)
+
+
 def _flat(value: Any, shape: tuple[int, ...]) -> Any:
     """Something whose slices are the cases in order, without a copy of the whole: a view, or an iterator over one."""
-    if isinstance(value, float):
-        return value
     if value.shape == shape and value.flags.c_contiguous:
         return value.reshape(-1)
     return np.broadcast_to(value, shape).flat

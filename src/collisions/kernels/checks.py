@@ -1,7 +1,9 @@
 """What makes a case unfit to be answered: conditions on floats or arrays, each true where the case must be refused."""
 
-from math import inf
+from math import inf, isfinite
 from typing import Any
+
+import numpy as np
 
 from .codes import EPS
 from .turning import turning_velocity
@@ -47,3 +49,28 @@ def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: An
     wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
     tolerance = max(1e-9, 8.0 * eps)
     return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))
+
+
+def all_finite(values: Any) -> bool:
+    """Whether an array holds finite numbers only, whose sum is finite too: a single reading."""
+    return isfinite(np.add.reduce(values))
+
+
+def all_positive(values: Any) -> bool:
+    """Whether all of an array is above zero; the least of an array with NaN is NaN."""
+    return bool(np.minimum.reduce(values) > 0.0)
+
+
+def all_not_negative(values: Any) -> bool:
+    """Whether all of an array is zero or above."""
+    return bool(np.minimum.reduce(values) >= 0.0)
+
+
+def all_in_unit_interval(values: Any) -> bool:
+    """Whether all of an array is from 0 to 1."""
+    return bool(np.minimum.reduce(values) >= 0.0 and np.maximum.reduce(values) <= 1.0)
+
+
+def all_with_length(nx: Any, ny: Any) -> bool:
+    """Whether no vector of an array has length 0."""
+    return np.count_nonzero(nx) == np.size(nx) or not np.any(without_length(nx, ny))

@@ -7,6 +7,7 @@ pivots and free bodies differ only in a_i and b_i.
 from typing import Any
 
 from .codes import (
+    BRACH,
     ENERGY_GAIN,
     EPS,
     FRICTION,
@@ -22,7 +23,7 @@ from .codes import (
 )
 from .energy import energy_losses
 from .friction import sticking_slip, tangential_rule
-from .select import select, verdict
+from .select import divisor, select, verdict
 from .turning import turning_velocity
 
 
@@ -80,15 +81,19 @@ def eccentric(
     pinned_a: bool,
     pinned_b: bool,
     eps: float = EPS,
+    impulse_only: bool = False,
 ) -> tuple[Any, ...]:
-    """Answers in the order of ``codes.OUTPUTS``."""
+    """Answers in the order of ``codes.OUTPUTS``.
+
+    With ``impulse_only``: whether there is an answer, the impulse along n and t, and of A and B the torque, a and b.
+    """
     a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a)
     a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b)
-    # Contact velocity of B relative to A: differences first, then the spins, and into (n, t) last.
-    ux = (ux_b - ux_a) + (spin_a * ry_a - spin_b * ry_b)
-    uy = (uy_b - uy_a) + (spin_b * rx_b - spin_a * rx_a)
-    closing = -(nx * ux + ny * uy)
-    slip = nx * uy - ny * ux
+    # Contact velocity of A relative to B: differences first, then the spins, and into (n, t) last.
+    ux = (ux_a - ux_b) + (spin_b * ry_b - spin_a * ry_a)
+    uy = (uy_a - uy_b) + (spin_a * rx_a - spin_b * rx_b)
+    closing = nx * ux + ny * uy
+    slip = ny * ux - nx * uy
     rn_a = nx * rx_a + ny * ry_a
     rt_a = nx * ry_a - ny * rx_a
     rn_b = nx * rx_b + ny * ry_b
@@ -105,8 +110,8 @@ def eccentric(
     bounded = threshold - threshold == 0.0
     yields = (k_nn > threshold) & (trace > 0.0)
     immovable = bounded & (yields ^ True)
-    k_nn = select(yields, k_nn, 1.0)
-    trace = select(yields, trace, 1.0)
+    k_nn = divisor(yields, k_nn)
+    trace = divisor(yields, trace)
     cross = rx_a * ry_b - ry_a * rx_b
     determinant = a + ((b_a / trace) * cross) * (b_b * cross)
     regular = determinant > threshold
@@ -118,22 +123,27 @@ def eccentric(
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
-    divisor = select(regular, determinant, 1.0)
-    no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divisor
-    no_slip_t = no_slip_t_determinant / divisor
+    divided_by = select(regular, determinant, 1.0)
+    no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divided_by
+    no_slip_t = no_slip_t_determinant / divided_by
 
     sticks, ratio, no_slip_matters, pulls = tangential_rule(rule, tangential, no_slip_n, no_slip_t)
     resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
     jams = (resistance <= 0.0) & (sticks ^ True)
-    sliding_n = change_n / select(resistance == 0.0, 1.0, resistance)
+    sliding_n = change_n / divisor(resistance != 0.0, resistance)
     normal = select(sticks, no_slip_n, sliding_n)
     impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
+    torque_a = rt_a * normal - rn_a * impulse_t
+    torque_b = rn_b * impulse_t - rt_b * normal
+    stuck = bounded & (regular ^ True) & no_slip_matters
+    if impulse_only:
+        answered = (closing > 0.0) & ((immovable | stuck | pulls | jams) ^ True)
+        return answered, normal, impulse_t, (torque_a, a_a, b_a), (torque_b, a_b, b_b)
 
     beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
     slip_after = kept * slip + beyond_sticking
-    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after)
-    torque_a = rt_a * normal - rn_a * impulse_t
-    torque_b = rn_b * impulse_t - rt_b * normal
+    # At rest after sticking, so that the sum is the slip before, to the bit.
+    slip_sum = slip + slip_after if law == BRACH else select(sticks, (1.0 + kept) * slip, slip + slip_after)
     mobility: Any = 0.0
     if law == KUDLICH_SLIBAR and rule == FRICTION:
         mobility = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
@@ -145,24 +155,28 @@ def eccentric(
     impulse_y = ny * normal + nx * impulse_t
     dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, torque_a, -impulse_x, -impulse_y, x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
     dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
-    total = (
-        normal + impulse_t + loss + loss_n + loss_t + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
-    )
-    stuck = bounded & (regular ^ True) & no_slip_matters
+    # Finite only if all of it is: the losses are products of both impulses.
+    total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
+    if law == KUDLICH_SLIBAR:
+        total = total + loss_n + loss_t
     finite = bounded & (total - total == 0.0)
-    fine = (closing > 0.0) & finite & ((immovable | stuck | pulls | jams | gains) ^ True)
+    fine = (closing > 0.0) & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
     status = (
         OK
         if fine is True
-        else verdict(
-            (immovable, IMMOVABLE),
-            (closing < 0.0, SEPARATING),
-            (closing == 0.0, GRAZING),
-            (stuck, SINGULAR_CONTACT),
-            (pulls, NO_SLIP_PULLS),
-            (jams, RATIO_JAMS),
-            (finite ^ True, OUT_OF_RANGE),
-            (gains, ENERGY_GAIN),
+        else select(
+            fine,
+            OK,
+            verdict(
+                (immovable, IMMOVABLE),
+                (closing < 0.0, SEPARATING),
+                (closing == 0.0, GRAZING),
+                (stuck, SINGULAR_CONTACT),
+                (pulls, NO_SLIP_PULLS),
+                (jams, RATIO_JAMS),
+                (finite ^ True, OUT_OF_RANGE),
+                (gains, ENERGY_GAIN),
+            ),
         )
     )
     return (

@@ -34,5 +34,5 @@ def energy_losses(
         loss = (0.5 * (1.0 - restitution) * mobility + abs(tangential * slip_change)) / (1.0 + restitution)
         return loss_n, loss_t, loss, False
     loss = loss_n + loss_t
-    rounding = 16.0 * eps * (abs(loss_n) + abs(tangential) * (abs(slip_before) + abs(slip_after)))
-    return loss_n, loss_t, loss, loss < -rounding
+    rounding = -16.0 * eps * (loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after)))
+    return loss_n, loss_t, loss, loss < rounding

@@ -66,10 +66,15 @@ def losing_speed(loss: Any, reduced: Any, restitution: Any) -> Any:
     return np.sqrt(2.0 * loss / reduced / ((1.0 - restitution) * (1.0 + restitution)))
 
 
+def absorbed_energy(mass_a: Any, ees_a: Any, mass_b: Any, ees_b: Any) -> Any:
+    """Energy that both EES stand for: that at maximum crush, of which an infinite mass takes up none."""
+    parts = [np.where(ees == 0.0, 0.0, 0.5 * mass * (ees * ees)) for mass, ees in ((mass_a, ees_a), (mass_b, ees_b))]
+    return parts[0] + parts[1]
+
+
 def absorbing_speed(mass_a: Any, ees_a: Any, mass_b: Any, ees_b: Any, reduced: Any) -> Any:
-    """Closing speed that takes up the energy of both EES at maximum crush; an infinite mass takes up none."""
-    parts = [np.where(ees == 0.0, 0.0, mass / reduced * (ees * ees)) for mass, ees in ((mass_a, ees_a), (mass_b, ees_b))]
-    return np.sqrt(parts[0] + parts[1])
+    """Closing speed that takes up the energy of both EES at maximum crush."""
+    return np.sqrt(2.0 * absorbed_energy(mass_a / reduced, ees_a, mass_b / reduced, ees_b))
 
 
 def changing_speed(delta_v: Any, share: Any, restitution: Any) -> Any:

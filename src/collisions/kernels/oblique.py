@@ -4,6 +4,7 @@ from typing import Any
 
 from .central import shares
 from .codes import (
+    BRACH,
     ENERGY_GAIN,
     EPS,
     FRICTION,
@@ -50,7 +51,8 @@ def oblique_central(
 
     beyond_sticking = change_t - no_slip_t
     slip_after = kept * slip + beyond_sticking
-    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after)
+    # At rest after sticking, so that the sum is the slip before, to the bit.
+    slip_sum = slip + slip_after if law == BRACH else select(sticks, (1.0 + kept) * slip, slip + slip_after)
     normal = effective_mass * change_n
     impulse_t = effective_mass * change_t
     mobility = normal * change_n + impulse_t * change_t if law == KUDLICH_SLIBAR and rule == FRICTION else 0.0

@@ -16,6 +16,14 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition, yes, no)
 
 
+def divisor(usable: Any, value: Any) -> Any:
+    """A value to divide by: 1.0 where it is of no use, as the case is refused or its quotient is passed over.
+
+    Only a plain number needs that, because Python refuses to divide by zero; a lane of many is simply infinite or NaN.
+    """
+    return 1.0 if usable is False or (isinstance(value, float) and value == 0.0) else value
+
+
 def verdict(*findings: tuple[Any, int]) -> Any:
     """Code of the first finding whose condition holds, 0 if none does."""
     status: Any = OK

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError, InputError
+from ..amounts import amount
+from ..errors import AmbiguousSolutionError, CollisionsError
 from ..fields import show
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
@@ -160,10 +161,7 @@ def _read(door: Door, value: Any, name: str) -> Any:
         return door.number(value, "", name, UNIT_INTERVAL)
     if name != "energy_loss":
         return door.number(value, "m/s", name)
-    loss = door.number(value, "J", name)
-    if not isinstance(loss, np.ndarray) and loss < 0.0:
-        door.refuse(InputError(f"energy_loss must be >= 0, got {value!r}", code="negative_energy", argument=name))
-    return loss
+    return amount(door, value, "J", name)
 
 
 def _named(masses: tuple[Any, Any]) -> dict[str, Any]:
@@ -271,8 +269,8 @@ def _error(status: int, found: dict[str, float], known: dict[str, float]) -> Col
         codes.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
         codes.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
         f"one of them would pass through the other{_limit(found)}",
-        codes.INVERSE_E0: "after a plastic impact (restitution = 0) both move as one and nothing is left of the closing speed; "
-        "give energy_loss, va or vb instead of restitution",
+        codes.INVERSE_E0: f"{given}: after a plastic impact (restitution = 0) both have one velocity"
+        f"{_difference(known)}, and nothing is left of the closing speed; give energy_loss, va or vb instead of restitution",
         codes.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
         f"velocity of the other body",
         codes.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
@@ -280,6 +278,12 @@ def _error(status: int, found: dict[str, float], known: dict[str, float]) -> Col
     }
     text = texts.get(status) or _contradiction(given, found, known)
     return plain_error(status, text, restitution=e, closing_speed=closing)
+
+
+def _difference(known: dict[str, float]) -> str:
+    """By how much the two velocities after are not one, where they are not."""
+    apart = known.get("vb_after", 0.0) - known.get("va_after", 0.0)
+    return f" (here vb_after - va_after is {apart:.6g} m/s, which contradicts that)" if apart else ""
 
 
 def _contradiction(given: str, found: dict[str, float], known: dict[str, float]) -> str:

@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from ..amounts import amount
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels import codes
-from ..units import Door, Input, Value, callers_level
+from ..units import Door, Input, Value, callers_level, is_quantity
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
@@ -21,7 +22,7 @@ _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as 
 
 def crush_energy(
     widths: Input | Sequence[Input],
-    depths: Sequence[Input],
+    depths: Input | Sequence[Input],
     stiffness_a: Input,
     stiffness_b: Input,
     *,
@@ -34,15 +35,18 @@ def crush_energy(
     the trapezoid rule of the CRASH programs for any number of points. A force that comes at an angle does the work of its
     whole length: the energy is divided by the square of the cosine.
 
+    A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. Many cases are lists whose entries
+    are arrays, one entry for each point or gap and one element for each case; the other arguments may be arrays as well.
+
     Parameters
     ----------
-    widths : one width or a list [m]
-        Width of the damage, divided evenly between the depths; or a list with the width of each gap, one fewer than depths.
-    depths : list [m]
+    widths : float, str, Quantity, or a profile [m]
+        Width of the damage, divided evenly between the depths; or the width of each gap, one fewer than depths. >= 0.
+    depths : a profile [m]
         Depth of crush at two or more points from one end of the damage to the other, >= 0.
-    stiffness_a : float, str or Quantity [N/m]
+    stiffness_a : float, str, Quantity or array [N/m]
         Force per width at which crush begins, >= 0.
-    stiffness_b : float, str or Quantity [N/m**2]
+    stiffness_b : float, str, Quantity or array [N/m**2]
         Growth of the force per width with depth, > 0. Both coefficients belong to the vehicle, its side and the speed of the
         tests they were fitted to: none is shipped.
     force_angle : angle [rad], optional
@@ -73,26 +77,27 @@ def crush_energy(
     60500
     """
     door = Door()
-    if not isinstance(depths, (list, tuple)) or len(depths) < 2:
+    crush = _profile(door, depths, "depths")
+    if isinstance(depths, np.ndarray) or is_quantity(depths):
+        door.close()
+    if not isinstance(crush, list) or len(crush) < 2:
+        got = type(depths).__name__ + (f" of {len(crush)}" if isinstance(crush, list) else "")
         raise ShapeError(
-            f"depths must be a list of at least two depths, got {type(depths).__name__}; write [0.2, 0.35, 0.1]",
+            f"depths must be a list or an array of at least two depths, got {got}; write [0.2, 0.35, 0.1]",
             code="bad_shape",
             argument="depths",
         )
-    crush = [_not_negative(door, depth, "m", f"depths[{i}]") for i, depth in enumerate(depths)]
-    if isinstance(widths, (list, tuple)):
-        if len(widths) != len(depths) - 1:
-            raise ShapeError(
-                f"widths has {len(widths)} values and depths {len(depths)}: give one width between each two depths, "
-                f"{len(depths) - 1} in all, or the whole width alone",
-                code="bad_shape",
-                argument="widths",
-            )
-        gaps = [_not_negative(door, width, "m", f"widths[{i}]") for i, width in enumerate(widths)]
-    else:
-        whole = _not_negative(door, widths, "m", "widths")
-        gaps = [whole / (len(depths) - 1)] * (len(depths) - 1)
-    a = _not_negative(door, stiffness_a, "N/m", "stiffness_a")
+    gaps = _profile(door, widths, "widths")
+    if not isinstance(gaps, list):
+        gaps = [gaps / (len(crush) - 1)] * (len(crush) - 1)
+    elif len(gaps) != len(crush) - 1:
+        raise ShapeError(
+            f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
+            f"in all, or the whole width alone; of many cases, a list of one array for each gap",
+            code="bad_shape",
+            argument="widths",
+        )
+    a = amount(door, stiffness_a, "N/m", "stiffness_a")
     b = door.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
         door.refuse(InputError(f"stiffness_b must be > 0, got {stiffness_b!r}", code="not_positive", argument="stiffness_b"))
@@ -142,6 +147,23 @@ def crush_energy(
     return absorbed
 
 
+def _profile(door: Door, value: Any, name: str) -> Any:
+    """A list of one number for each point or gap, each with an array if it is of many cases; a number that is one alone."""
+    if isinstance(value, (list, tuple)):
+        return [amount(door, part, "m", f"{name}[{i}]") for i, part in enumerate(value)]
+    read = amount(door, value, "m", name)
+    if not isinstance(read, np.ndarray):
+        return read
+    if read.ndim > 1:
+        raise ShapeError(
+            f"{name} is an array of shape {read.shape}; one profile is an array of one dimension, and many cases are a list "
+            f"of arrays, such as list({name}.T) if each row is a case",
+            code="bad_shape",
+            argument=name,
+        )
+    return [amount(door, part, "m", f"{name}[{i}]") for i, part in enumerate(read.tolist())]
+
+
 def _too_large(index: tuple[int, ...] = ()) -> InputError:
     return InputError(
         "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
@@ -151,10 +173,3 @@ def _too_large(index: tuple[int, ...] = ()) -> InputError:
 def _gap_energy(width: Any, one: Any, two: Any, a: Any, b: Any) -> Any:
     """Energy of one gap: the integral of A C + B C^2 / 2 + A^2 / (2 B) over a depth that changes evenly."""
     return width * (a * (one + two) / 2.0 + b * (one * one + one * two + two * two) / 6.0 + a * a / (2.0 * b))
-
-
-def _not_negative(door: Door, value: Any, unit: str, name: str) -> Any:
-    number = door.number(value, unit, name)
-    if isinstance(number, float) and number < 0.0:
-        door.refuse(InputError(f"{name} must be >= 0, got {value!r}", code="negative_length", argument=name))
-    return number

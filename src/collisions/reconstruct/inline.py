@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
 from ..kernels import codes
 from ..kernels.central import shares
@@ -91,7 +92,7 @@ def inline_closing_speed(
     door = Door()
     numbers = {"mass_a": door.number(mass_a, "kg", "mass_a", POSITIVE), "mass_b": door.number(mass_b, "kg", "mass_b", POSITIVE)}
     for name, value in (given | ({"ees_b": ees_b} if kind == "ees_a" else {})).items():
-        numbers[name] = not_negative(door, value, "J" if kind == "energy_loss" else "m/s", name)
+        numbers[name] = amount(door, value, "J" if kind == "energy_loss" else "m/s", name)
     function = restitution if callable(restitution) else None
     if function is None:
         numbers["restitution"] = door.number(restitution, "", "restitution", UNIT_INTERVAL)
@@ -125,15 +126,6 @@ def inline_closing_speed(
         )
     closing: Value = cases.values(answers[0])
     return closing
-
-
-def not_negative(door: Door, value: Any, unit: str, name: str) -> Any:
-    """A number that may not be below 0."""
-    number = door.number(value, unit, name)
-    if not isinstance(number, np.ndarray) and number < 0.0:
-        code = "negative_energy" if unit == "J" else "negative_speed"
-        door.refuse(InputError(f"{name} must be >= 0, got {value!r}; give the magnitude", code=code, argument=name))
-    return number
 
 
 def _speed(kind: str, numbers: dict[str, Any]) -> Any:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..amounts import amount
 from ..arguments import check_options
-from ..directions import Angle, between, direction
+from ..directions import Angle, between, course, direction
 from ..errors import (
     CollisionsError,
     EnergyGainWarning,
@@ -127,10 +128,14 @@ def momentum(
     }
     door = Door()
     masses = {name: door.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
-    known = {name: _speed(door, value, name) for name, value in speeds.items() if value is not None}
-    angles = {name: Angle(*door.angle(value, name)) for name, value in courses.items() if value is not None}
+    known = {
+        name: amount(door, value, "m/s", name, "turn its course by 180 deg")
+        for name, value in speeds.items()
+        if value is not None
+    }
+    angles = {name: course(door, value, name) for name, value in courses.items() if value is not None}
     headings = {
-        name: direction(door, value, name)
+        name: course(door, value, name).direction
         for name, value in (("heading_a", heading_a), ("heading_b", heading_b))
         if value is not None
     }
@@ -147,21 +152,12 @@ def momentum(
             **{f"normal[{i}]": part for i, part in enumerate(along or ())},
         }
     )
-    unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
-    terms = _terms(masses, known, angles, together)
-    exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
-    _need_courses(terms)
     with np.errstate(all="ignore"):
+        unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
+        terms = _terms(masses, known, angles, together)
+        exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
+        _need_courses(terms)
         return _solve(cases, terms, masses, angles, headings, impulse, along, unlike, together, on_failure)
-
-
-def _speed(door: Door, value: Any, name: str) -> Any:
-    speed = door.number(value, "m/s", name)
-    if not isinstance(speed, np.ndarray) and speed < 0.0:
-        door.refuse(
-            InputError(f"{name} must be >= 0, got {value!r}; turn its course by 180 deg", code="negative_speed", argument=name)
-        )
-    return speed
 
 
 def _share(given: dict[str, Any], kind: str) -> Any:

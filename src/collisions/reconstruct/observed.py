@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,16 +16,19 @@ from ..errors import (
     MissingInputError,
     NoImpactError,
     OutOfRangeWarning,
+    Status,
 )
 from ..kernels import codes
-from ..kernels.eccentric import eccentric
 from ..units import Input, Pair, Value, callers_level
-from ..vehicle import Vehicle
-from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
+from ..vehicle import Vehicle, missing
+from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, plain_error, raise_or_warn
 
-_forward: Callable[..., tuple[Any, ...]] = eccentric
-_NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
+_KEPT = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # what no impulse changes
+_SAME = 1e-9  # relative
+_ANY = Vehicle(mass=1.0)  # in place of bodies that were looked at before
+_STILL_APPROACH = "the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
+_PART_FASTER = "the contact points part faster than they met; the data contradict each other"
 
 
 def restitution(
@@ -41,13 +43,14 @@ def restitution(
     """Coefficient of restitution that the motions before and after show.
 
     Separation over closing speed along the normal: of the contact points with ``point``, of the centres of mass without it
-    (eqs 8, 16, 18 and 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"). Nothing but the motions is used;
-    masses and inertias do not matter.
+    (eqs 8, 16, 18 and 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"). Nothing but the motions is used:
+    masses and inertias do not matter, though those of one vehicle must be the same before and after.
 
     Parameters
     ----------
     a_before, b_before, a_after, b_after : Vehicle
-        The vehicles just before and just after; with ``point`` they need positions (those of the impact).
+        The vehicles just before and just after. Those that turn need positions, and where positions are given they are those
+        at the moment of impact, before and after alike: an impulse moves nothing.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m], optional
@@ -60,6 +63,8 @@ def restitution(
 
     Raises
     ------
+    InputError
+        An argument that cannot be used; a vehicle with another mass, yaw inertia or position after than before.
     NoImpactError
         The bodies did not approach before.
 
@@ -81,23 +86,15 @@ def restitution(
     with np.errstate(all="ignore"):
         closing = before["closing_speed"]
         found = (0.0 - after["closing_speed"]) / np.where(closing > 0.0, closing, np.nan)
-        status = _judge(cases, faults, closing)
+        status = cases.verdict((*faults, *_closing_faults(closing), (~np.isfinite(found), codes.OUT_OF_RANGE)))
+        _raise_or_warn(cases, status, closing)
         answer = np.where(np.equal(status, codes.OK), found, np.nan)
         # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
         eps = codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
         rounding = 4.0 * eps * (before["speeds"] + after["speeds"]) / closing
         below, above = answer < -rounding, answer > 1.0 + rounding
     if np.any(below | above):
-        worst = float(np.nanmin(answer)) if np.any(below) else float(np.nanmax(answer))
-        what = (
-            "below 0: the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
-            if worst < 0.0
-            else "above 1: the contact points part faster than they met; the data contradict each other"
-        )
-        warnings.warn(
-            OutOfRangeWarning(f"the observed restitution is {worst:.4g}, {what}", code="observed_restitution", value=worst),
-            stacklevel=callers_level(),
-        )
+        _warn_of_restitution(answer, below, above, cases.shape is not None)
     observed: Value = cases.values(answer)
     return observed
 
@@ -120,7 +117,8 @@ def friction(
     Parameters
     ----------
     a_before, b_before, a_after, b_after : Vehicle
-        The vehicles just before and just after.
+        The vehicles just before and just after, each with the same mass and, where given, the same yaw inertia and position,
+        which is that at the moment of impact.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m], optional
@@ -134,7 +132,7 @@ def friction(
     Raises
     ------
     InputError
-        A body has a pivot, whose impulse is not known.
+        A body has a pivot, whose impulse is not known; or is another one after than before.
     NoImpactError
         The bodies did not approach before, or were not pushed apart.
 
@@ -151,7 +149,7 @@ def friction(
     >>> round(col.reconstruct.friction(a, b, end.a.after, end.b.after, normal=0.0), 12)
     0.2
     """
-    for label, body in (("a_before", a_before), ("b_before", b_before)):
+    for label, body in (("a_before", a_before), ("b_before", b_before), ("a_after", a_after), ("b_after", b_after)):
         if isinstance(body, Vehicle) and body.pivot is not None:
             raise InputError(
                 f"{label} has a pivot, whose impulse is not known; friction takes free bodies", code="pinned", argument="pivot"
@@ -169,6 +167,7 @@ def friction(
                 *faults,
                 *_closing_faults(before["closing_speed"]),
                 (normal_part <= 0.0, codes.NOT_SEPARATING),
+                (~np.isfinite(tangential_part / normal_part), codes.OUT_OF_RANGE),
             )
         )
         _raise_or_warn(cases, status, before["closing_speed"])
@@ -180,9 +179,11 @@ def friction(
         ratio = np.where(sure, abs(tangential_part) / normal_part, np.nan)
     if np.any(both & (apart > _MISMATCH)):
         most = float(np.max(np.where(both, apart, 0.0)))
+        hit = np.count_nonzero(both & (apart > _MISMATCH))
+        by = f"{most:.0%}" if cases.shape is None else f"up to {most:.0%} in {hit} of {np.size(status)} cases"
         warnings.warn(
             IllConditionedWarning(
-                f"the impulses that the motions of A and B show differ by {most:.0%}: check masses, motions, and impulses from "
+                f"the impulses that the motions of A and B show differ by {by}: check masses, motions, and impulses from "
                 f"outside",
                 code="momentum_mismatch",
                 mismatch=most,
@@ -197,56 +198,115 @@ def _motions(
     a_before: Any, b_before: Any, a_after: Any, b_after: Any, normal: Any, point: Any, purpose: str
 ) -> tuple[dict[str, Any], dict[str, Any], Cases, list[tuple[Any, int]]]:
     """What the kernel says of the contact before and after."""
-    e, n, _, _, contact, _ = read(a_before, b_before, 0.0, normal, point, 0.0, None, None, codes.BRACH)
-    read(a_after, b_after, 0.0, n, None, 0.0, None, None, codes.BRACH)
+    named = {"a_before": a_before, "b_before": b_before, "a_after": a_after, "b_after": b_after}
+    wrong = [
+        InputError(
+            f"{label} must be a Vehicle, got {type(body).__name__}; write collisions.Vehicle(mass=...)",
+            code="not_a_vehicle",
+            argument=label,
+        )
+        for label, body in named.items()
+        if not isinstance(body, Vehicle)
+    ]
+    e, n, _, _, contact, _ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong)
     everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
     sides = {}
     for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):
         for label, body in zip("ab", bodies, strict=True):
             numbers = _numbers(body, contact, f"{label}_{moment}", purpose)
             sides[moment, label] = numbers
-            everything |= {f"{label}_{moment}.{name}": value for name, value in zip(_NUMBERS, numbers, strict=True)}
+            everything |= {f"{label}_{moment}.{name}": value for name, value in zip(NUMBERS, numbers, strict=True)}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    cases = Cases.of(everything)
+    kept = {
+        f"{label}.{name}": value
+        for label, body in named.items()
+        for name in _KEPT
+        if (value := getattr(body, name)) is not None
+    }
+    cases = Cases.of({**kept, **everything})
     found = []
     with np.errstate(all="ignore"):
         for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):
             arrays = [[np.asarray(value, dtype=np.float64) for value in sides[moment, label]] for label in "ab"]
-            pinned = [body.pivot is not None and np.any(np.not_equal(body.yaw_rate, 0.0)) for body in bodies]
+            pinned = [body.pivot is not None and not Vehicle._rests(body.yaw_rate) for body in bodies]
             inputs = (np.zeros(()), *map(np.asarray, n), np.zeros(()), *map(np.asarray, contact or (0.0, 0.0)))
-            raw = _forward(*inputs, *arrays[0], *arrays[1], codes.FRICTION, codes.BRACH, *pinned)
+            raw = forward(*inputs, *arrays[0], *arrays[1], codes.FRICTION, codes.BRACH, *pinned)
             known = {"closing_speed": raw[codes.AT["closing_speed"]], "normal": tuple(map(np.asarray, n)), "speeds": 0.0}
             for label, array in zip("ab", arrays, strict=True):
                 known |= {f"{name}_{label}": array[i] for i, name in ((0, "mass"), (2, "vx"), (3, "vy"))}
                 turning = abs(array[4]) * (abs(inputs[4] - array[5]) + abs(inputs[5] - array[6]))
                 known["speeds"] = known["speeds"] + abs(array[2]) + abs(array[3]) + turning
             found.append(known)
-    return found[0], found[1], cases, input_faults({**everything, "e": e})
+        return found[0], found[1], cases, [*input_faults({**everything, "e": e}), *_differences(kept, contact, cases)]
+
+
+def _differences(kept: dict[str, Any], contact: Any, cases: Cases) -> list[tuple[Any, int]]:
+    """Where a body before is not the same body in the same place after; single numbers that differ are refused at once."""
+    within = _SAME if cases.shape is None else max(_SAME, 8.0 * float(np.finfo(cases.dtype).eps))
+    # A coordinate may be 0 but for rounding, so what is small is told by the size of the scene.
+    scene = np.zeros(())
+    for place in (*(value for name, value in kept.items() if name.endswith((".x", ".y"))), *(contact or ())):
+        scene = np.fmax(scene, abs(place))
+    told, lanes = [], []
+    for label in ("a_before", "b_before"):
+        for name, unit in _KEPT.items():
+            before, after = f"{label}.{name}", f"{label[0]}_after.{name}"
+            if before not in kept or after not in kept:
+                continue
+            one, other = kept[before], kept[after]
+            size = scene if unit == "m" else np.fmax(abs(one), abs(other))
+            apart = np.abs(np.subtract(one, other))
+            unlike = np.not_equal(one, other) & ((apart > within * size) | (np.isinf(one) ^ np.isinf(other)))
+            if np.ndim(unlike):
+                lanes.append((unlike, codes.CONTRADICTORY))
+            elif unlike:
+                told.append(f"{before} = {one:.6g} {unit} and {after} = {other:.6g} {unit}, {apart:.6g} {unit} apart")
+    if told:
+        raise InputError(
+            f"the bodies before and after must be the same: {'; '.join(told)}. An impulse moves nothing: give both the "
+            f"position at the moment of impact, not at rest; {told[0][0]}_before.replace(vx=..., vy=..., yaw_rate=...) does",
+            code="different_bodies",
+            argument=told[0].partition(".")[0],
+        )
+    return lanes
+
+
+def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> None:
+    """Says by how much an observed restitution is outside 0 to 1, and in a batch how many are on which side."""
+    counts = {"below": int(np.count_nonzero(below)), "above": int(np.count_nonzero(above))}
+    low, high = float(np.nanmin(answer)), float(np.nanmax(answer))
+    worst = low if counts["below"] else high
+    if not batch:
+        text = f"is {worst:.4g}, " + (f"below 0: {_STILL_APPROACH}" if worst < 0.0 else f"above 1: {_PART_FASTER}")
+    else:
+        kinds = [f"{counts['below']} below 0, down to {low:.4g}: {_STILL_APPROACH}"] if counts["below"] else []
+        kinds += [f"{counts['above']} above 1, up to {high:.4g}: {_PART_FASTER}"] if counts["above"] else []
+        text = f"of {sum(counts.values())} of {np.size(answer)} cases is outside 0 to 1; {'; '.join(kinds)}"
+    warnings.warn(
+        OutOfRangeWarning(f"the observed restitution {text}", code="observed_restitution", value=worst, counts=counts),
+        stacklevel=callers_level(),
+    )
 
 
 def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any, ...]:
     """The numbers of one body; what does not matter for its motion at the contact is filled in."""
-    turns = np.any(np.not_equal(body.yaw_rate, 0.0))
+    turns = not Vehicle._rests(body.yaw_rate)
     if turns and contact is None:
         raise MissingInputError(
             f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
         )
     if contact is None or not turns:
-        return body.mass, np.inf, body.vx, body.vy, 0.0, 0.0, 0.0, 0.0, 0.0
+        unknown = np.any(np.isnan(body.yaw_rate))
+        return body.mass, np.inf, body.vx, body.vy, body.yaw_rate if unknown else 0.0, 0.0, 0.0, 0.0, 0.0
     for name in ("x", "y"):
-        body._need(name, purpose)
+        if getattr(body, name) is None:
+            raise missing(body, name, purpose, label)
     inertia = np.inf if body.yaw_inertia is None else body.yaw_inertia
     return body.mass, inertia, *body_numbers(body, contact)[2:]
 
 
 def _closing_faults(closing: Any) -> list[tuple[Any, int]]:
     return [(closing < 0.0, codes.SEPARATING), (closing == 0.0, codes.NO_CLOSING)]
-
-
-def _judge(cases: Cases, faults: list[tuple[Any, int]], closing: Any) -> Any:
-    status = cases.verdict((*faults, *_closing_faults(closing)))
-    _raise_or_warn(cases, status, closing)
-    return status
 
 
 def _raise_or_warn(cases: Cases, status: Any, closing: Any) -> None:
@@ -257,6 +317,8 @@ def _raise_or_warn(cases: Cases, status: Any, closing: Any) -> None:
                 "the motions show no impulse that pushes the bodies apart along the normal, which must point from A into B",
                 code="not_pushed",
             )
+        if code not in (codes.SEPARATING, codes.NO_CLOSING):
+            return plain_error(code, f"{Status(code).sentence}: give motions that are known")
         speed = cases.one(closing, index)
         return NoImpactError(
             f"the bodies did not approach before the impact: closing speed {speed:.6g} m/s along the normal, which must point "

@@ -13,8 +13,12 @@ from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import checks, codes
 from ..kernels.batch import precision
+from ..kernels.eccentric import eccentric
 from ..provenance import Reconstruction
 from ..units import broadcast
+
+# How the names of numbers begin that cannot be below 0.
+_AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
@@ -34,6 +38,10 @@ def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
         given=tuple(given),
     )
 
+
+# The forward kernel, called with the numbers of two bodies in this order.
+forward: Callable[..., tuple[Any, ...]] = eccentric
+NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 
 # For functions that answer with plain numbers, which have no status.
 ASK_ALONE = "asked alone, each says why"
@@ -83,7 +91,7 @@ def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
                 found.append((checks.negative(value), codes.BAD_FRICTION))
             else:
                 found.append((checks.not_finite(value), codes.NOT_FINITE))
-                if kind.startswith(("energy", "closing_speed")):
+                if kind.startswith(_AMOUNTS):
                     found.append((checks.negative(value), codes.CONTRADICTORY))
     return found
 

@@ -6,26 +6,32 @@ every origin of an end state is a candidate impulse taken off that state; the fo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+import warnings
+from typing import Any
 
 import numpy as np
 
+from ..amounts import amount
 from ..arguments import read
 from ..eccentric import body_numbers, missing_numbers
-from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
-from ..impact import Asked, Impact
+from ..errors import (
+    AmbiguousSolutionError,
+    CollisionsError,
+    IllConditionedWarning,
+    InputError,
+    NoSolutionError,
+    OutOfRangeWarning,
+)
+from ..impact import Asked, Impact, found_by
 from ..kernels import codes
-from ..kernels.eccentric import eccentric, recoil, response
 from ..provenance import Reconstruction
-from ..units import Door, Input, Pair
+from ..units import Door, Input, Pair, callers_level
 from ..vehicle import Vehicle
-from .outcome import Cases, exactly, input_faults, plain_error, settle
+from .origins import End, Origin
+from .outcome import NUMBERS, Cases, exactly, input_faults, plain_error, settle
 
-_forward: Callable[..., tuple[Any, ...]] = eccentric
 _REGIMES = ("frictionless", "sliding", "sticking", "given")
-_SAME = 1e-6  # of the impulse: far above rounding, far below what separates two origins
-_NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
+_NEARLY_STICKING = 0.05  # of the jump between both ways to slide: a slip so small may be none
 
 
 def planar(
@@ -49,7 +55,8 @@ def planar(
     The states after, the contact and the material determine the states before, except where the impact has wiped them out. A
     contact that ended without slip under "brach", or at rest under either law, keeps no trace of the slip before; after a
     plastic impact nothing is left of the closing speed, unless it or the energy loss is known; and an end state may have two
-    origins. Those are refused, with what there is in ``solutions`` and what would decide.
+    origins. Those are refused, with what there is in ``solutions`` and what would decide. The theory is eqs
+    10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with friction, solved for the motion before.
 
     Parameters
     ----------
@@ -89,6 +96,14 @@ def planar(
     NoSolutionError
         The motions do not part, or nothing before ends so.
 
+    Warns
+    -----
+    IllConditionedWarning
+        The slip after is so small that it may be none: under "brach" the answer then jumps with its sign.
+    OutOfRangeWarning
+        With ``closing_speed`` or ``energy_loss``: the contact points still approach, by at most 1 percent of the closing speed,
+        and were taken to stay together.
+
     Examples
     --------
     >>> import collisions as col
@@ -103,7 +118,7 @@ def planar(
     given = exactly({"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss}, 1, "planar")
     ((kind, value),) = given.items()
     door = Door()
-    amount = value if kind == "restitution" else _amount(door, kind, value)
+    known = value if kind == "restitution" else _amount(door, kind, value)
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
         door.refuse(
             InputError(
@@ -113,7 +128,7 @@ def planar(
     e, n, rule, bound, contact, _ = read(
         a_after,
         b_after,
-        amount if kind == "restitution" else 0.0,
+        known if kind == "restitution" else 0.0,
         normal,
         point,
         friction,
@@ -123,11 +138,11 @@ def planar(
         [*door.problems, *missing_numbers(a_after, b_after, point)],
     )
     bodies = body_numbers(a_after, contact), body_numbers(b_after, contact)
-    known = e if kind == "restitution" else amount
+    known = e if kind == "restitution" else known
     everything = {kind: known, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     for label, body in zip("ab", bodies, strict=True):
-        everything |= {f"{label}_after.{name}": number for name, number in zip(_NUMBERS, body, strict=True)}
+        everything |= {f"{label}_after.{name}": number for name, number in zip(NUMBERS, body, strict=True)}
     everything |= {
         f"{label}_after.heading": body.heading for label, body in (("a", a_after), ("b", b_after)) if body.heading is not None
     }
@@ -142,173 +157,21 @@ def planar(
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in everything.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = _End(arrays, kind, rule, law, pinned)
+        end = End(arrays, kind, rule, law, pinned)
         return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact), regime, on_failure)
 
 
 def _amount(door: Door, kind: str, value: Any) -> Any:
-    unit, least = ("m/s", "> 0") if kind == "closing_speed" else ("J", ">= 0")
-    number = door.number(value, unit, kind)
-    if not isinstance(number, np.ndarray) and (number <= 0.0 if kind == "closing_speed" else number < 0.0):
-        door.refuse(InputError(f"{kind} must be {least}, got {value!r}", code="not_positive", argument=kind))
+    number = amount(door, value, "m/s" if kind == "closing_speed" else "J", kind)
+    if kind == "closing_speed" and isinstance(number, float) and number == 0.0:
+        door.refuse(
+            InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
+        )
     return number
 
 
-class _Origin(NamedTuple):
-    """A candidate for the state before: how the contact ended, the impulse on B, restitution, condition, motions before."""
-
-    regime: str
-    normal: Any
-    tangential: Any
-    restitution: Any
-    condition: Any
-    motions: tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
-    fits: Any
-
-
-class _End:
-    """The state after, and what the kernel says of the contact there."""
-
-    def __init__(self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool]) -> None:
-        self.numbers = numbers
-        self.kind, self.rule, self.law, self.pinned = kind, rule, law, pinned
-        self.known, self.bound = numbers[kind], numbers[rule]
-        self.n = numbers["normal[0]"], numbers["normal[1]"]
-        self.p = numbers["point[0]"], numbers["point[1]"]
-        self.bodies = [[numbers[f"{label}_after.{name}"] for name in _NUMBERS] for label in "ab"]
-        # Approaching the end state, so to speak: the closing speed there is minus the separation speed.
-        here = self._kernel(np.zeros(()), codes.FRICTION, np.zeros(()), self.bodies)
-        self.status = here[0]
-        self.separation = 0.0 - here[codes.AT["closing_speed"]]
-        self.slip = here[codes.AT["slip_before"]]
-        self.k_nn = 1.0 / here[codes.AT["effective_mass"]]
-        self.k_nt = here[codes.AT["coupling"]]
-        # K^-1 times the contact velocity after.
-        self.whole = 0.0 - here[codes.AT["no_slip_normal"]], 0.0 - here[codes.AT["no_slip_tangential"]]
-        speeds = [np.hypot(body[2], body[3]) for body in self.bodies]
-        levers = [np.hypot(self.p[0] - body[5], self.p[1] - body[6]) for body in self.bodies]
-        scale = sum(speeds) + sum(abs(body[4]) * lever for body, lever in zip(self.bodies, levers, strict=True))
-        # The motion before leaves its rounding in the one after.
-        closing = np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
-        self.rounding = 64.0 * codes.EPS * (scale + np.where(closing > 0.0, closing, 0.0))
-        self.at_rest = (abs(self.slip) <= self.rounding) & (abs(self.separation) <= self.rounding)
-
-    def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None) -> tuple[Any, ...]:
-        law = self.law if rule == self.rule else codes.BRACH
-        inputs = (e, *(n or self.n), bound, *self.p, *bodies[0], *bodies[1])
-        return _forward(*inputs, rule, law, *self.pinned)
-
-    def candidates(self) -> list[_Origin]:
-        """Every origin the law allows, whether it fits or not."""
-        if self.rule == codes.IMPULSE_RATIO:
-            return [self._along("given", self.bound)]
-        if self.rule == codes.FRICTION:
-            finite = np.where(np.isinf(self.bound), np.nan, self.bound)
-            return [
-                self._along("frictionless", np.where(self.bound == 0.0, 0.0, np.nan)),
-                *(self._along("sliding", np.where(self.bound > 0.0, sign * finite, np.nan)) for sign in (1.0, -1.0)),
-                self._sticking("sticking", self.bound > 0.0),
-            ]
-        shared = (np.where(self.bound < 1.0, ratio, np.nan) for ratio in self._shared_ratios())
-        return [*(self._along("given", ratio) for ratio in shared), self._sticking("given", self.bound == 1.0)]
-
-    def _along(self, regime: str, ratio: Any) -> _Origin:
-        """The origin for a given impulse ratio."""
-        resistance = self.k_nn + ratio * self.k_nt
-        if self.kind == "energy_loss":
-            # Along the impulse the contact is a one-dimensional one, with the effective mass of that direction.
-            length = np.hypot(1.0, ratio)
-            d = (self.n[0] - ratio * self.n[1]) / length, (self.n[1] + ratio * self.n[0]) / length
-            there = self._kernel(np.zeros(()), codes.FRICTION, np.zeros(()), self.bodies, d)
-            parting, mass = 0.0 - there[codes.AT["closing_speed"]], there[codes.AT["effective_mass"]]
-            root = np.sqrt(parting * parting + 2.0 * self.known / mass)
-            impulse = mass * np.where(parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting))
-            normal = impulse / length
-            closing = resistance * normal - self.separation
-            return self._origin(regime, normal, ratio * normal, self.separation / closing, 2.0, resistance > 0.0)
-        normal = (self._closing() + self.separation) / resistance
-        e = self.separation / self.known if self.kind == "closing_speed" else self.known
-        condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
-        return self._origin(regime, normal, ratio * normal, e, condition, resistance > 0.0)
-
-    def _closing(self) -> Any:
-        """The closing speed, where it or the restitution is known."""
-        return self.known if self.kind == "closing_speed" else self.separation / self.known
-
-    def _sticking(self, regime: str, possible: Any) -> _Origin:
-        """The origin of a contact that does not slip under "kudlich-slibar", which sends all of the velocity back e-fold."""
-        if self.law == codes.BRACH:
-            nothing = np.full((), np.nan)
-            return self._origin(regime, nothing, nothing, nothing, nothing, False)
-        if self.kind == "energy_loss":
-            stored = self.whole[0] * self.separation + self.whole[1] * self.slip
-            inverse = np.sqrt(1.0 + 2.0 * self.known / stored)
-        elif self.kind == "closing_speed":
-            inverse = self.known / self.separation
-        else:
-            inverse = 1.0 / self.known
-        factor = 1.0 + inverse
-        possible = possible & ~self.at_rest
-        return self._origin(regime, factor * self.whole[0], factor * self.whole[1], 1.0 / inverse, factor, possible)
-
-    def _shared_ratios(self) -> tuple[Any, Any]:
-        """Impulse ratios that are the given share of the critical one.
-
-        The no-slip impulse is proportional to P - y, with y = K^-1 (0, s') under "brach" and K^-1 (r, s') under
-        "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves a quadratic in the ratio.
-        """
-        y_n, y_t = self.whole
-        if self.law == codes.BRACH:
-            # With e = -1 the wanted change along the normal is 0, and what remains is the slip.
-            only_slip = self._kernel(np.full((), -1.0), codes.FRICTION, np.zeros(()), self.bodies)
-            y_n, y_t = 0.0 - only_slip[codes.AT["no_slip_normal"]], 0.0 - only_slip[codes.AT["no_slip_tangential"]]
-        share = self.bound
-        square = y_n * self.k_nt
-        linear = y_n * self.k_nn - share * y_t * self.k_nt - (1.0 - share) * (self._closing() + self.separation)
-        constant = 0.0 - share * y_t * self.k_nn
-        half = -0.5 * (linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear))
-        return half / square, constant / half
-
-    def _origin(self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, possible: Any) -> _Origin:
-        e = np.where((e < 0.0) & (abs(self.separation) <= self.rounding), 0.0, e)
-        e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * codes.EPS + self.rounding / abs(self.separation)), 1.0, e)
-        (nx, ny), (px, py) = self.n, self.p
-        x, y = nx * normal - ny * tangential, ny * normal + nx * tangential
-        motions = []
-        for body, pinned, sign in zip(self.bodies, self.pinned, (-1.0, 1.0), strict=True):
-            mass, inertia, vx, vy, yaw_rate, cx, cy, ox, oy = body
-            a, b, rx, ry, _, _ = response(mass, inertia, vx, vy, cx, cy, ox, oy, px, py, pinned)
-            dvx, dvy, dw = recoil(a, b, sign * (rx * y - ry * x), sign * x, sign * y, cx, cy, ox, oy, pinned)
-            motions.append((vx - dvx, vy - dvy, yaw_rate - dw))
-        before = [[*body[:2], *motion, *body[5:]] for body, motion in zip(self.bodies, motions, strict=True)]
-        forward = self._kernel(e, self.rule, self.bound, before)
-        n_again, t_again = forward[codes.AT["normal_impulse"]], forward[codes.AT["tangential_impulse"]]
-        again = abs(n_again - normal) + abs(t_again - tangential) <= _SAME * (abs(normal) + abs(tangential))
-        fits = possible & again & (forward[0] <= codes.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
-        return _Origin(regime, normal, tangential, e, condition, (motions[0], motions[1]), fits)
-
-    def origin(self, regime: str | None) -> tuple[list[_Origin], Any]:
-        """The candidates, and for each whether it fits and is none of those before it."""
-        origins = [origin for origin in self.candidates() if regime in (None, origin.regime)]
-        fits: list[Any] = []
-        for i, origin in enumerate(origins):
-            new = np.asarray(origin.fits)
-            for earlier, taken in zip(origins[:i], fits, strict=True):
-                apart = abs(origin.normal - earlier.normal) + abs(origin.tangential - earlier.tangential)
-                new = new & ~(taken & (apart <= _SAME * (abs(origin.normal) + abs(origin.tangential))))
-            fits.append(new)
-        return origins, fits
-
-    def forgets_slip(self) -> Any:
-        """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
-        if self.rule == codes.IMPULSE_RATIO:
-            return False
-        could_stick = self.bound > 0.0 if self.rule == codes.FRICTION else self.bound == 1.0
-        return could_stick & (self.at_rest if self.law == codes.KUDLICH_SLIBAR else abs(self.slip) <= self.rounding)
-
-
 def _answer(
-    cases: Cases, end: _End, a: Vehicle, b: Vehicle, contact: tuple[Any, ...], regime: str | None, on_failure: Any
+    cases: Cases, end: End, a: Vehicle, b: Vehicle, contact: tuple[Any, ...], regime: str | None, on_failure: Any
 ) -> Impact:
     e, n, rule, bound, law, point = contact
     origins, fits = end.origin(regime)
@@ -331,7 +194,12 @@ def _answer(
     sure = np.equal(status, codes.OK)
     which = np.argmax(np.stack(np.broadcast_arrays(*fits)), axis=0) if fits else 0
     condition = np.choose(which, [one.condition for one in origins]) if origins else np.nan
-    origin = Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(np.where(sure, condition, np.nan)))
+    jump = end.jump(origins)
+    nearly = sure & (abs(end.slip) < _NEARLY_STICKING * jump)
+    condition = np.where(nearly, np.maximum(condition, jump / abs(end.slip)), condition)
+
+    def provenance(found: Any) -> Reconstruction:
+        return Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(found))
 
     def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
         moved = [
@@ -344,11 +212,12 @@ def _answer(
     def error(index: tuple[int, ...]) -> CollisionsError:
         solutions: tuple[Impact, ...] = ()
         if cases.shape is None:
-            solutions = tuple(
-                asked(list(one.motions), one.restitution, True).ask()
-                for one, fit in zip(origins, fits, strict=True)
-                if fit and status in (codes.AMBIGUOUS_INVERSE, codes.STICK_INVERSE)
-            )
+            fitting = [one for one, fit in zip(origins, fits, strict=True) if fit]
+            if status in (codes.AMBIGUOUS_INVERSE, codes.STICK_INVERSE):
+                impacts = [(one, asked(list(one.motions), one.restitution, True).ask()) for one in fitting]
+                solutions = tuple(
+                    found_by(provenance(one.condition), impact._asked, impact._raw, codes.OK) for one, impact in impacts
+                )
         separation, slip = cases.one(end.separation, index), cases.one(end.slip, index)
         return _error(int(np.asarray(status)[index]), end, separation, slip, regime, solutions)
 
@@ -357,11 +226,47 @@ def _answer(
         for side in range(2)
     ]
     restitution = np.choose(which, [one.restitution for one in origins]) if origins else np.nan
+    _warn(cases, end, sure & end.pressed, nearly, origins)
+    origin = provenance(np.where(sure, condition, np.nan))
     return settle(asked(motions, restitution, sure), status, origin, on_failure, error)
 
 
+def _warn(cases: Cases, end: End, pressed: Any, nearly: Any, origins: list[Origin]) -> None:
+    """Says where the last digits of what was measured decide."""
+    count = "" if cases.shape is None else f"in {{}} of {int(np.prod(cases.shape))} cases "
+    if np.any(pressed):
+        most = float(np.max(np.where(pressed, end.approach, 0.0)))
+        warnings.warn(
+            OutOfRangeWarning(
+                f"{count.format(np.count_nonzero(pressed))}the contact points still approach after the impact, by up to "
+                f"{most:.3g} m/s: taken as 0, a plastic impact, and the motions after changed by as much",
+                code="nearly_plastic",
+                approach=most,
+            ),
+            stacklevel=callers_level(),
+        )
+    if np.any(nearly):
+        slips = [np.where(nearly, origin.slip, np.nan) for origin in origins if origin.regime == "sliding"]
+        if cases.shape is None and len(slips) == 2:
+            low, high = sorted(float(slip) for slip in slips)
+            ends = f"{low:.4g} to {high:.4g} m/s"
+        else:
+            ends = "a wide range"
+        least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
+        warnings.warn(
+            IllConditionedWarning(
+                f"{count.format(np.count_nonzero(nearly))}the slip after the impact, {least:.3g} m/s, is so small that it may "
+                f"be none: then the contact stuck, and the slip before was anything in {ends}. The answer follows the sign of "
+                f"that slip; carry all digits, or decide with impulse_ratio= of either sign",
+                code="nearly_sticking",
+                slip_after=least,
+            ),
+            stacklevel=callers_level(),
+        )
+
+
 def _error(
-    status: int, end: _End, separation: float, slip: float, regime: str | None, solutions: tuple[Impact, ...]
+    status: int, end: End, separation: float, slip: float, regime: str | None, solutions: tuple[Impact, ...]
 ) -> CollisionsError:
     if status == codes.AMBIGUOUS_INVERSE:
         told = " or ".join(
@@ -377,10 +282,11 @@ def _error(
         )
     if status == codes.STICK_INVERSE:
         other = ", or law='kudlich-slibar' if that is the model" if end.law == codes.BRACH else ""
+        sliding = "regime='sliding' or " if end.rule == codes.FRICTION else ""
+        ends = f".solutions holds the {len(solutions)} ends of the range, where friction is just used up; " if solutions else ""
         return NoSolutionError(
             f"the contact ended without slip (slip after {slip:.3g} m/s), and under {end.law!r} any slip before may end so: "
-            f"the motion across the normal is lost. .solutions holds the {len(solutions)} ends of the range, where friction is "
-            f"just used up; regime='sliding' or impulse_ratio= of either sign decides{other}",
+            f"the motion across the normal is lost. {ends}{sliding}impulse_ratio= of either sign decides{other}",
             code="stick_inverse",
             solutions=solutions,
         )
@@ -393,7 +299,13 @@ def _error(
         "finite mass",
     }
     text = texts.get(status)
-    if text is None:
+    if text is None and end.always_sticks():
+        text = (
+            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is {slip:.6g} m/s; if "
+            f"that is an error of measurement, the contact stuck and its motion across the normal is lost; give a finite "
+            f"friction=, or impulse_ratio= of either sign"
+        )
+    elif text is None:
         wanted = f" in the regime {regime!r}" if regime is not None else ""
         text = (
             f"no motion before ends so{wanted} under {end.law!r} with this {end.rule} and {end.kind}: separation speed "

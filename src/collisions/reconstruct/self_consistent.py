@@ -15,6 +15,8 @@ _PIECES = 16
 _ROUNDS = 13
 # A jump changes sign as well; at a root what is left is rounding.
 _ROOT = 1e-6
+# Part of the closing speed over which the slope is taken: exact to 1e-8 for what bends over some metres per second.
+_STEP = 1e-4
 
 _Mismatch = Callable[[Any], Sequence[Any]]
 
@@ -98,6 +100,18 @@ class RestitutionOf:
     def __call__(self, closing: Any) -> Any:
         """Restitution at each closing speed; NaN where the function has none."""
         return np.array([self._one(float(speed)) for speed in closing])
+
+    def slope(self, closing: float) -> float:
+        """Change of restitution per closing speed there, to one side where the function ends; NaN where it has no value."""
+        places, refused = closing * np.array([1.0 - _STEP, 1.0, 1.0 + _STEP]), self.refused
+        values = self(places)
+        # Beside the answer the function need not hold.
+        self.refused = refused
+        known = np.isfinite(values)
+        if np.count_nonzero(known) < 2:
+            return math.nan
+        (first, *_, last) = np.flatnonzero(known)
+        return float((values[last] - values[first]) / (places[last] - places[first]))
 
     def _one(self, closing: float) -> float:
         if not closing > 0.0:

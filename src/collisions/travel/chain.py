@@ -50,6 +50,7 @@ def root(value: Any) -> Any:
 
 
 def contradiction(where: str, drop: float, after: float, gained: float) -> CollisionsError:
+    """Why no speed before a segment leads to the speed after it."""
     if drop > 0.0 or math.isinf(gained):
         return out_of_range()
     if drop == 0.0:
@@ -70,6 +71,7 @@ def contradiction(where: str, drop: float, after: float, gained: float) -> Colli
 
 
 def out_of_range() -> InputError:
+    """The refusal of a single case whose answer is no finite number."""
     return InputError(
         "the answer is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
     )

@@ -33,6 +33,7 @@ def _parts(door: Door, value: Any, unit: str, name: str, shape: str) -> list[Any
 
 
 def read_points(door: Door, points: Any) -> list[tuple[float, float]] | None:
+    """The positions, at least two and no two in a row alike; None if they could not be read."""
     parts = _parts(door, points, "m", "points", "(n, 2)")
     if parts is None:
         return None
@@ -89,11 +90,14 @@ def read_headings(door: Door, headings: Any, count: int | None) -> list[float]:
     for i, (before, after) in enumerate(pairwise(turned)):
         turn = after - before
         if abs(turn) > _HALF_TURN:
+            part = headings[i + 1] if isinstance(headings, (list, tuple)) else headings
+            bare = not (isinstance(part, str) or is_quantity(part))
+            radians = f"; bare numbers are radians, so write degrees as '{after:.6g} deg'" if bare else ""
             door.refuse(
                 InputError(
                     f"headings[{i}] to headings[{i + 1}] turn by {math.degrees(turn):.6g} deg, and at most half a turn can be "
-                    f"told: count headings on without a jump at a full turn (350 deg, then 370 deg), give points between for a "
-                    f"faster spin, and write degrees as '{after:.6g} deg'",
+                    f"told: count headings on without a jump at a full turn (350 deg, then 370 deg), and give points between "
+                    f"for a faster spin{radians}",
                     code="turns_too_far",
                     argument="headings",
                 )

@@ -9,7 +9,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
+from ..amounts import at_least_zero
+from ..errors import ShapeError, SuspectUnitsWarning, UnitsError
 from ..units import FINITE, Door, Input, callers_level, is_quantity
 from .chain import GRAVITY
 
@@ -56,18 +57,14 @@ def one_value(door: Door, value: Any, unit: str, name: str, domain: str = FINITE
     return door.number(value, unit, name, domain)
 
 
-def at_least_zero(door: Door, read: Any, given: Any, name: str, code: str, why: str) -> Any:
-    if isinstance(read, float) and read < 0.0:
-        return door.refuse(InputError(f"{name} must be >= 0, got {given!r}; {why}", code=code, argument=name))
-    return read
-
-
 def read_length(door: Door, value: Any, name: str) -> Any:
+    """A length of way [m], >= 0."""
     read = one_value(door, value, "m", name)
     return at_least_zero(door, read, value, name, "negative_distance", "it is counted along the way travelled")
 
 
 def read_speed(door: Door, value: Any, name: str) -> Any:
+    """A speed along the way [m/s], >= 0."""
     read = one_value(door, value, "m/s", name)
     return at_least_zero(door, read, value, name, "negative_speed", "it is counted along the way travelled")
 
@@ -101,6 +98,7 @@ def _factor_or_deceleration(door: Door, value: Any, name: str) -> Any:
 
 
 def read_grade(door: Door, value: Any, name: str) -> Any:
+    """The rise over the run, with a warning if a bare number is steeper than any road."""
     read = one_value(door, value, "", name)
     if not (isinstance(value, str) or is_quantity(value)):
         warn_if_above(_STEEPEST_GRADE, read, name, "the rise over the run", "%")
@@ -121,6 +119,7 @@ def single(door: Door, read: Any, name: str) -> Any:
 
 
 def warn_if_above(limit: float, read: Any, name: str, meaning: str, *units: str) -> None:
+    """Warns that a bare number is so large that it may have been meant in one of these units."""
     # fmax passes over NaN.
     largest = float(np.fmax.reduce(np.abs(read), axis=None, initial=0.0)) if isinstance(read, np.ndarray) else abs(read)
     if limit < largest < math.inf:

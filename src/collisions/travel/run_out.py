@@ -9,13 +9,14 @@ from dataclasses import dataclass, field, fields
 from itertools import pairwise
 from typing import Any
 
+from ..amounts import at_least_zero
 from ..errors import InputError, OutOfRangeWarning
 from ..fields import Quantities, attributes, derived, show, table, unit_of
 from ..units import UNIT_INTERVAL, Door, Input, Pair, callers_level, is_quantity
 from ..vehicle import angle_of
 from .chain import durations_along, out_of_range, speeds_along
 from .places import read_headings, read_points
-from .reading import HIGHEST_DRAG, Segments, at_least_zero, for_each, one_value, read_grade, read_speed, single, warn_if_above
+from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed, single, warn_if_above
 
 # For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
 _NOT_CHECKED = ""
@@ -129,6 +130,13 @@ def path(
         Naming every argument that cannot be used.
     NoSolutionError
         No start speed leads to this end.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        More than a quarter turn between two points, where one crab angle stands for all of it.
+    SuspectUnitsWarning
+        A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in another unit.
 
     Notes
     -----

@@ -18,9 +18,12 @@ from .reading import Segments, for_each, read_drag, read_grade, read_length, rea
 def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
     """Speed [m/s] at the start of a distance over which a vehicle slows.
 
+    The drag of the ground takes a known energy over each surface, so speeds chain backward from the end::
+
+        v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) * distance
+
     A list or tuple for ``distance`` is surfaces one after another, in order of travel; drag and grade then are one value for
-    all, or a list as long. An array is many cases; arrays broadcast, and may be the parts of a list. Cases that cannot be
-    answered are NaN and counted in one warning.
+    all, or a list as long. An array is many cases; arrays broadcast, and may be the parts of a list.
 
     Parameters
     ----------
@@ -31,7 +34,12 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     grade : float, str, Quantity, array or list of these
         Rise over run, positive uphill in the direction of travel; ``"-4 %"`` is downhill.
     end_speed : float, str, Quantity or array [m/s]
-        Speed at the end of the distance, 0 at rest.
+        Speed at the end of the distance, >= 0; 0 at rest.
+
+    Returns
+    -------
+    float or array [m/s]
+        Speed at the start, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -39,6 +47,20 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
         Naming every argument that cannot be used.
     NoSolutionError
         No start speed leads to this end: the ground would have had to take more energy than there was.
+
+    Warns
+    -----
+    CollisionsWarning
+        How many cases of a batch cannot be answered, and why.
+    SuspectUnitsWarning
+        A bare drag above 1.5 or a bare grade beyond 0.5, which is probably in another unit.
+
+    Notes
+    -----
+    The vehicle is a point mass on a straight line or a gentle bend, and each surface has one drag at every speed: shift of
+    load, resistance of the air and the time in which brakes build up are left out. A vehicle that spins has another drag at
+    every crab angle: see ``path``. Distances are those of the plan, with which drag + grade is exact; a tape on the slope
+    reads longer by ``sqrt(1 + grade**2)``.
 
     Examples
     --------
@@ -61,6 +83,10 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
 def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
     """Distance [m] over which a vehicle comes from one speed to another on one surface; the reverse of ``speed``.
 
+    The same balance of energy, with what it leaves out and where it holds::
+
+        distance = (speed**2 - end_speed**2) / (2 * GRAVITY * (drag + grade))
+
     Parameters
     ----------
     speed : float, str, Quantity or array [m/s]
@@ -70,7 +96,12 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     grade : float, str, Quantity or array
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
-        Speed at the end.
+        Speed at the end, >= 0; above ``speed`` on a downhill that the drag does not hold.
+
+    Returns
+    -------
+    float or array [m]
+        Distance in plan, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -78,6 +109,11 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         Naming every argument that cannot be used.
     NoSolutionError
         The vehicle never comes to the end speed, or keeps it over any distance.
+
+    Warns
+    -----
+    CollisionsWarning, SuspectUnitsWarning
+        As for ``speed``.
 
     Examples
     --------
@@ -110,7 +146,22 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
 
 def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
-    """Time [s] that a vehicle takes over the distance; the arguments are those of ``speed``.
+    """Time [s] that a vehicle takes over the distance.
+
+    The speeds at both ends of each surface are those of ``speed``, with what that leaves out; in between the deceleration is
+    constant, so the mean speed is half their sum::
+
+        time = sum(2 * distance / (v_start + v_end))
+
+    Parameters
+    ----------
+    distance, drag, grade, end_speed
+        As for ``speed``: one surface, a list of surfaces, or arrays of many cases.
+
+    Returns
+    -------
+    float or array [s]
+        Time from the start to the end, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -118,6 +169,11 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
         Naming every argument that cannot be used.
     NoSolutionError
         No start speed leads to this end.
+
+    Warns
+    -----
+    CollisionsWarning, SuspectUnitsWarning
+        As for ``speed``.
 
     Examples
     --------

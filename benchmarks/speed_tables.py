@@ -1,0 +1,467 @@
+"""The tables and figures of the page "Speed against accuracy", made from the numbers that benchmarks/speed.py wrote."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from stability_tables import GREY, INK, OURS, TEXTBOOK, number, table
+
+DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
+NOT_MEASURED = "not measured"
+
+
+class Choice(NamedTuple):
+    """A mark of the chart: its rows among the costs (one case, a batch), its row among the errors, its kind."""
+
+    name: str
+    single: str | None
+    batch: str | None
+    error: str
+    kind: str = "ours"
+
+
+CHOICES = (
+    Choice("linear_central", "linear_central", "linear_central", "linear_central"),
+    Choice("oblique_central", "oblique_central", "oblique_central", "oblique_central"),
+    Choice("solve, tolerance 0.5 m/s", "solve_eccentric", "solve", "solve"),
+    Choice("eccentric", "eccentric", "eccentric", "float64"),
+    Choice("eccentric, two threads", None, "eccentric_threads", "float64"),
+    Choice("eccentric, float32", None, "eccentric_float32", "float32"),
+    Choice("eccentric, the other law where it sticks", "kudlich_slibar", "kudlich_slibar", "law"),
+    Choice("textbook formula: bare floats, numpy", "formula", "numpy", "textbook", "other"),
+    Choice("numba, textbook formula", None, "numba", "textbook", "other"),
+    Choice("pymunk, one step", "pymunk", None, "pymunk", "other"),
+    Choice("eccentric, against a contact that takes time", "eccentric", "eccentric", "impulse", "time"),
+    Choice("the same once left_out has told it", "left_out", "left_out", "left_out", "time"),
+    Choice("the contact integrated", "integrated", None, "integrated", "time"),
+)
+COLOURS = {"ours": OURS, "other": TEXTBOOK, "time": GREY}
+
+
+def load() -> dict[str, Any]:
+    """The numbers."""
+    return json.loads((DATA / "speed.json").read_text(encoding="utf-8"))
+
+
+def load_contacts() -> dict[str, Any]:
+    """The contacts integrated in time."""
+    return json.loads((DATA / "time_resolved.json").read_text(encoding="utf-8"))
+
+
+def rows(found: dict[str, Any], group: str) -> dict[str, Any]:
+    """The costs of a group by key."""
+    return {row["key"]: row for row in found[group]}
+
+
+def percent(share: float) -> str:
+    """A share in percent, with powers of ten where it is tiny."""
+    return f"{number(100.0 * share)} %"
+
+
+def spread(row: dict[str, Any]) -> str:
+    """Quartiles of the rounds."""
+    return f"{number(row['low'])} to {number(row['high'])}"
+
+
+def machine(found: dict[str, Any]) -> str:
+    """On what it was measured."""
+    said, effort = found["machine"], found["effort"]
+    return (
+        f"Measured on {said['cores']} cores ({said['processor']}, {said['system']}), Python {said['python']}, numpy "
+        f"{said['numpy']}; batches of {effort['cases']:,} cases, {effort['rounds']} rounds of single cases and "
+        f"{effort['batch_rounds']} of batches."
+    ).replace(",000", " 000")
+
+
+def costs(found: dict[str, Any], group: str, keys: tuple[str, ...] | None = None) -> str:
+    """What each choice costs a case, in textbook formulas."""
+    known = rows(found, group)
+    listed = [key for key in keys or known if key in known]
+    return table(
+        [{"single": "one case at a time", "batch": "in a batch, cost per case"}[group], "cost", "half of the rounds"],
+        [[known[key]["name"], number(known[key]["median"]), spread(known[key])] for key in listed],
+    )
+
+
+WHY = {
+    "import": "Its own modules are read one by one, on top of numpy's.",
+    "vehicle": "Every argument is checked.",
+    "eccentric": "It checks the case, uses forms that keep their accuracy, and makes a result object.",
+    "nine": "Attributes are worked out when they are read, and the states after are vehicles of their own.",
+    "linear": "Checks and the result object cost more than so small a formula.",
+    "batch": "The forms that keep their accuracy need a third more operations than the textbook, and all is checked.",
+    "threads": "Both cores have to be idle, and the memory has to keep up with them.",
+    "batch_linear": "Some answers are worked out and kept that nobody may read.",
+    "memory": "Scratch is taken for a block of cases, once a thread.",
+    "quantities": "The type, the dimension and the factor of every argument are looked up.",
+}
+
+
+def budgets(found: dict[str, Any]) -> str:
+    """Held, or missed by how much and why."""
+    lines = []
+    for row in found["budgets"]:
+        if row["held"]:
+            aim = row["aim"]
+            verdict = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
+        else:
+            verdict = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {WHY[row['key']]}"
+        aim = "–" if row["aim"] is None else f"{row['aim']:g}"
+        measured = f"{row['median']:.2g}" if row["median"] < 0.1 else f"{row['median']:.3g}"
+        if row["low"] != row["high"]:
+            measured += f" ({row['low']:.3g} to {row['high']:.3g})"
+        lines.append([row["name"], f"{row['budget']:g}", aim, measured, verdict])
+    text = table(["what", "budget", "aim", "measured (half of the rounds)", ""], lines)
+    return text.replace("| --- | ---: | ---: | ---: | ---: |", "| --- | ---: | ---: | ---: | --- |")
+
+
+def verdict(found: dict[str, Any]) -> str:
+    """How many budgets hold."""
+    held = sum(row["held"] for row in found["budgets"])
+    return f"{held} of {len(found['budgets'])} hold in this run."
+
+
+def choices(found: dict[str, Any]) -> str:
+    """Every choice of the chart: what it costs and what it errs by."""
+    errors, lines = found["errors"]["choices"], []
+    known = {group: rows(found, group) for group in ("single", "batch")}
+    for at, choice in enumerate(CHOICES, 1):
+        error = errors[choice.error]
+        cells = []
+        for group, key in (("single", choice.single), ("batch", choice.batch)):
+            cells.append("–" if key is None else number(cost(known[group], choice, key)))
+        told = [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
+        lines.append([f"{at}. {choice.name}", *cells, *told])
+    return table(["choice", "cost of one case", "cost in a batch", "mean error", "19 of 20 err by less"], lines)
+
+
+def cost(known: dict[str, Any], choice: Choice, key: str) -> float | None:
+    """Of a mark; what left_out costs comes on top of the impact."""
+    if key not in known:
+        return None
+    return known[key]["median"] + (known["eccentric"]["median"] if choice.error == "left_out" else 0.0)
+
+
+def chosen(found: dict[str, Any]) -> str:
+    """What ``solve`` took in mixed traffic."""
+    solve = found["errors"]["choices"]["solve"]
+    taken = ", ".join(f"`{model}` for {100.0 * share:.0f} %" for model, share in solve["chosen"].items())
+    return (
+        f"In the mixed traffic of the chart, with a tolerance of {solve['tolerance']:g} m/s, `solve` takes {taken} of the "
+        f"cases. The worst error is {number(solve['most'])} m/s."
+    )
+
+
+def at(found: dict[str, Any], group: str, key: str, x: float) -> dict[str, float]:
+    """The point of a curve nearest to x."""
+    curve = next(curve for curve in found["errors"][group] if curve["key"] == key)
+    lane = min(range(len(curve["x"])), key=lambda i: abs(curve["x"][i] - x))
+    return {
+        name: curve[name][lane] for name in ("x", "error", "share", "delta_v_share", "predicted") if curve[name] is not None
+    }
+
+
+def curves(found: dict[str, Any], group: str) -> str:
+    """Some points of the curves: the share of delta-V with rotation, and m/s."""
+    head, wanted = {
+        "levers": ("lever / radius of gyration", (0.1, 0.25, 0.5, 1.0, 1.5)),
+        "angles": ("approach angle, degrees", (6, 10, 20, 30, 40, 60)),
+    }[group]
+    lines = []
+    for x in wanted:
+        points = [at(found, group, curve["key"], x) for curve in found["errors"][group]]
+        lines.append(
+            [number(points[0]["x"]), *(f"{percent(point['share'])}, {number(point['error'])} m/s" for point in points)]
+        )
+    return table([head, *(curve["name"] for curve in found["errors"][group])], lines)
+
+
+def prediction(found: dict[str, Any]) -> str:
+    """How far ``required_model`` is off from the errors made, over all the curves."""
+    pairs = [
+        pair
+        for group in ("levers", "angles")
+        for curve in found["errors"][group]
+        if curve["predicted"] is not None
+        for pair in zip(curve["predicted"], curve["error"], strict=True)
+    ]
+    worst = max(abs(said - made) for said, made in pairs)
+    return (
+        f"Over the {len(pairs)} points of the curves, prediction and error made differ by {number(worst)} m/s at most, in the "
+        "three digits that are kept."
+    )
+
+
+def contacts(found: dict[str, Any]) -> str:
+    """The impulse against the contact that takes time, and what ``left_out`` said of it."""
+    lines = []
+    for row in found["rows"]:
+        told = row["left_out"]
+        lines.append(
+            [
+                f"{row['name']}, {row['side'].upper()}",
+                number(row["delta_v"]),
+                number(row["tyres"]["delta_v"]),
+                number(told["tyre_delta_v"]),
+                number(row["moving"]["delta_v"]),
+                number(told["geometry_delta_v"]),
+                percent(row["all"]["share"]),
+            ]
+        )
+    return table(
+        ["impact", "delta-V", "tyres: integrated", "`left_out`", "geometry: integrated", "`left_out`", "both, of delta-V"],
+        lines,
+    )
+
+
+def rivals(found: dict[str, Any]) -> str:
+    """What else a user could take, beside ours."""
+    known = {group: rows(found, group) for group in ("single", "batch")}
+    errors, lines = found["errors"]["choices"], []
+    for name, group, key, ours, error in (
+        ("numba", "batch", "numba", "eccentric", "textbook"),
+        ("numba", "batch", "numba_threads", "eccentric_threads", "textbook"),
+        ("pymunk", "single", "pymunk", "eccentric_nine", "pymunk"),
+    ):
+        version, row = found["rivals"][name], known[group].get(key)
+        if row is None:
+            lines.append([f"{name}, {key}", *[NOT_MEASURED] * 4])
+            continue
+        mine = known[group][ours]
+        against = number(row["median"] / mine["median"])
+        cells = [number(row["median"]), number(mine["median"]), against, percent(errors[error]["p95"])]
+        lines.append([f"{row['name']} ({name} {version})", *cells])
+    return table(["what", "its cost", "ours", "its cost / ours", "19 of 20 differ by less"], lines)
+
+
+def imports(found: dict[str, Any]) -> str:
+    """Import times against numpy."""
+    lines = []
+    for name, row in found["imports"]["rows"].items():
+        cells = [NOT_MEASURED] * 2 if row is None else [number(row["best"]), spread(row)]
+        lines.append([f"`import {name}`", *cells])
+    return table(["", "against numpy, best", "half of the rounds"], lines)
+
+
+def break_even(found: dict[str, Any]) -> str:
+    """From how many cases on arrays are worth it."""
+    known = rows(found, "single")
+    cases = known["array_of_one"]["median"] / known["eccentric_nine"]["median"]
+    return (
+        f"An array of one case costs as much as {number(cases)} single cases, and each further one hardly anything. From about "
+        f"{math.ceil(cases)} cases on, a batch is the faster way."
+    )
+
+
+def first_call(found: dict[str, Any]) -> str:
+    """What numba takes to compile."""
+    told = found["rivals"]["numba_first_call"]
+    if told is None:
+        return "numba: not measured."
+    return f"The first call of the loop in numba, which compiles it, takes as long as {told:.0f} imports of numpy."
+
+
+def summary(found: dict[str, Any]) -> str:
+    """The budgets, for people at a terminal."""
+    lines = [machine(found)]
+    for row in found["budgets"]:
+        name = re.sub("`", "", row["name"])
+        lines.append(f"  {name:80s}{row['median']:8.3g} of {row['budget']:g}{'' if row['held'] else '   missed'}")
+    return "\n".join([*lines, verdict(found)])
+
+
+# --- Figures ---------------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def drawing() -> Iterator[Any]:
+    """Pyplot in the style of the pages."""
+    import matplotlib as mpl
+
+    mpl.use("agg")
+    style = {
+        "font.size": 11, "font.family": "DejaVu Sans", "figure.facecolor": "white", "savefig.facecolor": "white",
+        "svg.fonttype": "path", "svg.hashsalt": "collisions",
+    }  # fmt: skip
+    with mpl.rc_context(style):
+        import matplotlib.pyplot as plt
+
+        yield plt
+
+
+def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind: str = "svg") -> None:
+    """Every figure of the page."""
+    figures = {
+        "speed_choices": lambda plt: choices_figure(plt, found),
+        "speed_errors": lambda plt: errors_figure(plt, found),
+        "speed_contacts": lambda plt: contacts_figure(plt, contacts),
+    }
+    blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}[kind]
+    for name, draw in figures.items():
+        path = folder / f"{name}.{kind}"
+        with drawing() as plt:
+            figure = draw(plt)
+            figure.savefig(path, metadata=blank, dpi=110)
+            plt.close(figure)
+        if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
+            path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def choices_figure(plt: Any, found: dict[str, Any]) -> Any:
+    """Error against cost: circles are one case at a time, squares a batch; the numbers are those of the key."""
+    errors = found["errors"]["choices"]
+    known = {group: rows(found, group) for group in ("single", "batch")}
+    figure, (top, low) = plt.subplots(2, 1, figsize=(11.5, 7.6), sharex=True, height_ratios=(3.1, 1.0))
+    marked: list[tuple[Any, float, float, str, str]] = []
+    for at, choice in enumerate(CHOICES, 1):
+        error = errors[choice.error]
+        if error is None:
+            continue
+        axis = low if error["mean"] < 1e-9 else top
+        places = []
+        for group, key, mark in (("single", choice.single, "o"), ("batch", choice.batch, "s")):
+            x = None if key is None else cost(known[group], choice, key)
+            if x is not None:
+                places.append((x, mark))
+        colour = COLOURS[choice.kind]
+        axis.plot([x for x, _ in places], [error["mean"]] * len(places), color=colour, lw=1.0, alpha=0.35, zorder=1)
+        for x, mark in places:
+            axis.plot([x, x], [error["mean"], error["p95"]], color=colour, lw=1.2, alpha=0.6, zorder=1)
+            axis.plot(x, error["mean"], mark, ms=8, mfc="white", mec=colour, mew=2.0, zorder=2)
+            marked.append((axis, x, error["mean"], str(at), colour))
+    top.set(yscale="log", xscale="log", ylim=(3e-8, 2.0))
+    low.set(yscale="log", ylim=(3e-17, 3e-14))
+    top.set_yticks([10.0**k for k in range(-7, 1)], ["10⁻⁷", "10⁻⁶", "10⁻⁵", "0.01 %", "0.1 %", "1 %", "10 %", "100 %"])
+    low.set_yticks([1e-16, 1e-15, 1e-14], ["10⁻¹⁶", "10⁻¹⁵", "10⁻¹⁴"])
+    left, right = top.get_xlim()
+    low.set_xlim(left / 1.6, right * 1.6)
+    for axis in (top, low):
+        axis.minorticks_off()
+        axis.grid(color="#e3e3e3", lw=0.8)
+        axis.set_axisbelow(True)
+        axis.spines[["top", "right"]].set_visible(False)
+    top.set_ylabel("mean error, relative to delta-V")
+    low.set_xlabel("cost of a case; 1 is the textbook formula as a bare function of floats")
+    ticks = range(math.ceil(math.log10(low.get_xlim()[0])), math.floor(math.log10(low.get_xlim()[1])) + 1)
+    low.set_xticks([10.0**k for k in ticks], [f"{10.0**k:g}" if -3 < k < 4 else f"10{_raised(k)}" for k in ticks])
+    marks = [
+        plt.Line2D([], [], ls="", marker="o", mfc="white", mec=INK, ms=9, label="one case at a time"),
+        plt.Line2D([], [], ls="", marker="s", mfc="white", mec=INK, ms=9, label="in a batch"),
+        plt.Line2D([], [], color=INK, lw=1.2, label="19 in 20 scenes err by less"),
+    ]
+    figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.665, 0.97), frameon=False, fontsize=10)
+    figure.text(0.672, 0.80, "\n".join(_key("ours")), color=OURS, fontsize=10, va="top", linespacing=1.5)
+    figure.text(0.672, 0.545, "\n".join(_key("other")), color=TEXTBOOK, fontsize=10, va="top", linespacing=1.5)
+    figure.text(0.672, 0.425, "\n".join(_key("time")), color=GREY, fontsize=10, va="top", linespacing=1.5)
+    figure.tight_layout(rect=(0, 0, 0.665, 1))
+    _number(marked, figure.dpi / 72.0)
+    return figure
+
+
+# Where a number may stand beside its mark, in points.
+AROUND = ((12, 0), (-12, 0), (0, -13), (0, 13), (10, 9), (-10, 9), (10, -10), (-10, -10))
+
+
+def _number(marked: list[tuple[Any, float, float, str, str]], points: float) -> None:
+    """The numbers of the marks, each where it is farthest from other marks and numbers; ``points`` is pixels a point."""
+    taken = [axis.transData.transform((x, y)) for axis, x, y, *_ in marked]
+    for (axis, x, y, text, colour), (px, py) in zip(marked, list(taken), strict=True):
+        best, most = AROUND[0], 0.0
+        for shift in AROUND:
+            place = px + shift[0] * points, py + shift[1] * points
+            room = min(math.dist(place, other) for other in taken if tuple(other) != (px, py))
+            if min(room, 20.0 * points) > most + 0.1 * points:
+                best, most = shift, min(room, 20.0 * points)
+        taken.append((px + best[0] * points, py + best[1] * points))
+        axis.annotate(
+            text,
+            (x, y),
+            best,
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=10,
+            color=colour,
+            fontweight="bold",
+        )
+
+
+def _key(kind: str) -> list[str]:
+    return [f"{at}  {choice.name}" for at, choice in enumerate(CHOICES, 1) if choice.kind == kind]
+
+
+def _raised(power: int) -> str:
+    return str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+STYLES = ("-", (0, (6, 2)), (0, (1, 1.5)), (0, (7, 2, 1, 2)), (0, (3, 1.5)))
+SHADES = (OURS, TEXTBOOK, "#a01040", "#2b7a3d", GREY)
+
+
+def errors_figure(plt: Any, found: dict[str, Any]) -> Any:
+    """The error of the central models over lever and angle; crosses are what ``required_model`` predicts."""
+    figure, axes = plt.subplots(1, 2, figsize=(11.5, 5.4))
+    closing = 15.0
+    for axis, group, label in (
+        (axes[0], "levers", "lever / radius of gyration"),
+        (axes[1], "angles", "angle between relative velocity and normal, degrees"),
+    ):
+        for curve, style, colour in zip(found["errors"][group], STYLES, SHADES, strict=False):
+            axis.plot(
+                curve["x"], [100.0 * share for share in curve["share"]], ls=style, color=colour, lw=2, label=curve["name"]
+            )
+            if curve["predicted"] is not None:
+                scale = [share / error if error else 0.0 for share, error in zip(curve["share"], curve["error"], strict=True)]
+                said = [100.0 * s * p for s, p in zip(scale, curve["predicted"], strict=True)]
+                axis.plot(curve["x"][::3], said[::3], "x", color=colour, ms=6, mew=1.5)
+        axis.set_xlabel(label)
+        axis.set_ylim(0.0, 150.0 if group == "levers" else 100.0)
+        axis.set_xlim(0.0, curve["x"][-1])
+        axis.grid(color="#e3e3e3", lw=0.8)
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.legend(loc="upper left", frameon=True, framealpha=0.95, edgecolor="none", fontsize=9.5)
+    axes[0].plot([], [], "x", color=INK, ms=6, mew=1.5, label="predicted by required_model")
+    axes[0].legend(loc="upper left", frameon=True, framealpha=0.95, edgecolor="none", fontsize=9.5)
+    axes[0].set_ylabel("error with rotation, % of delta-V")
+    axes[0].set_title("oblique central: the lever left out", fontsize=11)
+    axes[1].set_title(f"an approach at an angle, {closing:g} m/s along the normal", fontsize=11)
+    figure.tight_layout()
+    return figure
+
+
+def contacts_figure(plt: Any, found: dict[str, Any]) -> Any:
+    """What tyres and moving geometry do to delta-V: integrated, and as ``left_out`` has it."""
+    listed = [row for row in found["rows"] if row["side"] == "b" or row["scene"] == "wall"]
+    figure, axes = plt.subplots(1, 2, figsize=(11.5, 4.6), sharey=True)
+    for axis, reference, estimate, title in (
+        (axes[0], "tyres", "tyre_delta_v", "tyres that slide"),
+        (axes[1], "moving", "geometry_delta_v", "geometry that changes meanwhile"),
+    ):
+        for at, row in enumerate(listed):
+            size = row["delta_v"]
+            true, said = 100.0 * row[reference]["delta_v"] / size, 100.0 * row["left_out"][estimate] / size
+            axis.plot([true, said], [at, at], color="#c9c9c9", lw=2, zorder=1)
+            axis.plot(true, at, "s", color=TEXTBOOK, ms=9, zorder=2)
+            axis.plot(said, at, "o", mfc="white", mec=OURS, mew=1.8, ms=8, zorder=3)
+        axis.set_title(title, fontsize=11)
+        axis.set_xlim(-1.0, None)
+        axis.grid(axis="x", color="#e3e3e3", lw=0.8)
+        axis.set_axisbelow(True)
+        axis.tick_params(axis="y", length=0)
+        axis.spines[["top", "right", "left"]].set_visible(False)
+        axis.set_xlabel("change of delta-V, % of it")
+    axes[0].set_yticks(range(len(listed)), [row["name"] for row in listed])
+    axes[0].set_ylim(len(listed) - 0.4, -0.6)
+    marks = [
+        plt.Line2D([], [], ls="", marker="s", color=TEXTBOOK, ms=9, label="integrated over the contact"),
+        plt.Line2D([], [], ls="", marker="o", mfc="white", mec=OURS, mew=1.8, ms=8, label="estimate of left_out"),
+    ]
+    figure.legend(handles=marks, loc="upper center", ncols=2, frameon=False)
+    figure.tight_layout(rect=(0, 0, 1, 0.93))
+    return figure

@@ -1,0 +1,424 @@
+"""What the impulse idealisation leaves out: tyre forces during the contact, and geometry that changes meanwhile."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .amounts import at_least_zero
+from .directions import from_radians
+from .errors import CollisionsWarning, EnergyGainWarning, InputError
+from .fields import Quantities, hypot, lock, numeric, show, table
+from .impact import Impact
+from .kernels.batch import precision
+from .kernels.select import select
+from .kernels.turning import turning_velocity
+from .side import Side
+from .travel.chain import GRAVITY, out_of_range
+from .travel.reading import one_value, read_drag, warn_if_above
+from .units import Door, Input, Value, broadcast, callers_level, is_quantity
+from .vehicle import Vehicle
+
+# No contact of vehicles lasts longer: beyond, a bare number is in another unit.
+_LONGEST = 1.0
+# Share of the impulse that has passed at moments that split the half-sine into parts that weigh the same in time.
+_PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
+# So little of the tyre impulse that sticking stays sticking; a power of 2, so that scaling it back rounds nothing.
+_LITTLE = 2.0**-6
+
+
+class _Shown:
+    """The fields of a dataclass with units, as a text, as a table, as Quantities, and out of a pickle."""
+
+    __slots__ = ()
+
+    __dataclass_fields__: dict[str, Any]
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (type(self), {name: getattr(self, name) for name in self.__dataclass_fields__})
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows(''))})"
+
+    def _repr_html_(self) -> str:
+        return table("Left out by the impulse idealisation", self._rows(""))
+
+    def _rows(self, prefix: str) -> Any:
+        for name, declared in self.__dataclass_fields__.items():
+            value = getattr(self, name)
+            if isinstance(value, _Shown):
+                yield from value._rows(f"{name}.")
+            elif value is not None:
+                yield prefix + name, show(value, declared.metadata["unit"])
+
+
+def _rebuild(kind: type[Any], values: dict[str, Any]) -> Any:
+    """An unpickled answer; arrays come out of a pickle unlocked."""
+    return kind(**{name: lock(value) for name, value in values.items()})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class LeftOutSide(_Shown):
+    """What was left out for one vehicle. Shares are of the vehicle's own delta-V in the impact.
+
+    Attributes
+    ----------
+    tyre_impulse_bound : float or array [N*s]
+        The most that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
+    tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
+        The change of velocity of the centre of mass by that impulse, and its share. Of a pinned vehicle: with the force across
+        the arm.
+    tyre_impulse : float or array [N*s]
+        Estimate: the tyres pull against the motion of the centre of mass, as it changes during the contact.
+    tyre_delta_v, tyre_share : float or array [m/s], [-]
+        Estimate of how far delta-V moves, as a vector, by the tyres of both vehicles and what the contact makes of them: hence
+        it may pass the bound, which is of the own tyres.
+    displacement_x, displacement_y : float or array [m]
+        Way of the centre of mass during the contact.
+    rotation : float or array [rad]
+        Turn during the contact, counter-clockwise.
+    geometry_delta_v, geometry_share : float or array [m/s], [-]
+        Estimate of how far delta-V moves, as a vector, because positions and normal change during the contact, if those of the
+        impact are the ones at first contact; None for the central models, which have no geometry.
+    """
+
+    tyre_impulse_bound: Value = field(metadata={"unit": "N*s"})
+    tyre_delta_v_bound: Value = field(metadata={"unit": "m/s"})
+    tyre_share_bound: Value = field(metadata={"unit": ""})
+    tyre_impulse: Value = field(metadata={"unit": "N*s"})
+    tyre_delta_v: Value = field(metadata={"unit": "m/s"})
+    tyre_share: Value = field(metadata={"unit": ""})
+    displacement_x: Value = field(metadata={"unit": "m"})
+    displacement_y: Value = field(metadata={"unit": "m"})
+    rotation: Value = field(metadata={"unit": "rad"})
+    geometry_delta_v: Value | None = field(metadata={"unit": "m/s"})
+    geometry_share: Value | None = field(metadata={"unit": ""})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class LeftOut(_Shown):
+    """What ``left_out`` found; floats, or arrays in a batch.
+
+    Attributes
+    ----------
+    duration : float or array [s]
+        Of the contact, as given.
+    drag : float or array [-]
+        Of tyres on the ground, as given.
+    mutual_crush : float or array [m]
+        How far the contact points pass into each other along the normal, both vehicles together, at its most.
+    residual_crush : float or array [m]
+        The same when they part.
+    contact_slide : float or array [m]
+        How far B's contact point moves along the tangent, relative to A's.
+    a, b : LeftOutSide
+        What was left out for each vehicle.
+    """
+
+    duration: Value = field(metadata={"unit": "s"})
+    drag: Value = field(metadata={"unit": ""})
+    mutual_crush: Value = field(metadata={"unit": "m"})
+    residual_crush: Value = field(metadata={"unit": "m"})
+    contact_slide: Value = field(metadata={"unit": "m"})
+    a: LeftOutSide = field()
+    b: LeftOutSide = field()
+
+
+def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> LeftOut:
+    """What an impact that takes no time and has no tyres leaves out, as numbers: is the idealisation fit for this case?
+
+    An impulse acts at once, at one place; a real contact takes about 0.1 s, in which tyres push too, and the vehicles move and
+    turn. The bound of the tyres needs nothing but drag and duration; the rest is estimated from the states before and after,
+    with a contact force that rises and falls as a half-sine.
+
+    Parameters
+    ----------
+    impact : Impact
+        Of any solver; single or a batch.
+    duration : float, str, Quantity or array [s]
+        Of the contact, >= 0: 0.05 to 0.15 s for cars, the longer the softer.
+    drag : float, str, Quantity or array
+        Of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as ``"6.9 m/s**2"``. 0.7 is
+        locked wheels on a dry road; wheels that roll along their heading have hardly any.
+
+    Returns
+    -------
+    LeftOut
+        In a batch a case that was refused is NaN, and so is the geometry of one that would be refused when shifted.
+
+    Raises
+    ------
+    InputError
+        Naming every argument that cannot be used.
+
+    Notes
+    -----
+    With s the share of the impulse that has passed, every velocity of a body of constant geometry is its value before plus s
+    times its change; in a half-sine of duration T, s = (1 - cos(pi t/T))/2. Then, all derived here:
+
+    - displacement and rotation are T times the mean of before and after (any pulse that is symmetrical in time); so is the
+      slide, which is exact if slip does not end during the contact;
+    - mutual crush is c T/(2 pi) ((1 - e)(pi - 2 atan(sqrt(e))) + 2 sqrt(e)) for a closing speed c: c T/2 if plastic, c T/pi if
+      elastic; with a constant force it would be c T/(2 (1 + e)). When they part (1 - e) c T/2 of it is left;
+    - the tyre impulse is drag x weight x T times the mean, over time, of the direction against the motion of the centre.
+      It moves delta-V together with what the contact makes of it: restitution still ends the impact with e times the closing
+      speed, and the solver is asked again. Against a wall in line that leaves nothing of it;
+    - for the geometry the solver is asked again with every position and angle halfway between where it is on average while the
+      force acts, T/2 (v + delta_v/4) on, which is where the impulse works, and where it is in the end, T (v + delta_v/2) on,
+      which is where restitution holds. The contact point goes with the mean of the two places that met, the normal with the
+      mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
+
+    Measured against the integration in benchmarks/time_resolved.py, of cars at 2 to 25 m/s, both estimates of the change of
+    delta-V are right to a factor of 1.5. If the contact stayed with one of the vehicles instead of going between them, that
+    of geometry would be 0.5 to 1.5 times as large, and that on yaw rates could have either sign: none is given.
+
+    Positions at maximum engagement, as they are found in a real crash, leave a half to a fifteenth of the effect of geometry;
+    then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
+    load and suspension, and crush that moves the centre of mass.
+
+    Examples
+    --------
+    Tyres against the delta-V of rear-end impacts at 2 and at 20 m/s; and what a T-bone does in 0.1 s:
+
+    >>> import collisions as col
+    >>> for speed in (2.0, 20.0):
+    ...     a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0)
+    ...     found = col.left_out(col.linear_central(a, b, restitution=0.4))
+    ...     side = found.b
+    ...     print(f"{side.tyre_delta_v_bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {found.mutual_crush:.2f} m")
+    0.69 m/s, 49% of it; crush 0.08 m
+    0.69 m/s, 5% of it; crush 0.79 m
+    >>> a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
+    >>> b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-1.0)
+    >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    >>> found = col.left_out(impact, duration="100 ms")
+    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}")
+    -13 deg, delta-V moves by 9%
+    """
+    door = Door()
+    if not isinstance(impact, Impact):
+        door.refuse(
+            InputError(
+                f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))",
+                code="not_an_impact",
+                argument="impact",
+            )
+        )
+    time = _read_duration(door, duration)
+    pull = read_drag(door, drag, "drag")
+    door.close()
+    given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
+    shape, dtype = broadcast(given), precision(given.values())
+    unusable = _unusable({"duration": time, "drag": pull})
+    # One case that was refused cannot be asked again, and has nothing that could be left out.
+    lost = impact.refused is True
+    point = impact.point
+    with np.errstate(all="ignore"):
+        refused = impact.refused | unusable
+
+        def settled(found: Any) -> Any:
+            if found is None:
+                return None
+            answer = select(refused, math.nan, found)
+            return answer if shape is None else lock(np.array(np.broadcast_to(answer, shape), dtype=dtype))
+
+        most = pull * GRAVITY * time
+        states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
+        reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
+        if shape is None and math.isinf(most + reach):
+            raise out_of_range()
+        kicks = (_Kick.of(impact.a, point, most), _Kick.of(impact.b, point, most))
+        tyres = [math.nan] * 2 if lost else _with_tyres(impact, kicks)
+        moved: list[Any] = [None] * 2 if point is None else [math.nan] * 2 if lost else _with_motion(impact, point, time)
+        sides = []
+        for side, kick, by_tyres, by_motion in zip((impact.a, impact.b), kicks, tyres, moved, strict=True):
+            before, delta_v = side.before, side.delta_v
+            mass = select(numeric(before.mass).isfinite(before.mass), before.mass, 0.0)
+            found = {
+                "tyre_impulse_bound": mass * most,
+                "tyre_delta_v_bound": kick.most,
+                "tyre_share_bound": _share(kick.most, delta_v),
+                "tyre_impulse": mass * kick.free,
+                "tyre_delta_v": by_tyres,
+                "tyre_share": _share(by_tyres, delta_v),
+                "displacement_x": (before.vx + 0.5 * side.delta_vx) * time,
+                "displacement_y": (before.vy + 0.5 * side.delta_vy) * time,
+                "rotation": (before.yaw_rate + 0.5 * side.delta_yaw_rate) * time,
+                "geometry_delta_v": by_motion,
+                "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
+            }
+            sides.append(LeftOutSide(**{name: settled(value) for name, value in found.items()}))
+        return LeftOut(
+            duration=settled(time),
+            drag=settled(pull),
+            **{name: settled(value) for name, value in _whole(impact, time).items()},
+            a=sides[0],
+            b=sides[1],
+        )
+
+
+def _read_duration(door: Door, duration: Any) -> Any:
+    read = one_value(door, duration, "s", "duration")
+    read = at_least_zero(door, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
+    if not (isinstance(duration, str) or is_quantity(duration)):
+        warn_if_above(_LONGEST, read, "duration", "seconds", "ms")
+    return read
+
+
+def _unusable(values: dict[str, Any]) -> Any:
+    """The cases whose duration or drag is what the door refuses of a single number; counted in one warning."""
+    lanes: Any = False
+    counts: dict[str, int] = {}
+    for name, value in values.items():
+        if isinstance(value, np.ndarray):
+            for code, wrong in (("not_finite", ~np.isfinite(value)), (f"negative_{name}", value < 0.0)):
+                lanes = lanes | wrong
+                if wrong.any():
+                    counts[code] = counts.get(code, 0) + int(np.count_nonzero(wrong))
+    if counts:
+        listed = ", ".join(f"{count} {code}" for code, count in counts.items())
+        warnings.warn(
+            CollisionsWarning(
+                f"{sum(counts.values())} durations or drags cannot be used, and what they are for is NaN ({listed})",
+                code="refused_cases",
+                counts=counts,
+            ),
+            stacklevel=callers_level(),
+        )
+    return lanes
+
+
+def _whole(impact: Impact, time: Any) -> dict[str, Any]:
+    """What is left out of the contact as a whole."""
+    e, closing = impact.restitution, impact.closing_speed
+    xp = numeric(e)
+    root = xp.sqrt(e)
+    return {
+        "mutual_crush": closing * time / (2.0 * math.pi) * ((1.0 - e) * (math.pi - 2.0 * xp.atan(root)) + 2.0 * root),
+        "residual_crush": 0.5 * (1.0 - e) * closing * time,
+        "contact_slide": 0.5 * (impact.slip_before + impact.slip_after) * time,
+    }
+
+
+class _Kick(NamedTuple):
+    """What the tyres of one vehicle alone would do over the contact: to its centre, its yaw rate and its contact point."""
+
+    x: Any
+    y: Any
+    yaw: Any
+    contact_x: Any
+    contact_y: Any
+    free: Any
+    most: Any
+
+    @classmethod
+    def of(cls, side: Side, point: Any, most: Any) -> _Kick:
+        """``most`` is the change of velocity by tyres that pull one way throughout."""
+        before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
+        moves = numeric(before.mass).isfinite(before.mass)
+        most = select(moves, most, 0.0)
+        x: Any = 0.0
+        y: Any = 0.0
+        for passed in _PASSED:
+            vx, vy = before.vx + passed * change_x, before.vy + passed * change_y
+            speed = hypot(vx, vy)
+            speed = select(speed == 0.0, 1.0, speed)
+            x, y = x - vx / speed / len(_PASSED), y - vy / speed / len(_PASSED)
+        x, y = most * x, most * y
+        pull = hypot(x, y)
+        if before.pivot is None:
+            return cls(x, y, 0.0, x, y, pull, most)
+        arm_x, arm_y = before._need("x", "left_out") - before.pivot[0], before._need("y", "left_out") - before.pivot[1]
+        square = arm_x * arm_x + arm_y * arm_y
+        turning = before.mass / (before.yaw_inertia + before.mass * square)
+        yaw = turning * (arm_x * y - arm_y * x)
+        at_point = turning_velocity(yaw, point[0], point[1], before.pivot[0], before.pivot[1])
+        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * turning * square)
+
+
+def _with_tyres(impact: Impact, kicks: tuple[_Kick, _Kick]) -> list[Any]:
+    """How far delta-V of each vehicle moves by the tyres of both, if restitution ends the contact as it would without them."""
+    nx, ny = impact.normal
+    a, b = kicks
+    closing = impact.closing_speed
+    nearer = nx * (a.contact_x - b.contact_x) + ny * (a.contact_y - b.contact_y)
+    # Taken the way round that brings the vehicles nearer, for which the restitution that is wanted is below 1.
+    part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
+    faster = closing + part * nearer
+    again = _ask(
+        impact,
+        *(
+            side.before._moved(
+                side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
+            )
+            for side, kick in zip((impact.a, impact.b), kicks, strict=True)
+        ),
+        restitution=impact.restitution * (closing / faster),
+    )
+    return [
+        hypot(kick.x + (new.delta_vx - old.delta_vx) / part, kick.y + (new.delta_vy - old.delta_vy) / part)
+        for old, new, kick in zip((impact.a, impact.b), (again.a, again.b), kicks, strict=True)
+    ]
+
+
+def _with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
+    """How far delta-V of each vehicle moves when the geometry is the one of later in the contact."""
+    bodies, turns, places, fixed = [], [], [], []
+    for side in (impact.a, impact.b):
+        before = side.before
+        # Halfway from the mean that the force sees, T/2 (v + change/4), to the end, T (v + change/2).
+        dx, dy, turn = (
+            time * (0.75 * was + 0.3125 * change)
+            for was, change in (
+                (before.vx, side.delta_vx),
+                (before.vy, side.delta_vy),
+                (before.yaw_rate, side.delta_yaw_rate),
+            )
+        )
+        turns.append(turn)
+        fixed.append(numeric(before.mass).isinf(before.mass) & numeric(before.yaw_inertia).isinf(before.yaw_inertia))
+        if before.x is None or before.y is None:
+            bodies.append(before)
+            places.append((dx, dy))
+            continue
+        arm = point[0] - before.x, point[1] - before.y
+        now = _turned(*arm, turn)
+        places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
+        bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
+    on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
+    again = _ask(
+        impact,
+        *bodies,
+        point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),
+        normal=_turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1]),
+    )
+    return [
+        hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
+        for old, new in ((impact.a, again.a), (impact.b, again.b))
+    ]
+
+
+def _ask(impact: Impact, a: Vehicle, b: Vehicle, **changes: Any) -> Impact:
+    """The question of the impact again with other numbers; what is to be said of it was said the first time."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", EnergyGainWarning)
+        return impact._again(a=a, b=b, **changes)
+
+
+def _turned(x: Any, y: Any, angle: Any) -> tuple[Any, Any]:
+    c, s = from_radians(angle)
+    return c * x - s * y, s * x + c * y
+
+
+def _share(part: Any, whole: Any) -> Any:
+    """The quotient; nothing is no share of anything, also not of the nothing of a wall."""
+    return select(part == 0.0, 0.0, part / select(whole == 0.0, math.nan, whole))

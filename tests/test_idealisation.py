@@ -1,0 +1,501 @@
+"""What the impulse idealisation leaves out: by hand, against a contact integrated in time, and every refusal."""
+
+import json
+import math
+import pickle
+import re
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pint
+import pytest
+
+import collisions as col
+from collisions.idealisation import LeftOut, LeftOutSide
+from collisions.travel import GRAVITY
+
+ROOT = Path(__file__).resolve().parent.parent
+MOST = 0.7 * GRAVITY * 0.1
+TOGETHER = ("duration", "drag", "mutual_crush", "residual_crush", "contact_slide")
+SIDES = tuple(LeftOutSide.__dataclass_fields__)
+
+
+def rear_end(speed, restitution=0.4, **changes):
+    """Two equal cars in line, the front one at rest."""
+    a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0)
+    return col.linear_central(a, b, restitution, **changes)
+
+
+def t_bone(speed=20.0, restitution=0.1, b=None, **changes):
+    """The one of the benchmark."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speed, x=-2.2, y=0.0, heading=0.0)
+    b = b or col.Vehicle(mass=1200.0, yaw_inertia=2100.0, x=0.8, y=-1.0, heading="90 deg")
+    return col.eccentric(a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **changes})
+
+
+def numbers(found):
+    """Every field by its name."""
+    return {name: getattr(found, name) for name in TOGETHER} | {
+        f"{label}.{name}": getattr(getattr(found, label), name) for label in "ab" for name in SIDES
+    }
+
+
+# By hand
+
+
+@pytest.mark.parametrize(("speed", "share"), [(2.0, 0.49), (20.0, 0.049)])
+def test_locked_wheels_in_a_rear_end_impact(speed, share):
+    """0.69 m/s: half of the delta-V at 2 m/s, a twentieth at 20 m/s; delta-V is 0.7 of the speed."""
+    found = col.left_out(rear_end(speed))
+    for side in (found.a, found.b):
+        assert side.tyre_delta_v_bound == pytest.approx(0.69, abs=0.005)
+        assert side.tyre_impulse_bound == pytest.approx(1500 * MOST)
+        assert side.tyre_share_bound == pytest.approx(MOST / (0.7 * speed))
+        assert side.tyre_share_bound == pytest.approx(share, rel=0.01)
+        # Both slide forward throughout, so the contact feels no difference.
+        assert side.tyre_impulse == pytest.approx(1500 * MOST)
+        assert side.tyre_delta_v == pytest.approx(MOST)
+        assert side.tyre_share == pytest.approx(side.tyre_share_bound)
+        assert side.rotation == 0.0
+        assert side.geometry_delta_v is side.geometry_share is None
+    # A goes on at 0.3 and B at 0.7 of the speed.
+    assert found.a.displacement_x == pytest.approx(0.065 * speed)
+    assert found.b.displacement_x == pytest.approx(0.035 * speed)
+    assert found.a.displacement_y == found.b.displacement_y == found.contact_slide == 0.0
+    assert found.residual_crush == pytest.approx(found.a.displacement_x - found.b.displacement_x)
+
+
+def test_tyres_of_one_vehicle_are_shared_by_the_contact():
+    """A plastic impact has one common velocity: what the tyres of either take is divided over both masses."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=500.0, vx=-30.0)
+    # The common velocity is 0: A slides forward throughout, B backward.
+    found = col.left_out(col.linear_central(a, b, 0.0))
+    assert found.a.tyre_delta_v == pytest.approx(MOST * (1500 - 500) / 2000)
+    assert found.b.tyre_delta_v == pytest.approx(MOST * (1500 - 500) / 2000)
+    assert found.b.tyre_impulse == pytest.approx(500 * MOST)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.05, 0.3, 0.7, 1.0])
+def test_mutual_crush_is_that_of_a_half_sine(restitution):
+    """The closing speed summed up to where it is 0, and to the end: midpoints of 200 000 steps, 1e-9 of the crush."""
+    found = col.left_out(rear_end(10.0, restitution), duration=0.12)
+    middles = (np.arange(200_000) + 0.5) / 200_000
+    closing = 10.0 - (1.0 + restitution) * 10.0 * 0.5 * (1.0 - np.cos(np.pi * middles))
+    assert found.mutual_crush == pytest.approx(0.12 * np.maximum(closing, 0.0).mean(), rel=1e-8)
+    assert found.residual_crush == pytest.approx(0.12 * closing.mean(), abs=1e-9)
+
+
+def test_crush_at_the_ends_of_restitution():
+    """Half of closing times duration if plastic, a share of 1/pi if elastic and then nothing is left."""
+    assert col.left_out(rear_end(10.0, 0.0)).mutual_crush == pytest.approx(0.5)
+    elastic = col.left_out(rear_end(10.0, 1.0))
+    assert elastic.mutual_crush == pytest.approx(1.0 / math.pi)
+    assert elastic.residual_crush == 0.0
+
+
+def test_a_car_that_turns_round_pulls_nothing_on_the_whole():
+    """Elastic, of equal masses against each other: each slides as long one way as the other."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1500.0, vx=-10.0)
+    found = col.left_out(col.linear_central(a, b, 1.0))
+    assert found.a.tyre_impulse == pytest.approx(0.0, abs=1e-9)
+    assert found.a.tyre_delta_v == pytest.approx(0.0, abs=1e-9)
+    assert found.a.tyre_delta_v_bound == pytest.approx(MOST)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
+def test_against_a_wall_in_line_tyres_take_what_the_wall_need_not(restitution):
+    """Delta-V is (1 + e) times the speed, whoever gives it; the wall itself neither moves nor pulls."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=0.3), col.Vehicle.barrier(), restitution)
+    found = col.left_out(impact)
+    assert found.a.tyre_share_bound == pytest.approx(MOST / (0.3 * (1 + restitution)))
+    assert found.a.tyre_delta_v == pytest.approx(0.0, abs=1e-12)
+    assert all(value == 0.0 for name, value in numbers(found).items() if name.startswith("b.") and value is not None)
+
+
+def test_oblique_points_slide_along_each_other():
+    """Frictionless at 10 m/s across the normal: 1 m of slide, and tyres against the way each goes."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0, vy=0.0), col.Vehicle(mass=1500.0, vy=10.0)
+    found = col.left_out(col.oblique_central(a, b, 0.0, normal=0.0, friction=0.0))
+    assert found.contact_slide == pytest.approx(1.0)
+    assert found.mutual_crush == pytest.approx(0.5)
+    assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx((0.25, 1.0))
+    # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the pull, towards +x.
+    assert found.a.tyre_impulse == pytest.approx(1500 * MOST)
+    assert 0.9 * 1500 * MOST < found.b.tyre_impulse < 1500 * MOST
+    assert found.b.geometry_delta_v is None
+
+
+def test_t_bone():
+    """Rotation and displacement are the mean of before and after times the duration; geometry moves delta-V by a tenth."""
+    impact = t_bone()
+    found = col.left_out(impact)
+    assert found.b.rotation == pytest.approx(0.05 * impact.b.after.yaw_rate)
+    assert found.a.displacement_x == pytest.approx(0.05 * (20.0 + impact.a.after.vx))
+    assert found.a.geometry_share == pytest.approx(found.b.geometry_share)
+    assert found.b.geometry_share == pytest.approx(0.104, abs=0.002)
+    assert found.b.geometry_share == pytest.approx(found.b.geometry_delta_v / impact.b.delta_v)
+
+
+def test_geometry_that_does_not_matter():
+    """Where both centres are on the normal and nothing turns, the impact is the same later on."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
+    impact = col.eccentric(a, a.replace(vx=0.0, x=2.2), 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    assert col.left_out(impact).b.geometry_delta_v == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_contact_that_takes_no_time_leaves_nothing_out():
+    """Nor does one without drag and time; all numbers are 0."""
+    found = numbers(col.left_out(t_bone(), duration=0.0))
+    assert {name: value for name, value in found.items() if value != 0.0} == {"drag": 0.7}
+    assert col.left_out(t_bone(), drag=0).a.tyre_delta_v == 0.0
+
+
+def test_a_pinned_vehicle():
+    """Its tyres turn it about the pivot: as much as the arm, the inertia and the mass make of their moment."""
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, x=0.8, y=0.5, pivot=(0.8, -1.0))
+    impact = t_bone(b=b, friction=0.0)
+    found = col.left_out(impact)
+    share = 1200 * 1.5**2 / (2100 + 1200 * 1.5**2)
+    assert found.b.tyre_delta_v_bound == pytest.approx(MOST * share)
+    assert found.b.tyre_impulse == pytest.approx(1200 * MOST)
+    # A slides forward, B's centre too. Frictionless and in line the contact is one-dimensional: masses along the normal.
+    pushed = (2100 + 1200 * 1.5**2) / 1.0**2
+    kick_a, kick_b = -MOST, -MOST * share * 1.0 / 1.5
+    common = (1500 * kick_a + pushed * kick_b) / (1500 + pushed)
+    assert found.a.tyre_delta_v == pytest.approx(abs(common))
+    assert found.b.tyre_delta_v == pytest.approx(abs(common) * 1.5)
+    assert found.b.rotation == pytest.approx(0.05 * impact.b.after.yaw_rate)
+    assert 0.0 < found.b.geometry_delta_v < impact.b.delta_v
+
+
+def later(body, side, time):
+    """How far a vehicle has gone and turned halfway from the mean that a half-sine sees to the end, and where its point is."""
+    dx, dy, turn = (
+        time * (0.5 * (0.5 + 1.0) * was + 0.5 * (0.125 + 0.5) * change)
+        for was, change in ((body.vx, side.delta_vx), (body.vy, side.delta_vy), (body.yaw_rate, side.delta_yaw_rate))
+    )
+    c, s = math.cos(turn), math.sin(turn)
+    x, y = body.x or 0.0, body.y or 0.0
+    return turn, body.replace(x=x + dx, y=y + dy), (x + dx - c * x + s * y, y + dy - s * x - c * y)
+
+
+def test_geometry_between_two_vehicles_is_their_mean():
+    """The solver asked by hand with positions, point (first at the origin) and normal of later in the contact."""
+    impact = t_bone(b=col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0))
+    turn_a, a, on_a = later(impact.a.before, impact.a, 0.08)
+    turn_b, b, on_b = later(impact.b.before, impact.b, 0.08)
+    point = (0.5 * (on_a[0] + on_b[0]), 0.5 * (on_a[1] + on_b[1]))
+    again = col.eccentric(a, b, 0.1, normal=0.5 * (turn_a + turn_b), point=point, friction=0.5)
+    found = col.left_out(impact, duration=0.08)
+    for name in "ab":
+        old, new = getattr(impact, name), getattr(again, name)
+        moved = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
+        assert getattr(found, name).geometry_delta_v == pytest.approx(moved, rel=1e-12)
+
+
+def test_a_wall_keeps_its_normal_and_the_car_its_place_of_contact():
+    """Whether the wall has a position or not, and whichever of the two it is."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=15.0, x=-1.8, y=0.4)
+    rest = {"normal": "30 deg", "point": (0.0, 0.0), "friction": 0.4}
+    impact = col.eccentric(a, col.Vehicle.barrier(), 0.1, **rest)
+    _, moved, point = later(a, impact.a, 0.1)
+    again = col.eccentric(moved, col.Vehicle.barrier(), 0.1, **{**rest, "point": point})
+    wanted = math.hypot(again.a.delta_vx - impact.a.delta_vx, again.a.delta_vy - impact.a.delta_vy)
+    assert wanted > 1.0
+    assert col.left_out(impact).a.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
+    placed = col.left_out(col.eccentric(a, col.Vehicle.barrier(x=1.0, y=0.0), 0.1, **rest))
+    swapped = col.left_out(col.eccentric(col.Vehicle.barrier(), a, 0.1, **{**rest, "normal": "210 deg"}))
+    assert placed.a.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
+    assert swapped.b.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.7, 2.5, -1.9])
+def test_the_scene_may_be_turned_and_exchanged(turn):
+    """Nothing depends on the axes or on which vehicle is called A; 1e-9 for the rounding of a change that is scaled up."""
+    c, s = math.cos(turn), math.sin(turn)
+
+    def turned(vehicle):
+        place = {"x": c * vehicle.x - s * vehicle.y + 3.0, "y": s * vehicle.x + c * vehicle.y - 2.0}
+        return vehicle.replace(vx=c * vehicle.vx - s * vehicle.vy, vy=s * vehicle.vx + c * vehicle.vy, **place)
+
+    impact = t_bone(b=col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0))
+    found = col.left_out(impact)
+    a, b = turned(impact.a.before), turned(impact.b.before)
+    again = col.left_out(col.eccentric(a, b, 0.1, normal=turn, point=(3.0, -2.0), friction=0.5))
+    swapped = col.left_out(col.eccentric(b, a, 0.1, normal=turn + math.pi, point=(3.0, -2.0), friction=0.5))
+    skipped = ("displacement_x", "displacement_y")
+    for name in SIDES:
+        if name not in skipped:
+            assert getattr(again.b, name) == pytest.approx(getattr(found.b, name), rel=1e-9), name
+            assert getattr(swapped.a, name) == pytest.approx(getattr(found.b, name), rel=1e-9), name
+    for name in TOGETHER:
+        assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9, abs=1e-12), name
+
+
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
+@pytest.mark.parametrize(
+    "rule", [{"friction": 0.2}, {"friction": math.inf}, {"impulse_ratio": 0.1}, {"critical_fraction": 0.5}]
+)
+def test_every_law_and_rule_is_asked_again(law, rule):
+    """Finite estimates of the size of the bounds."""
+    found = col.left_out(t_bone(law=law, friction=None, **rule) if "friction" not in rule else t_bone(law=law, **rule))
+    for side in (found.a, found.b):
+        assert 0.0 < side.tyre_delta_v < 1.5 * side.tyre_delta_v_bound
+        assert 0.0 < side.geometry_share < 0.5
+
+
+# Units and looks
+
+
+def test_units_of_every_kind():
+    """Texts and Quantities of another registry; a deceleration for the drag."""
+    other = pint.UnitRegistry()
+    wanted = numbers(col.left_out(t_bone(), duration=0.08, drag=0.6))
+    for arguments in (
+        {"duration": "80 ms", "drag": "60 %"},
+        {"duration": other.Quantity(80, "ms"), "drag": other.Quantity(0.6, "g_0")},
+        {"duration": pint.Quantity(0.08, "s"), "drag": f"{0.6 * GRAVITY!r} m/s**2"},
+    ):
+        assert numbers(col.left_out(t_bone(), **arguments)) == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+
+
+def test_quantities_and_tables():
+    """Every field has its unit, as a Quantity, in the repr and in the table of a notebook."""
+    found = col.left_out(t_bone())
+    assert isinstance(found, LeftOut)
+    assert all(type(value) is float for value in numbers(found).values())
+    assert found.q.mutual_crush.to("cm").magnitude == pytest.approx(100 * found.mutual_crush)
+    assert found.q.b.rotation.to("deg").magnitude == pytest.approx(math.degrees(found.b.rotation))
+    assert found.b.q.tyre_impulse.check("[mass] * [length] / [time]")
+    assert found.q.a.tyre_share.dimensionless
+    assert repr(found).startswith("LeftOut(duration=0.1 s, drag=0.7, mutual_crush=")
+    assert "b.tyre_delta_v_bound=0.686465 m/s" in repr(found)
+    assert repr(found.b).startswith("LeftOutSide(tyre_impulse_bound=823.759 N*s")
+    page = found._repr_html_()
+    for name in numbers(found):
+        assert f">{name}</th>" in page
+    assert "geometry" not in repr(col.left_out(rear_end(5.0)))
+    with pytest.raises(AttributeError):
+        found.duration = 0.2
+
+
+def test_pickles():
+    """The same numbers, and arrays still locked."""
+    found = col.left_out(t_bone(np.array([10.0, 20.0])))
+    again = pickle.loads(pickle.dumps(found))
+    np.testing.assert_array_equal(again.b.tyre_share, found.b.tyre_share)
+    assert not again.b.tyre_share.flags.writeable
+    assert not again.mutual_crush.flags.writeable
+
+
+# Many cases
+
+
+def test_a_batch_is_its_cases():
+    """Speeds, durations and drags broadcast; 1e-9 for the rounding of a change that is scaled up."""
+    speeds, durations, drags = np.array([2.0, 20.0]), np.array([[0.05], [0.1], [0.0]]), np.array([0.3, 0.9])
+    found = numbers(col.left_out(t_bone(speeds), duration=durations, drag=drags))
+    for value in found.values():
+        assert value.shape == (3, 2)
+        assert not value.flags.writeable
+    for index in np.ndindex(3, 2):
+        one = col.left_out(t_bone(speeds[index[1]]), duration=durations[index[0], 0], drag=drags[index[1]])
+        for name, value in numbers(one).items():
+            assert found[name][index] == pytest.approx(value, rel=1e-9, abs=1e-12), name
+
+
+def test_one_impact_of_many_durations_and_many_impacts_of_one():
+    """Either may be the array; geometry is None all over for the central models."""
+    for found in (
+        col.left_out(rear_end(10.0), duration=np.array([0.05, 0.1])),
+        col.left_out(rear_end(np.array([10.0, 10.0]))),
+    ):
+        assert found.a.tyre_delta_v.shape == found.mutual_crush.shape == found.duration.shape == (2,)
+        assert found.a.geometry_delta_v is None
+        assert found.b.tyre_delta_v[1] == pytest.approx(MOST)
+
+
+def test_single_precision_stays():
+    """float32 where every array is; the scaled change keeps four digits."""
+    speeds = np.array([2.0, 20.0])
+    short, full = (col.left_out(t_bone(speeds.astype(kind))) for kind in (np.float32, np.float64))
+    for name, value in numbers(short).items():
+        assert value.dtype == np.float32, name
+        np.testing.assert_allclose(value, numbers(full)[name], rtol=2e-4, atol=1e-4)
+
+
+def test_refused_cases_are_nan_and_their_neighbours_untouched():
+    """Those that the impact refused, without another word; those of a bad duration or drag, with one warning."""
+    speeds = np.array([20.0, -1.0, 20.0, 20.0, 20.0])
+    impact = t_bone(speeds, on_failure="nan")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = numbers(col.left_out(impact))
+    for value in found.values():
+        assert np.isnan(value).tolist() == [False, True, False, False, False]
+    durations = np.array([0.1, 0.1, -0.1, math.nan, 0.1])
+    drags = np.array([0.7, 0.7, 0.7, 0.7, -0.7])
+    with pytest.warns(col.CollisionsWarning, match="3 durations or drags cannot be used") as caught:
+        found = numbers(col.left_out(impact, duration=durations, drag=drags))
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+    assert caught[0].message.fields["counts"] == {"not_finite": 1, "negative_duration": 1, "negative_drag": 1}
+    one = numbers(col.left_out(t_bone()))
+    for name, value in found.items():
+        assert np.isnan(value).tolist() == [False, True, True, True, True]
+        assert value[0] == pytest.approx(one[name], rel=1e-9, abs=1e-12)
+
+
+def test_a_single_refused_impact_is_nan():
+    """As its own numbers are; in as many cases as there are durations."""
+    impact = t_bone(-1.0, on_failure="nan")
+    assert all(math.isnan(value) for value in numbers(col.left_out(impact)).values())
+    many = col.left_out(impact, duration=np.array([0.1, 0.2]))
+    assert np.isnan(many.a.geometry_share).tolist() == [True, True]
+
+
+def test_a_geometry_that_is_no_impact_later_on_is_nan():
+    """One that slides by, and turns, so that the surfaces part when most of the contact is over; alone as in a batch."""
+    for speed in (1.0, np.array([1.0])):
+        a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speed, vy=-10.0, yaw_rate=3.0, x=-0.8, y=0.0)
+        b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, yaw_rate=3.0, x=0.8, y=0.0)
+        found = col.left_out(col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0))
+        assert np.isnan(found.a.geometry_delta_v)
+        assert np.isnan(found.b.geometry_share)
+        assert np.isfinite(found.a.tyre_delta_v)
+
+
+def test_an_impact_that_gains_energy_says_so_once():
+    """The solver did when it was asked, and not again for what is left out."""
+    with pytest.warns(col.EnergyGainWarning):
+        impact = t_bone(friction=None, impulse_ratio=-0.9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert col.left_out(impact).a.tyre_delta_v > 0.0
+
+
+# Refusals
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ({"duration": -0.1}, "negative_duration", "duration must be >= 0, got -0.1"),
+        ({"duration": "-5 ms"}, "negative_duration", "got '-5 ms'"),
+        ({"duration": math.nan}, "not_finite", "duration is NaN"),
+        ({"duration": math.inf}, "not_finite", "duration must be finite"),
+        ({"duration": "5 m"}, "bad_units", "'5 m' cannot be taken as s"),
+        ({"duration": "x"}, "bad_units", "such as 0.1 (s) or '100 ms'"),
+        ({"duration": None}, "not_a_number", "duration must be a number"),
+        ({"duration": True}, "not_a_number", "duration must be a number"),
+        ({"duration": [0.1, 0.2]}, "bad_shape", "duration is a list, and takes one value; many cases go in a numpy array"),
+        ({"duration": "1e308 s"}, "out_of_range", "too large"),
+        ({"drag": -0.7}, "negative_drag", "drag must be >= 0, got -0.7"),
+        ({"drag": "5 m"}, "bad_units", "drag: cannot read '5 m' as a drag factor or a deceleration"),
+        ({"drag": math.inf}, "not_finite", "drag must be finite"),
+        ({"duration": np.ones(2), "drag": np.ones(3)}, "bad_shape", "duration (2,), drag (3,)"),
+        ({"impact": 3.0}, "not_an_impact", "impact must be an Impact, got float"),
+        ({"impact": None}, "not_an_impact", "write left_out(collisions.eccentric(...))"),
+        ({"impact": col.Vehicle(mass=1.0)}, "not_an_impact", "got Vehicle"),
+    ],
+)
+def test_refusals(arguments, code, said):
+    """Each says what to write."""
+    arguments = {"impact": t_bone(), **arguments}
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        col.left_out(arguments.pop("impact"), **arguments)
+    assert caught.value.code == code
+
+
+def test_all_wrong_arguments_are_named_at_once():
+    """One error, one line for each."""
+    with pytest.raises(col.InputError, match="3 arguments cannot be used") as caught:
+        col.left_out(None, duration="x", drag="y")
+    for name in ("impact", "duration", "drag"):
+        assert f"\n- {name}" in str(caught.value)
+
+
+@pytest.mark.parametrize(("arguments", "said"), [({"duration": 100}, "'100 ms'"), ({"drag": 6.9}, "'6.9 m/s**2' or '6.9 %'")])
+def test_bare_numbers_of_a_suspect_size(arguments, said):
+    """Read as what they are, with a warning; the same with a unit is beyond suspicion."""
+    with pytest.warns(col.SuspectUnitsWarning, match=re.escape(said)) as caught:
+        col.left_out(rear_end(10.0), **arguments)
+    assert caught[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        col.left_out(rear_end(10.0), duration="2 s", drag="20 m/s**2")
+
+
+# Against a contact that takes time
+
+
+@pytest.fixture(scope="module")
+def script():
+    """The benchmark."""
+    if not (ROOT / "benchmarks").is_dir():
+        pytest.skip("the sdist has no benchmarks")
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        import time_resolved
+    finally:
+        sys.path.remove(str(ROOT / "benchmarks"))
+    return time_resolved
+
+
+@pytest.fixture(scope="module")
+def measured(script):
+    """All scenes and physics, in steps as long as the contact friction allows."""
+    return script.measure(steps=160)
+
+
+def test_the_reference_is_the_impulse_where_nothing_is_left_out(measured):
+    """With the geometry of first contact and no tyres; 0.0005 is what friction that fades out below 10 cm/s takes off."""
+    for row in measured["rows"]:
+        assert row["fixed"]["share"] <= 6e-4, row["scene"]
+
+
+def test_the_reference_has_converged(script, measured):
+    """Half the step changes no delta-V by 0.1 %."""
+    assert measured["halving_the_step"] < 1e-3
+
+
+def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
+    """Sliding with the centre, and at four wheels, which also turn."""
+    for row in measured["rows"]:
+        for which in ("tyres", "wheels"):
+            assert 1 / 1.5 < row["left_out"]["tyre_delta_v"] / row[which]["delta_v"] < 1.5, (row["scene"], which)
+
+
+def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
+    """Where it matters at all; with a contact that stays with A or B it may be 0.5 to 1.5 times as much."""
+    for row in measured["rows"]:
+        moved = row["moving"]["delta_v"]
+        if row["scene"].startswith("rear_end"):
+            assert moved == row["left_out"]["geometry_delta_v"] == 0.0
+            continue
+        assert 1 / 1.5 < row["left_out"]["geometry_delta_v"] / moved < 1.5, row["scene"]
+        assert row["moving_square"]["delta_v"] == pytest.approx(moved, rel=0.15), row["scene"]
+        for carrier in ("moving_with_a", "moving_with_b"):
+            assert 0.5 <= row[carrier]["delta_v"] / moved < 1.5, (row["scene"], carrier)
+        assert row["engaged"]["delta_v"] < 0.55 * moved, row["scene"]
+
+
+def test_the_figures_of_the_design(measured):
+    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 6 %."""
+    rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
+    assert rows["rear_end_2", "b"]["wheels"]["share"] == pytest.approx(0.43, abs=0.01)
+    assert rows["rear_end_20", "b"]["wheels"]["share"] == pytest.approx(0.049, abs=0.001)
+    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.06, abs=0.002)
+
+
+def test_the_script_writes_what_it_prints(script, measured, monkeypatch, capsys, tmp_path):
+    """Strict JSON in the file that is named, a table on the screen."""
+    monkeypatch.setattr(script, "measure", lambda: measured)
+    monkeypatch.setattr(sys, "argv", ["time_resolved.py", str(tmp_path / "found.json")])
+    script.main()
+    assert json.loads((tmp_path / "found.json").read_text("utf-8")) == measured
+    printed = capsys.readouterr().out
+    for scene in script.SCENES:
+        assert scene.name in printed

@@ -1,0 +1,70 @@
+"""Progress of long runs: a function of the caller's, a bar, or a line; silence for short runs."""
+
+import sys
+import types
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import progress
+from collisions.kernels.batch import BLOCK
+
+V = np.full(3 * BLOCK, 20.0)
+
+
+def solve(shown):
+    """A batch of three blocks."""
+    return col.linear_central(col.Vehicle(mass=1000.0, vx=V), col.Vehicle(mass=1000.0), 0.1, progress=shown)
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    """Progress is shown at once."""
+    monkeypatch.setattr(progress, "_PATIENCE", -1.0)
+
+
+def test_a_short_run_shows_nothing(capsys):
+    """Not even when asked."""
+    solve(True)
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.usefixtures("impatient")
+def test_nothing_is_shown_unasked(capsys):
+    """However long it takes."""
+    solve(None)
+    solve(False)
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.usefixtures("impatient")
+def test_a_line_where_tqdm_is_not_installed(capsys, monkeypatch):
+    """On stderr, ended with the run."""
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    solve(True)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err == "".join(f"\r{(i + 1) * BLOCK} of {V.size} cases" for i in range(3)) + "\n"
+
+
+@pytest.mark.usefixtures("impatient")
+def test_a_bar_where_tqdm_is_installed(monkeypatch):
+    """Told of every block, and closed at the end."""
+    seen = []
+
+    class Bar:
+        def __init__(self, total, **options):
+            self.n = 0
+            seen.append(total)
+
+        def update(self, more):
+            self.n += more
+            seen.append(self.n)
+
+        def close(self):
+            seen.append("closed")
+
+    monkeypatch.setitem(sys.modules, "tqdm.auto", types.SimpleNamespace(tqdm=Bar))
+    solve(True)
+    assert seen == [V.size, BLOCK, 2 * BLOCK, 3 * BLOCK, "closed"]

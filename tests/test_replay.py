@@ -1,0 +1,241 @@
+"""A kernel replayed block by block gives the bits it gives when it is called; nothing leaks between cases, blocks or threads."""
+
+import itertools
+import pickle
+import threading
+import warnings
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.kernels.batch import BLOCK, Scoped
+from collisions.kernels.codes import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, OUTPUTS, RULES
+from collisions.kernels.eccentric import eccentric
+from collisions.kernels.linear import linear_central, outside_linear
+from collisions.kernels.oblique import oblique_central, outside_central
+from collisions.kernels.replay import Replay, record
+
+ODD = (0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324, 1e308)
+LINEAR = Scoped(linear_central, outside_linear, 9, 8)
+OBLIQUE = Scoped(oblique_central, outside_central, 10, 2)
+
+
+def programs():
+    """Every kernel with every setting that changes what it does."""
+    yield pytest.param(linear_central, (), 9, id="linear")
+    yield pytest.param(LINEAR, (), 17, id="linear with its scope")
+    for rule, law in itertools.product(RULES, LAWS):
+        yield pytest.param(oblique_central, (rule, law), 10, id=f"oblique {rule} {law}")
+        for pinned in itertools.product((False, True), repeat=2):
+            yield pytest.param(eccentric, (rule, law, *pinned), 24, id=f"eccentric {rule} {law} {pinned}")
+    yield pytest.param(OBLIQUE, (FRICTION, LAWS[0]), 12, id="oblique with its scope")
+
+
+def kinds(dtype):
+    """The types of the outputs."""
+    return tuple(np.dtype({"status": np.uint8, "sticks": np.bool_}.get(name, dtype)) for name in OUTPUTS)
+
+
+def numbers(count, size, dtype, rng, odd):
+    """Inputs in the order of a kernel's arguments, some of them values that no impact has."""
+    found = rng.uniform(0.05, 2.0, (count, size)) * rng.choice([-1.0, 1.0, 1.0], (count, size))
+    if odd:
+        found = np.where(rng.random((count, size)) < 0.1, rng.choice(ODD, (count, size)), found)
+    with np.errstate(all="ignore"):
+        return list(found.astype(dtype))
+
+
+def compare(kernel, settings, inputs, dtype, length):
+    """All outputs of the replay in blocks of a length, against the kernel called on each block; to the bit."""
+    texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
+    program = record(kernel, settings, texts, dtype, kinds(dtype))
+    size = next(len(value) for value in inputs if isinstance(value, np.ndarray))
+    outputs = [np.full(size, 7, kind) for kind in kinds(dtype)]
+    replay = Replay(program, length)
+    with np.errstate(all="ignore"):
+        for start in range(0, size, length):
+            block = slice(start, min(start + length, size))
+            cut = [value if isinstance(value, float) else value[block] for value in inputs]
+            replay(cut, [output[block] for output in outputs])
+            for name, output, wanted in zip(OUTPUTS, outputs, kernel(*cut, *settings), strict=True):
+                expected = np.empty(block.stop - start, output.dtype)
+                expected[...] = wanted
+                np.testing.assert_array_equal(output[block], expected, err_msg=name)
+                # NaN aside, signs of zero included.
+                real = expected == expected
+                np.testing.assert_array_equal(np.signbit(output[block][real] * 1.0), np.signbit(expected[real] * 1.0), name)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
+def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):
+    """Ordinary and impossible values, a last block that is short, every model, rule, law and pivot."""
+    rng = np.random.default_rng(count)
+    eps = float(np.finfo(dtype).eps)
+    for odd in (False, True):
+        compare(kernel, (*settings, eps), numbers(count, 301, dtype, rng, odd), dtype, 128)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
+def test_plain_numbers_among_the_arrays(kernel, settings, count, dtype):
+    """Which inputs are arrays is drawn; the others are floats, zeros and infinite masses among them."""
+    rng = np.random.default_rng(count + 1)
+    for _ in range(12):
+        inputs = numbers(count, 40, dtype, rng, odd=False)
+        arrays = set(rng.choice(count, rng.integers(1, count), replace=False).tolist())
+        plain = [float(rng.choice([0.5, 1.0, 2.0, abs(value[0])])) for value in inputs]
+        mixed = [value if i in arrays else number for i, (value, number) in enumerate(zip(inputs, plain, strict=True))]
+        compare(kernel, (*settings, float(np.finfo(dtype).eps)), mixed, dtype, 16)
+
+
+@pytest.mark.parametrize("bound", [0.0, 0.3, np.inf])
+@pytest.mark.parametrize("rule", RULES)
+def test_plain_bounds(rule, bound):
+    """The tangential bound as one number for all cases, which turns parts of a kernel into constants."""
+    rng = np.random.default_rng(5)
+    inputs = numbers(24, 100, np.float64, rng, odd=True)
+    inputs[3] = bound
+    compare(eccentric, (rule, LAWS[0], False, False, 2.0**-52), inputs, np.float64, 33)
+
+
+@pytest.mark.parametrize("size", [1, 2, 15, 16, 17, 32, 33])
+def test_any_number_of_cases(size):
+    """Sizes around the length of a block."""
+    inputs = numbers(24, size, np.float64, np.random.default_rng(size), odd=True)
+    compare(eccentric, (FRICTION, LAWS[1], False, True, 2.0**-52), inputs, np.float64, 16)
+
+
+def test_arrays_of_any_layout():
+    """Strided and reversed parts are read as they are."""
+    wide = numbers(24, 120, np.float64, np.random.default_rng(3), odd=False)
+    compare(eccentric, (FRICTION, LAWS[0], False, False, 2.0**-52), [v[::2][::-1] for v in wide], np.float64, 32)
+
+
+def test_a_kernel_is_recorded_once():
+    """For the same settings, plain numbers and type; the sign of a zero tells two plain numbers apart."""
+
+    def program(*numbers):
+        texts = tuple(number if number is None else number.hex() for number in numbers)
+        return record(linear_central, (2.0**-52,), texts, np.float64, kinds(np.float64))
+
+    scene = (None, 1.0, 0.0, 900.0, None, 0.0, 1200.0, 0.0, 0.0)
+    assert program(*scene) is program(*scene)
+    assert program(*scene) is not program(*scene[:2], -0.0, *scene[3:])
+
+
+def test_nothing_is_worked_out_twice_or_for_nothing():
+    """Equal calls are one, and what no output needs is left out."""
+
+    def kernel(x, y):
+        unused = x * y + 3.0
+        assert unused is not None
+        return (x + y) * (x + y), 1.0 * x
+
+    program = record(kernel, (), (None, None), np.float64, (np.dtype(float),) * 2)
+    assert [call.__name__ for call, _ in program.calls] == ["add", "multiply", "_cast"]
+
+
+def test_a_kernel_that_branches_is_refused():
+    """It would be recorded for one case and replayed for all."""
+    with pytest.raises(TypeError, match="select"):
+        record(lambda x: (x if x > 0.0 else -x,), (), (None,), np.float64, (np.dtype(float),))
+
+
+def test_what_cannot_be_replayed_is_refused():
+    """Reductions and other numpy functions are no calls on one case."""
+    for kernel in (lambda x: (np.add.reduce(x),), lambda x: (np.sort(x),)):
+        with pytest.raises(TypeError):
+            record(kernel, (), (None,), np.float64, (np.dtype(float),))
+
+
+def scene(size, dtype=np.float64):
+    """Cars that meet, every value an array."""
+    rng = np.random.default_rng(size)
+
+    def car(sign):
+        return col.Vehicle(
+            mass=rng.uniform(900.0, 2000.0, size).astype(dtype),
+            yaw_inertia=rng.uniform(1500.0, 3500.0, size).astype(dtype),
+            vx=(sign * rng.uniform(5.0, 20.0, size)).astype(dtype),
+            vy=rng.normal(0.0, 1.0, size).astype(dtype),
+            yaw_rate=rng.normal(0.0, 0.1, size).astype(dtype),
+            x=(-sign * rng.uniform(1.0, 2.0, size)).astype(dtype),
+            y=rng.normal(0.0, 0.5, size).astype(dtype),
+        )
+
+    return car(1.0), car(-1.0), rng.uniform(0.0, 0.5, size).astype(dtype), rng.normal(0.0, 0.1, size).astype(dtype)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("rule", [FRICTION, IMPULSE_RATIO, CRITICAL_FRACTION])
+def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
+    """More cases than a block holds are replayed, fewer are not: the same bits, whatever the size of the last block."""
+    a, b, e, normal = scene(2 * BLOCK + 5, dtype)
+    options = {"point": (0.0, 0.1), rule: 0.2, "law": law, "on_failure": "nan"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.EnergyGainWarning)
+        whole = col.eccentric(a, b, e, normal=normal, **options)
+        for part in (slice(0, 100), slice(BLOCK - 50, BLOCK + 50), slice(2 * BLOCK, None)):
+            lanes = [
+                body.replace(**{n: getattr(body, n)[part] for n in ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")})
+                for body in (a, b)
+            ]
+            few = col.eccentric(*lanes, e[part], normal=normal[part], **options)
+            for mine, other in zip(whole._raw, few._raw, strict=True):
+                assert mine.dtype == other.dtype
+                np.testing.assert_array_equal(mine[part], other)
+
+
+def test_refused_cases_touch_no_neighbour():
+    """One case of each kind that is refused, in the middle of a block and at both its ends; the rest keeps its bits."""
+    size = 2 * BLOCK + 9
+    a, b, e, normal = scene(size)
+    good = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3)
+    places = [0, 7, BLOCK - 1, BLOCK, size - 1]
+    mass, vx, restitution = a.mass.copy(), a.vx.copy(), e.copy()
+    mass[places[0]], mass[places[1]], vx[places[2]], vx[places[3]], restitution[places[4]] = -1.0, np.nan, np.inf, -99.0, 1.5
+    bad = col.eccentric(
+        a.replace(mass=mass, vx=vx), b, restitution, normal=normal, point=(0.0, 0.1), friction=0.3, on_failure="nan"
+    )
+    assert [bad.status[i] for i in places] == [
+        col.Status.NOT_POSITIVE, col.Status.NOT_FINITE, col.Status.NOT_FINITE, col.Status.SEPARATING, col.Status.BAD_RESTITUTION,
+    ]  # fmt: skip
+    for mine, other in zip(bad._raw[1:], good._raw[1:], strict=True):
+        np.testing.assert_array_equal(np.delete(mine, places), np.delete(other, places))
+        if mine.dtype.kind == "f":
+            assert np.isnan(mine[places]).all()
+
+
+def test_programs_are_shared_and_buffers_are_not():
+    """The same program at once in several threads that the caller made."""
+    a, b, e, normal = scene(3 * BLOCK)
+    wanted = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3)
+    found = []
+    threads = [
+        threading.Thread(
+            target=lambda: found.append(col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, threads=2))
+        )
+        for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 4
+    assert all(impact == wanted for impact in found)
+
+
+def test_what_is_asked_for_later_is_the_same_impact():
+    """The outputs worked out on request, after pickling, and those of an impact with refused cases, blank there too."""
+    a, b, e, normal = scene(BLOCK + 1)
+    e = np.where(np.arange(e.size) == 3, 2.0, e)
+    impact = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, on_failure="nan")
+    again = pickle.loads(pickle.dumps(impact))
+    assert again == impact
+    assert len(impact._raw) == len(OUTPUTS)
+    assert impact._raw[1:3][1] is impact.slip_before
+    assert not impact.slip_before.flags.writeable
+    assert np.flatnonzero(np.isnan(impact.compression_impulse)).tolist() == [3]

@@ -1,0 +1,185 @@
+"""The page "Speed against accuracy" has every row it shows, and the errors it shows are those of the solvers; no time is judged."""
+
+import json
+import math
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import collisions as col
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "speed_against_accuracy.md"
+GENERATED = ROOT / "docs" / "_generated"
+# Rows of what need not be installed.
+OPTIONAL = {"numba", "numba_threads", "pymunk"}
+
+pytestmark = pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")
+
+
+@pytest.fixture(scope="module")
+def tables():
+    """What makes the tables of the page."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        import speed_tables
+    finally:
+        sys.path.remove(str(ROOT / "benchmarks"))
+    return speed_tables
+
+
+@pytest.fixture(scope="module")
+def committed(tables):
+    """The committed numbers, and those of the contacts integrated in time."""
+    return tables.load(), tables.load_contacts()
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    """The same of a quick run of the script."""
+    path = tmp_path_factory.mktemp("speed") / "speed.json"
+    script = ROOT / "benchmarks" / "speed.py"
+    subprocess.run([sys.executable, str(script), "--quick", "--json", str(path)], check=True, capture_output=True, timeout=120)
+    return tuple(json.loads(file.read_text(encoding="utf-8")) for file in (path, path.with_name("time_resolved.json")))
+
+
+def keys(found):
+    """Every row of a file of numbers, by its group."""
+    groups = {group: {row["key"] for row in found[group]} - OPTIONAL for group in ("single", "batch", "budgets")}
+    groups |= {group: {curve["key"] for curve in found["errors"][group]} for group in ("levers", "angles")}
+    return groups | {"imports": set(found["imports"]["rows"]), "choices": set(found["errors"]["choices"])}
+
+
+def shown(tables, found, contacts):
+    """Every table that the page shows, by the call that makes it."""
+    calls = re.findall(r"tables\.(\w+)\((\w+)(?:, \"(\w+)\")?\)", PAGE.read_text(encoding="utf-8"))
+    given = {"found": found, "contacts": contacts}
+    return {call: getattr(tables, call[0])(given[call[1]], *filter(None, call[2:])) for call in calls}
+
+
+def test_a_quick_run_has_the_rows_of_the_committed_file(quick, committed):
+    """So that the file was written by this script, and the script runs."""
+    assert keys(quick[0]) == keys(committed[0])
+    assert [row["name"] for row in quick[1]["rows"]] == [row["name"] for row in committed[1]["rows"]]
+
+
+@pytest.mark.parametrize("which", ["quick", "committed"])
+def test_every_table_of_the_page_can_be_made(tables, request, which):
+    """Also where numba and pymunk were not measured."""
+    found, contacts = request.getfixturevalue(which)
+    made = shown(tables, found, contacts)
+    assert {call[0] for call in made} >= {"machine", "choices", "costs", "budgets", "curves", "contacts", "rivals", "imports"}
+    assert all("nan" not in text for text in made.values())
+    without = json.loads(json.dumps(found))
+    for group in ("single", "batch"):
+        without[group] = [row for row in without[group] if row["key"] not in OPTIONAL]
+    without["rivals"] = dict.fromkeys(without["rivals"])
+    without["errors"]["choices"]["pymunk"] = None
+    without["imports"]["rows"] |= {"numba": None, "pymunk": None}
+    assert "not measured" in shown(tables, without, contacts)["rivals", "found", ""]
+
+
+def test_every_choice_of_the_chart_has_its_rows(tables, committed):
+    """A cost for one case or for a batch, and an error."""
+    found = keys(committed[0])
+    for choice in tables.CHOICES:
+        assert choice.single is not None or choice.batch is not None
+        assert {choice.single} - {None} <= found["single"] | OPTIONAL
+        assert {choice.batch} - {None} <= found["batch"] | OPTIONAL
+        assert choice.error in found["choices"]
+
+
+def test_the_figures_can_be_drawn(tables, committed, tmp_path):
+    """And are the ones that the page shows."""
+    pytest.importorskip("matplotlib")
+    tables.draw_all(*committed, tmp_path)
+    drawn = {path.name for path in tmp_path.iterdir()}
+    assert drawn == set(re.findall(r"_static/(\w+\.svg)", PAGE.read_text(encoding="utf-8")))
+    assert drawn <= {path.name for path in (ROOT / "docs" / "_static").iterdir()}
+
+
+def test_every_budget_is_that_of_the_design(committed):
+    """The page judges by them; whether they hold is not judged here."""
+    budgets = {row["key"]: row["budget"] for row in committed[0]["budgets"]}
+    assert budgets == {
+        "import": 1.2,
+        "vehicle": 4.0,
+        "eccentric": 3.0,
+        "nine": 8.0,
+        "linear": 1.15,
+        "batch": 0.6,
+        "threads": 0.8,
+        "batch_linear": 5.0,
+        "memory": 8.0,
+        "quantities": 0.15,
+    }
+    for row in committed[0]["budgets"]:
+        assert row["held"] == (row["median"] <= row["budget"]), row
+
+
+def car(**given):
+    """The car of the curves."""
+    return col.Vehicle(mass=1500.0, **given)
+
+
+# The file keeps three digits.
+KEPT = 0.006
+
+
+def test_errors_over_the_lever_are_those_of_the_solvers(committed):
+    """One car off-centre, worked out here again; delta-V alone is half of (lever / radius of gyration) squared."""
+    curve = next(curve for curve in committed[0]["errors"]["levers"] if curve["key"] == "one")
+    gyration = math.sqrt(2400.0 / 1500.0)
+    cheap = col.oblique_central(car(vx=15.0), car(), 0.1, normal=0.0, friction=0.0)
+    for x, error, share, alone, predicted in zip(
+        *(curve[name] for name in ("x", "error", "share", "delta_v_share", "predicted")), strict=True
+    ):
+        a, b = (
+            car(yaw_inertia=2400.0, **where) for where in ({"vx": 15.0, "x": -1.9, "y": 0.0}, {"x": 1.9, "y": x * gyration})
+        )
+        full = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0)
+        off = math.hypot(full.b.delta_vx - cheap.b.delta_vx, gyration * full.b.delta_yaw_rate)
+        assert error == pytest.approx(off, rel=KEPT, abs=1e-12)
+        assert share == pytest.approx(off / full.b.delta_v, rel=KEPT, abs=1e-12)
+        assert alone == pytest.approx(0.5 * x * x, rel=KEPT, abs=1e-12)
+        assert predicted == pytest.approx(error, rel=KEPT, abs=1e-12)
+
+
+def test_errors_over_the_angle_are_those_of_the_solvers(committed):
+    """Ignored, the angle costs 1/cos - 1; friction left out costs what the friction impulse is of the whole."""
+    curves = {curve["key"]: curve for curve in committed[0]["errors"]["angles"]}
+    for angle, share in zip(curves["ignored"]["x"], curves["ignored"]["share"], strict=True):
+        assert share == pytest.approx(1.0 / math.cos(math.radians(angle)) - 1.0, rel=KEPT, abs=1e-12)
+    for friction in (0.1, 0.5):
+        curve = curves[f"linear_{friction}"]
+        for angle, share, predicted, error in zip(*(curve[name] for name in ("x", "share", "predicted", "error")), strict=True):
+            a = car(vx=15.0, vy=15.0 * math.tan(math.radians(angle)))
+            full = col.oblique_central(a, car(), 0.1, normal=0.0, friction=friction)
+            assert share == pytest.approx(abs(full.b.delta_vy) / full.b.delta_v, rel=KEPT, abs=1e-12)
+            assert predicted == pytest.approx(error, rel=KEPT, abs=1e-12)
+
+
+def test_every_prediction_is_the_error_made(committed):
+    """To the digits that are kept, on every curve that has one."""
+    for group in ("levers", "angles"):
+        for curve in committed[0]["errors"][group]:
+            assert (curve["predicted"] is None) == (curve["key"] == "ignored")
+            if curve["predicted"] is not None:
+                assert curve["predicted"] == pytest.approx(curve["error"], rel=KEPT, abs=1e-12), curve["key"]
+
+
+def test_errors_of_the_choices_are_what_the_page_says(committed):
+    """solve keeps its tolerance and takes every model; float32 and the other formulas agree with eccentric."""
+    choices = committed[0]["errors"]["choices"]
+    solve = choices["solve"]
+    assert solve["most"] <= solve["tolerance"]
+    assert set(solve["chosen"]) == {"linear_central", "oblique_central", "eccentric"}
+    assert choices["linear_central"]["mean"] > choices["oblique_central"]["mean"] > 0.1
+    assert choices["float32"]["p95"] < 1e-6
+    assert choices["textbook"]["p95"] < 1e-14
+    assert choices["left_out"]["mean"] < 0.2 * choices["impulse"]["mean"]
+    if choices["pymunk"] is not None:
+        assert choices["pymunk"]["p95"] < 1e-3
