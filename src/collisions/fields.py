@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import Field, fields
 from functools import partial
-from typing import Any, Generic, TypeVar, overload
+from typing import Any, ClassVar, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -104,11 +105,11 @@ class Quantities:
 
 
 def lock(value: Any) -> Any:
-    """The value, its arrays (also those of a tuple) made read-only."""
+    """The value, its arrays (also those of a tuple or a dict) made read-only."""
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
-    elif isinstance(value, tuple):
-        for part in value:
+    elif isinstance(value, (tuple, dict)):
+        for part in value.values() if isinstance(value, dict) else value:
             lock(part)
     return value
 
@@ -166,3 +167,39 @@ def table(title: str, rows: Iterator[tuple[str, str]]) -> str:
         for name, text in rows
     )
     return f"<table><caption>{escape(title)}</caption><tbody>{body}</tbody></table>"
+
+
+class Shown:
+    """Base of dataclasses that answer: with units as a text, as a table and as Quantities; arrays stay locked in a pickle."""
+
+    __slots__ = ()
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    _title: ClassVar[str]
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities of the application registry."""
+        return Quantities(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), {f.name: getattr(self, f.name) for f in fields(self)})
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return table(self._title, self._rows())
+
+    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        for name in (*(f.name for f in fields(self)), *attributes(type(self))):
+            value, unit = getattr(self, name), unit_of(type(self), name)
+            if isinstance(value, Shown):
+                yield from value._rows(f"{name}.")
+            elif value is not None and unit is not None:
+                yield prefix + name, show(value, unit)
+
+
+def _restored(kind: type[Any], values: dict[str, Any]) -> Any:
+    """An unpickled answer; arrays come out of a pickle unlocked."""
+    return kind(**lock(values))

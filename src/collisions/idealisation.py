@@ -12,7 +12,7 @@ import numpy as np
 from .amounts import at_least_zero
 from .directions import from_radians
 from .errors import CollisionsWarning, EnergyGainWarning, InputError
-from .fields import Quantities, hypot, lock, numeric, show, table
+from .fields import Shown, hypot, lock, numeric
 from .impact import Impact
 from .kernels.batch import precision
 from .kernels.select import select
@@ -31,43 +31,8 @@ _PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
 _LITTLE = 2.0**-6
 
 
-class _Shown:
-    """The fields of a dataclass with units, as a text, as a table, as Quantities, and out of a pickle."""
-
-    __slots__ = ()
-
-    __dataclass_fields__: dict[str, Any]
-
-    @property
-    def q(self) -> Any:
-        """The same attributes as pint Quantities of the application registry."""
-        return Quantities(self)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (type(self), {name: getattr(self, name) for name in self.__dataclass_fields__})
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows(''))})"
-
-    def _repr_html_(self) -> str:
-        return table("Left out by the impulse idealisation", self._rows(""))
-
-    def _rows(self, prefix: str) -> Any:
-        for name, declared in self.__dataclass_fields__.items():
-            value = getattr(self, name)
-            if isinstance(value, _Shown):
-                yield from value._rows(f"{name}.")
-            elif value is not None:
-                yield prefix + name, show(value, declared.metadata["unit"])
-
-
-def _rebuild(kind: type[Any], values: dict[str, Any]) -> Any:
-    """An unpickled answer; arrays come out of a pickle unlocked."""
-    return kind(**{name: lock(value) for name, value in values.items()})
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class LeftOutSide(_Shown):
+class LeftOutSide(Shown):
     """What was left out for one vehicle. Shares are of the vehicle's own delta-V in the impact.
 
     Attributes
@@ -91,6 +56,8 @@ class LeftOutSide(_Shown):
         impact are the ones at first contact; None for the central models, which have no geometry.
     """
 
+    _title = "Left out for one vehicle"
+
     tyre_impulse_bound: Value = field(metadata={"unit": "N*s"})
     tyre_delta_v_bound: Value = field(metadata={"unit": "m/s"})
     tyre_share_bound: Value = field(metadata={"unit": ""})
@@ -105,7 +72,7 @@ class LeftOutSide(_Shown):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class LeftOut(_Shown):
+class LeftOut(Shown):
     """What ``left_out`` found; floats, or arrays in a batch.
 
     Attributes
@@ -123,6 +90,8 @@ class LeftOut(_Shown):
     a, b : LeftOutSide
         What was left out for each vehicle.
     """
+
+    _title = "Left out by the impulse idealisation"
 
     duration: Value = field(metadata={"unit": "s"})
     drag: Value = field(metadata={"unit": ""})

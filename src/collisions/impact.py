@@ -403,8 +403,7 @@ def _rebuild(asked: Asked, raw: tuple[Any, ...], provenance: dict[str, Any]) -> 
     impact = build(lock(asked), lock(raw))
     for found in provenance.values():
         if found is not None:
-            parts = (getattr(found, f.name) for f in fields(found))
-            lock(tuple(tuple(part.values()) if isinstance(part, dict) else part for part in parts))
+            lock(tuple(getattr(found, f.name) for f in fields(found)))
     impact._cache.update(provenance)
     return impact
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
-from ..fields import Quantities, derived, lock, show, table
+from ..fields import Shown, derived
 from ..kernels import codes
 from ..units import Value, to_quantity
 
@@ -28,7 +28,7 @@ class Sensitivity(dict[str, dict[str, Value]]):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class MomentumSolution:
+class MomentumSolution(Shown):
     """Two vehicles before and after an impact, as planar momentum has it, and how firmly.
 
     Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
@@ -57,35 +57,9 @@ class MomentumSolution:
     unknowns: tuple[str, ...] = field()
     status: Any = field()
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, ({f.name: getattr(self, f.name) for f in fields(self)},)
-
-    @property
-    def q(self) -> Any:
-        """The same attributes as pint Quantities; sensitivities to courses per degree."""
-        return Quantities(self)
+    _title = "Planar momentum"
 
     @derived()
     def ok(self) -> Any:
         """Whether the case was answered, and without energy that came from nowhere."""
         return self.status == codes.OK
-
-    def __repr__(self) -> str:
-        return f"MomentumSolution({', '.join(f'{name}={text}' for name, text in self._rows())})"
-
-    def _repr_html_(self) -> str:
-        return table("Planar momentum", self._rows())
-
-    def _rows(self) -> Any:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if value is not None and "unit" in f.metadata:
-                yield f.name, show(value, f.metadata["unit"])
-
-
-def _rebuild(values: dict[str, Any]) -> MomentumSolution:
-    """An unpickled solution; arrays come out of a pickle unlocked."""
-    for row in values["sensitivity"].values():
-        lock(tuple(row.values()))
-    lock(tuple(values.values()))
-    return MomentumSolution(**values)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
 from ..amounts import at_least_zero
 from ..errors import InputError, OutOfRangeWarning
-from ..fields import Quantities, attributes, derived, show, table, unit_of
+from ..fields import Shown, derived
 from ..units import UNIT_INTERVAL, Door, Input, Pair, callers_level, is_quantity
 from ..vehicle import angle_of
 from .chain import durations_along, out_of_range, speeds_along
@@ -24,7 +24,7 @@ _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class RunOut:
+class RunOut(Shown):
     """A vehicle that slid and yawed from separation to where its speed is known, worked out backward by ``path``.
 
     Attributes
@@ -49,6 +49,8 @@ class RunOut:
         For every segment the drag factor that friction, lock and crab angle come to.
     """
 
+    _title = "Run-out"
+
     speed: float = field(metadata={"unit": "m/s"})
     course: float = field(metadata={"unit": "rad"})
     yaw_rate: float = field(metadata={"unit": "rad/s"})
@@ -63,21 +65,6 @@ class RunOut:
     def course_difference(self) -> float:
         """Course at separation less the straight line to rest [rad], in (-pi, pi]: what taking that line would be wrong by."""
         return _wrapped(self.course - self.straight_course)
-
-    @property
-    def q(self) -> Any:
-        """The same attributes as pint Quantities of the application registry."""
-        return Quantities(self)
-
-    def __repr__(self) -> str:
-        return f"RunOut({', '.join(f'{name}={text}' for name, text in self._rows())})"
-
-    def _repr_html_(self) -> str:
-        return table("Run-out", self._rows())
-
-    def _rows(self) -> Any:
-        for name in (*(f.name for f in fields(self)), *attributes(RunOut)):
-            yield name, show(getattr(self, name), unit_of(RunOut, name))
 
 
 def path(
