@@ -59,7 +59,7 @@ def keywords(
         value = draw(strategy)
         if value is not None:
             found[name] = value
-    if draw(st.floats(0.0, 1.0)) < odd:
+    if found and draw(st.floats(0.0, 1.0)) < odd:
         found[draw(st.sampled_from(sorted(found)))] = draw(garbage())
     return found
 
