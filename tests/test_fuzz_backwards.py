@@ -265,7 +265,9 @@ def test_paths_of_anything(data: Any, oddity: float) -> None:
     ground["end_speed"] = one_of(data.draw, "speed", oddity, ((3,),))
     found = asked("path", lambda: travel.path(points, headings, **ground))
     if isinstance(found, travel.RunOut):
-        assert all(map(math.isfinite, (found.speed, found.course, found.yaw_rate, found.time, found.distance)))
+        refused = np.isnan(found.speed)
+        for name in ("speed", "course", "yaw_rate", "time", "distance"):
+            check_numbers(name, getattr(found, name), refused, np.shape(refused), finite=True)
         must_answer("repr", lambda: repr(found) + found._repr_html_() + str(found.q.speed))
 
 

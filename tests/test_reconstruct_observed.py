@@ -763,3 +763,11 @@ def test_speeds_beyond_floats_are_refused():
     with pytest.raises(col.InputError) as caught:
         reconstruct.restitution(far, near, still, still, normal=0.0, point=(1.0, 1.0))
     assert caught.value.code == "out_of_range"
+
+
+def test_a_coordinate_nothing_needs_still_says_how_many_cases():
+    """An array where a wall was before makes a batch, although its place does not matter."""
+    a, wall = col.Vehicle(mass=1200.0, vx=10.0, yaw_inertia=1800.0, x=0.0, y=0.0), col.Vehicle.barrier()
+    listed = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, y=np.zeros(3))
+    found = reconstruct.restitution(a, listed, a.replace(vx=-1.0), wall, normal=0.0, point=(0.0, 0.0))
+    assert found.tolist() == [0.1, 0.1, 0.1]

@@ -316,3 +316,42 @@ def test_an_energy_gain_is_returned_and_warned_of():
         many = col.oblique_central(a, b, np.array([1.0, 0.0]), normal=0.0, impulse_ratio=np.array([0.5, -0.1]))
     assert many.energy_loss[0] == pytest.approx(impact.energy_loss, rel=1e-14)
     assert many.ok.tolist() == [False, True]
+
+
+class Unshowable:
+    """An object that fails when a message wants to show it."""
+
+    def __repr__(self):
+        raise RuntimeError("no")
+
+
+def nested(depth):
+    """Lists in one another, deeper than Python shows."""
+    found = []
+    for _ in range(depth):
+        found = [found]
+    return found
+
+
+@pytest.mark.parametrize("given", [Unshowable(), nested(5000)], ids=["unshowable", "nested"])
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda given: col.linear_central(STRIKING, col.Vehicle.barrier(), 0.1, on_failure=given),
+        lambda given: col.linear_central(STRIKING, col.Vehicle.barrier(), 0.1, threads=given),
+        lambda given: col.oblique_central(STRIKING, col.Vehicle.barrier(), 0.1, normal=0.0, friction=0.1, law=given),
+        lambda given: col.Vehicle.from_speed(mass=1.0, speed=given, course=0.0),
+        lambda given: col.Impact.from_dict({"format": given}),
+        lambda given: col.reconstruct.momentum(1.0, 1.0, together=given),
+        lambda given: col.reconstruct.planar(
+            STRIKING, col.Vehicle.barrier(), normal=0.0, point=(0.0, 0.0), closing_speed=1.0, regime=given
+        ),
+        lambda given: col.reconstruct.crush_energy([1.0], [0.1, 0.1], given, 1e6),
+        lambda given: col.travel.path([given, given], [0.0, 0.0], friction=0.7, lock=1.0),
+        lambda given: col.travel.speed(10.0, drag=given),
+    ],
+)
+def test_a_message_survives_what_cannot_be_shown(ask, given):
+    """The refusal is the library's own, whatever the object does when it is printed."""
+    with pytest.raises(col.InputError):
+        ask(given)

@@ -643,6 +643,61 @@ def test_the_scene_may_be_turned_and_moved():
     assert there.course == pytest.approx(here.course + math.pi / 2, rel=8 * EPS)
 
 
+PATH_PARTS = ("speed", "course", "yaw_rate", "time", "distance", "straight_course", "course_difference")
+
+
+def test_a_batch_of_paths_is_each_of_them_alone():
+    """Arrays in place of single numbers: every case as if it were asked alone, in the shape they broadcast to."""
+    generator = np.random.default_rng(8)
+    xs = np.cumsum(generator.uniform(1.0, 6.0, (4, 5)), axis=0)
+    ys = generator.uniform(-1.0, 1.0, (4, 5))
+    turned = np.cumsum(generator.uniform(-1.4, 1.4, (4, 5)), axis=0)
+    friction, lock = generator.uniform(0.5, 0.8, 5), generator.uniform(0.1, 1.0, (2, 1))
+    run = travel.path(list(zip(xs, ys, strict=True)), list(turned), friction=friction, lock=lock, grade=[0.0, 0.01, 0.0])
+    assert run.speed.shape == (2, 5)
+    assert not run.speed.flags.writeable
+    for i, j in np.ndindex(2, 5):
+        points = list(zip(xs[:, j].tolist(), ys[:, j].tolist(), strict=True))
+        alone = travel.path(
+            points, turned[:, j].tolist(), friction=float(friction[j]), lock=float(lock[i, 0]), grade=[0, 0.01, 0]
+        )
+        for name in PATH_PARTS:
+            # numpy and math differ in the last bit of sine and arctangent; a yaw rate is a difference of two rates.
+            assert getattr(run, name)[i, j] == pytest.approx(getattr(alone, name), rel=64 * EPS, abs=64 * EPS), name
+        for name in ("speeds", "crab_angles", "drags"):
+            many = [part[i, j] for part in getattr(run, name)]
+            assert many == pytest.approx(getattr(alone, name), rel=64 * EPS, abs=64 * EPS), name
+
+
+def test_refused_paths_of_a_batch_leave_their_neighbours():
+    """A case that cannot be answered is NaN in every answer, counted by its kind, and the first stays as it is alone."""
+    good = travel.path([(0.0, 0.0), (5.0, 1.0)], [0.0, 1.0], friction=0.7, lock=0.5)
+    #        good  coincident  turned  friction  lock  end_speed  never stops
+    x = np.array([5.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0, math.nan])
+    y = np.array([1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
+    turn = np.array([1.0, 1.0, 3.2, 1.0, 1.0, 1.0, 1.0, 1.0])
+    friction = np.array([0.7, 0.7, 0.7, -0.1, 0.7, 0.7, 0.0, 0.7])
+    lock = np.array([0.5, 0.5, 0.5, 0.5, 1.1, 0.5, 0.5, 0.5])
+    end = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0])
+    with pytest.warns(col.CollisionsWarning) as caught:
+        run = travel.path([(0.0, 0.0), (x, y)], [0.0, turn], friction=friction, lock=lock, end_speed=end)
+    refused = [one.message for one in caught if one.message.code == "refused_cases"]
+    assert refused[0].fields["counts"] == {
+        "not_finite": 1,
+        "bad_friction": 1,
+        "bad_fraction": 1,
+        "negative_speed": 1,
+        "coincident_points": 1,
+        "turns_too_far": 1,
+        "contradictory": 1,
+    }
+    for name in PATH_PARTS:
+        found = getattr(run, name)
+        assert found[0] == pytest.approx(getattr(good, name), rel=8 * EPS)
+        assert np.all(np.isnan(found[1:]))
+    assert np.all(np.isnan(run.drags[0][1:]))
+
+
 def test_paths_in_units_of_every_kind():
     """Texts, arrays and Quantities of another registry, whole or part by part."""
     other = pint.UnitRegistry()
@@ -684,11 +739,11 @@ def test_paths_in_units_of_every_kind():
         ([(0, 0), (1, 1, 1), (2, 2)], [0, 0, 0], FULL_LOCK, "bad_shape", "points[1] must be a pair (x, y), got (1, 1, 1)"),
         ([(0, 0), 7], [0, 0], FULL_LOCK, "bad_shape", "points[1] must be a pair (x, y), got 7"),
         (
-            [(0, 0), (np.zeros(2), 1)],
+            [(0, 0), (np.zeros(2), np.ones(3))],
             [0, 0],
             FULL_LOCK,
             "bad_shape",
-            "points[1][0] is an array, and path takes one case a call",
+            "do not broadcast together: points[1][0] (2,), points[1][1] (3,)",
         ),
         ([(0, 0), (math.nan, 1)], [0, 0], FULL_LOCK, "not_finite", "points[1][0] is NaN"),
         (np.array([[0, 0], [math.inf, 1]]), [0, 0], FULL_LOCK, "not_finite", "points[1][0] must be finite"),
@@ -705,7 +760,7 @@ def test_paths_in_units_of_every_kind():
         (STRAIGHT, [0, math.nan, 0], FULL_LOCK, "not_finite", "headings[1] is NaN"),
         (STRAIGHT, np.array([0, math.nan, 0]), FULL_LOCK, "not_finite", "headings[1] is NaN"),
         (STRAIGHT, [0, [1], 0], FULL_LOCK, "bad_shape", "headings[1] is a list, and takes one value"),
-        (STRAIGHT, [0, np.zeros(2), 0], FULL_LOCK, "bad_shape", "headings[1] is an array, and path takes one case a call"),
+        (STRAIGHT, [0, np.zeros(2), np.zeros(3)], FULL_LOCK, "bad_shape", "do not broadcast together: headings[1] (2,)"),
         (STRAIGHT, ["0 deg", "north", 0], FULL_LOCK, "bad_units", "headings[1]: cannot read 'north'"),
         (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "headings[0] to headings[1] turn by -340 deg"),
         (STRAIGHT, ["350 deg", "10 deg", 0], FULL_LOCK, "turns_too_far", "(350 deg, then 370 deg), and give points between"),
@@ -716,13 +771,7 @@ def test_paths_in_units_of_every_kind():
         (STRAIGHT, [0, 0, 0], {"friction": pint.Quantity(math.nan), "lock": 1}, "not_finite", "friction must be finite"),
         (STRAIGHT, [0, 0, 0], {"friction": [0.7, -1], "lock": 1}, "bad_friction", "friction[1] must be >= 0"),
         (STRAIGHT, [0, 0, 0], {"friction": [0.7], "lock": 1}, "bad_shape", "friction is a list of 1, and there are 2 segments"),
-        (
-            STRAIGHT,
-            [0, 0, 0],
-            {"friction": np.ones(2), "lock": 1},
-            "bad_shape",
-            "friction is an array, and path takes one case",
-        ),
+        (STRAIGHT, [0, 0, 0], {"friction": np.ones(2), "lock": np.ones(3)}, "bad_shape", "friction[0] (2,)"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": 1.01}, "bad_fraction", "lock must be from 0 to 1, got 1.01"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": [1, -0.1]}, "bad_fraction", "lock[1] must be from 0 to 1"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": math.nan}, "bad_fraction", "lock must be from 0 to 1, got nan"),
@@ -736,13 +785,6 @@ def test_paths_in_units_of_every_kind():
         (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "grade": [0.1]}, "bad_shape", "grade is a list of 1, and there are 2 segments"),
         (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "grade": "steep"}, "bad_units", "grade: cannot read 'steep'"),
         (STRAIGHT, [0, 0, 0], {**FULL_LOCK, "end_speed": -1}, "negative_speed", "end_speed must be >= 0, got -1"),
-        (
-            STRAIGHT,
-            [0, 0, 0],
-            {**FULL_LOCK, "end_speed": np.ones(2)},
-            "bad_shape",
-            "end_speed is an array, and path takes one case",
-        ),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": 0}, "contradictory", "points[1] to points[2]: drag + grade is 0"),
         (
             STRAIGHT,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .errors import InputError
-from .units import Door
+from .units import Door, shown
 
 _CODES = {"m/s": "negative_speed", "J": "negative_energy", "m": "negative_length", "N/m": "negative_stiffness"}
 
@@ -18,5 +18,5 @@ def amount(door: Door, value: Any, unit: str, name: str, hint: str = "give the m
 def at_least_zero(door: Door, read: Any, given: Any, name: str, code: str, hint: str) -> Any:
     """A number that was read, refused if it is a single one below zero."""
     if isinstance(read, float) and read < 0.0:
-        return door.refuse(InputError(f"{name} must be >= 0, got {given!r}; {hint}", code=code, argument=name))
+        return door.refuse(InputError(f"{name} must be >= 0, got {shown(given)}; {hint}", code=code, argument=name))
     return read

@@ -16,6 +16,8 @@ from .units import Value, to_quantity
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
 _ARRAYS = (None,)
+# Declares that the unit is the ``unit`` of the object itself, known only when it is made.
+OWN = "own"
 
 
 class Derived(Generic[T]):
@@ -89,6 +91,8 @@ class Quantities:
             raise AttributeError(name)
         value = getattr(self._owner, name)
         unit = unit_of(type(self._owner), name)
+        if unit == OWN:
+            unit = self._owner.unit
         if callable(value):
             if unit is None:
                 raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")

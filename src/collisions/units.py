@@ -47,6 +47,7 @@ FINITE = "finite"
 UNIT_INTERVAL = "unit interval"
 NOT_NEGATIVE = "not negative"
 
+_ANY_KIND = "a number with a unit"
 _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",
     "m/s": "22.2 (m/s), '80 km/h' or '50 mph'",
@@ -62,6 +63,25 @@ _EXAMPLES = {
     "N/m": "35000 (N/m), '35 kN/m' or '200 lbf/in'",
     "N/m**2": "450000 (N/m2), '450 kPa' or '65 lbf/in**2'",
     "": "0.4",
+    _ANY_KIND: "'80 km/h' or '1100 kg'",
+}
+# How the units of what comes up here are written, by their powers of kg, m, s and rad.
+_WRITTEN = {
+    (1, 1, -2, 0): "N",
+    (1, 1, -1, 0): "N*s",
+    (1, 2, -2, 0): "J",
+    (1, 0, -2, 0): "N/m",
+    (1, -1, -2, 0): "N/m**2",
+}
+_ROOTS = {
+    "gram": "kg",
+    "meter": "m",
+    "second": "s",
+    "radian": "rad",
+    "kelvin": "K",
+    "ampere": "A",
+    "mole": "mol",
+    "candela": "cd",
 }
 _TURNS_OF_A_SCENE = 2.0 * math.pi * (1.0 + 1e-9)
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
@@ -82,10 +102,11 @@ _COUNTS = (
     "steradian",
 )
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$)", re.ASCII)
+# Patterns stay texts, which the first unit that appears compiles.
+_NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
-_UNIT = re.compile(rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*")
+_UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
 _LONGEST_TEXT = 60
 _DEEPEST = 32  # dimensions of a nested list; numpy itself stops at 64
 # Read in degrees, which can be reduced exactly; radians cannot.
@@ -105,6 +126,62 @@ def to_quantity(value: Any, unit: str) -> Any:
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
     return _registry().Quantity(value, unit or "dimensionless")
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a unit is written with it; a text that is no plain number is taken to have one."""
+    if isinstance(value, str):
+        return re.fullmatch(_NUMBER, value.strip()) is None
+    return is_quantity(value) and not value.unitless
+
+
+def si_unit(value: Any, argument: str = "value") -> str:
+    """The SI unit of the kind that a Quantity or a text is of, such as "m/s"; "" for a plain number or a proportion.
+
+    An angle is "rad". Of kinds with one dimension the library knows one: a moment reads "J". Refused, because here nothing
+    else tells what was meant: a count such as Hz, which may be of turns or of radians, and grams, which are hardly ever meant.
+
+    Examples
+    --------
+    >>> si_unit("80 km/h"), si_unit("5 deg"), si_unit("1330 lbf*ft*s**2"), si_unit("0.4")
+    ('m/s', 'rad', 'kg*m**2', '')
+    """
+    if not has_unit(value):
+        return ""
+    quantity = _parse(value, _ANY_KIND, argument) if isinstance(value, str) else value
+    try:
+        roots = dict(quantity._REGISTRY.get_root_units(quantity._units)[1]._units)
+    except Exception as error:
+        raise _bad_units(value, _ANY_KIND, argument, error) from error
+    names = [str(name) for name in quantity._units]
+    if names == ["gram"] or any(name.endswith(_COUNTS) and name not in _SPOKEN_PROPORTIONS for name in names):
+        hint = "a drag factor is a plain number, an acceleration '6.9 m/s**2', a mass '0.7 kg'"
+        if names != ["gram"]:
+            hint = "it counts, and could be meant as turns or as radians: write 'turn/s', 'rad/s' or 'deg/s', or a plain number"
+        raise UnitsError(
+            f"{argument}: what {shown(value)} is meant to be cannot be told from its unit; {hint}",
+            code="bad_units",
+            argument=argument,
+            text=str(value),
+        )
+    if not roots.keys() <= _ROOTS.keys():
+        raise _bad_units(value, _ANY_KIND, argument, None)
+    powers = {unit: roots.get(root, 0) for root, unit in _ROOTS.items()}
+    mechanical = tuple(powers[unit] for unit in ("kg", "m", "s", "rad"))
+    if sum(map(abs, powers.values())) == sum(map(abs, mechanical)) and mechanical in _WRITTEN:
+        return _WRITTEN[mechanical]
+    return _written(powers)
+
+
+def _written(powers: Mapping[str, Any]) -> str:
+    """Powers of units as a text, numerators first."""
+    above = [_to_the_power(unit, power) for unit, power in powers.items() if power > 0]
+    below = [_to_the_power(unit, -power) for unit, power in powers.items() if power < 0]
+    return "/".join(["*".join(above) or ("1" if below else ""), *below])
+
+
+def _to_the_power(unit: str, power: Any) -> str:
+    return unit if power == 1 else f"{unit}**{power:g}"
 
 
 def _registry() -> Any:
@@ -172,7 +249,7 @@ class Door:
             shape = f" of shape {whole.shape}" if isinstance(whole, np.ndarray) else ""
             self.refuse(
                 ShapeError(
-                    f"{argument} must be a pair (x, y), got {_shown(value)}{shape}; for many points write "
+                    f"{argument} must be a pair (x, y), got {shown(value)}{shape}; for many points write "
                     f"(xs, ys) with one array each, such as (points[:, 0], points[:, 1])",
                     code="bad_shape",
                     argument=argument,
@@ -232,7 +309,7 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             read = math.inf
         if math.isinf(read) and (isinstance(value, (int, np.integer)) or not np.isinf(value)):
             raise InputError(
-                f"{argument} is a number too large to be held as a float: {_shown(value)}",
+                f"{argument} is a number too large to be held as a float: {shown(value)}",
                 code="out_of_range",
                 argument=argument,
             )
@@ -279,7 +356,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
             stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
-                f"{argument} is a {type(value).__name__} with {_shown(item)} in it; put the unit on the whole: "
+                f"{argument} is a {type(value).__name__} with {shown(item)} in it; put the unit on the whole: "
                 f"Quantity([1.0, 2.0], 'm/s'), or convert each to SI numbers first",
                 code="bad_units",
                 argument=argument,
@@ -302,12 +379,12 @@ def _parse(text: str, unit: str, argument: str) -> Any:
     Whole strings are never handed to pint, which reads "80 km/h 5" as 400 km/h and "1 500 kg" as 500 kg.
     """
     stripped = text.strip()
-    number = _NUMBER.match(stripped) if len(stripped) <= _LONGEST_TEXT else None
+    number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
-    if number is None or not (_UNIT.fullmatch(name) or (not name and not unit)):
+    if number is None or not (re.fullmatch(_UNIT, name) or (not name and not unit)):
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
-            f"{argument}: cannot read {_shown(text)}; write {how}, such as {_EXAMPLES[unit]}",
+            f"{argument}: cannot read {shown(text)}; write {how}, such as {_example(unit)}",
             code="bad_units",
             argument=argument,
             text=text,
@@ -324,13 +401,19 @@ def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, 
     magnitude = _plain(quantity.magnitude, argument, unit)
     factor, name = _factor(quantity, unit, argument, given)
     text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
-    if factor != 1.0:
+    if factor == 1.0:
+        return magnitude, text
+    if isinstance(magnitude, float):
+        converted: Any = magnitude * factor
+        overflows = math.isinf(converted) and not math.isinf(magnitude)
+    else:
         infinite = np.count_nonzero(np.isinf(magnitude))
         with np.errstate(over="ignore"):
             magnitude *= factor
-        if np.count_nonzero(np.isinf(magnitude)) > infinite:
-            raise InputError(f"{argument} is too large: {_shown(given)}", code="out_of_range", argument=argument)
-    return magnitude, text
+        converted, overflows = magnitude, bool(np.count_nonzero(np.isinf(magnitude)) > infinite)
+    if overflows:
+        raise InputError(f"{argument} is too large: {shown(given)}", code="out_of_range", argument=argument)
+    return converted, text
 
 
 def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
@@ -371,19 +454,19 @@ def _outside(value: float, domain: str, argument: str, given: Any) -> InputError
     if math.isnan(value) and domain in (POSITIVE, FINITE):
         return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
     if domain == POSITIVE and not value > 0.0:
-        return InputError(f"{argument} must be > 0 (inf allowed), got {_shown(given)}", code="not_positive", argument=argument)
+        return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
     if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
         code = "bad_restitution" if argument == "restitution" else "bad_fraction"
-        return InputError(f"{argument} must be from 0 to 1, got {_shown(given)}", code=code, argument=argument)
+        return InputError(f"{argument} must be from 0 to 1, got {shown(given)}", code=code, argument=argument)
     if domain == NOT_NEGATIVE and not value >= 0.0:
         return InputError(
-            f"{argument} must be >= 0 (inf allowed), got {_shown(given)}: its direction is worked out, give the magnitude",
+            f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",
             code="bad_friction",
             argument=argument,
         )
     if domain == FINITE and math.isinf(value):
         return InputError(
-            f"{argument} must be finite, got {_shown(given)}; only mass, yaw_inertia and friction may be inf",
+            f"{argument} must be finite, got {shown(given)}; only mass, yaw_inertia and friction may be inf",
             code="not_finite",
             argument=argument,
         )
@@ -426,9 +509,13 @@ def callers_level() -> int:
     return level
 
 
+def _example(unit: str) -> str:
+    return _EXAMPLES.get(unit) or f"'1 {unit}'"
+
+
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
     return InputError(
-        f"{argument} must be a number, an array or a Quantity, such as {_EXAMPLES[unit]}; got {_shown(value)} of type "
+        f"{argument} must be a number, an array or a Quantity, such as {_example(unit)}; got {shown(value)} of type "
         f"{type(value).__name__}",
         code="not_a_number",
         argument=argument,
@@ -448,14 +535,14 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) ->
     elif unit == "rad/s" and error is None:
         hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     return UnitsError(
-        f"{argument}: {_shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {_EXAMPLES[unit]}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {_example(unit)}",
         code="bad_units",
         argument=argument,
         text=text,
     )
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """A short rendering of what was given, safe for any object."""
     try:
         text = f"{value}" if is_quantity(value) else repr(value)

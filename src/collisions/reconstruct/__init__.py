@@ -3,6 +3,8 @@
 from ..provenance import Reconstruction
 from .central import central
 from .crush import crush_energy
+from .fit import fit
+from .fit_result import Fit
 from .inline import inline_closing_speed
 from .momentum import momentum
 from .momentum_solution import MomentumSolution
@@ -11,10 +13,12 @@ from .planar import planar
 from .speeds import speeds
 
 __all__ = [
+    "Fit",
     "MomentumSolution",
     "Reconstruction",
     "central",
     "crush_energy",
+    "fit",
     "friction",
     "inline_closing_speed",
     "momentum",

@@ -13,7 +13,7 @@ from ..amounts import amount
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels import codes
-from ..units import Door, Input, Value, callers_level, is_quantity
+from ..units import Door, Input, Value, callers_level, is_quantity, shown
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
@@ -100,13 +100,15 @@ def crush_energy(
     a = amount(door, stiffness_a, "N/m", "stiffness_a")
     b = door.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
-        door.refuse(InputError(f"stiffness_b must be > 0, got {stiffness_b!r}", code="not_positive", argument="stiffness_b"))
+        door.refuse(
+            InputError(f"stiffness_b must be > 0, got {shown(stiffness_b)}", code="not_positive", argument="stiffness_b")
+        )
     angle = Angle(*door.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
     if isinstance(cosine, float) and not (cosine > _NO_WORK or math.isnan(cosine)):
         door.refuse(
             InputError(
-                f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {force_angle!r}",
+                f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {shown(force_angle)}",
                 code="bad_angle",
                 argument="force_angle",
             )
@@ -120,7 +122,7 @@ def crush_energy(
     if np.any(oblique):
         warnings.warn(
             OutOfRangeWarning(
-                f"force_angle = {force_angle!r} is more than 45 deg, where the correction exceeds 2: outside what the crush "
+                f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction exceeds 2: outside what the crush "
                 f"model is used for",
                 code="force_angle",
             ),

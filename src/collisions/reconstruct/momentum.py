@@ -24,7 +24,8 @@ from ..errors import (
 from ..fields import hypot, show
 from ..kernels import codes
 from ..kernels.crossing import Term, change_of_speed, course_change, unknown_speed
-from ..units import POSITIVE, Door, Input, Pair, callers_level
+from ..quiet import warn_of_cases
+from ..units import POSITIVE, Door, Input, Pair, callers_level, shown
 from ..vehicle import angle_of
 from .momentum_solution import MomentumSolution, Sensitivity
 from .outcome import Cases, exactly, raise_or_warn
@@ -117,7 +118,7 @@ def momentum(
     -1.0
     """
     if not isinstance(together, bool):
-        raise InputError(f"together must be True or False, got {together!r}", code="bad_option", argument="together")
+        raise InputError(f"together must be True or False, got {shown(together)}", code="bad_option", argument="together")
     check_options(on_failure)
     speeds = {"speed_a": speed_a, "speed_b": speed_b, "speed_a_after": speed_a_after, "speed_b_after": speed_b_after}
     courses = {
@@ -452,14 +453,13 @@ def _warn_of_physics(cases: Cases, gains: Any, solution: dict[str, Any], roundin
     level = callers_level()
     if np.any(gains):
         most = -float(np.min(np.where(gains, solution["translational_energy_loss"], 0.0)))
-        warnings.warn(
+        warn_of_cases(
             EnergyGainWarning(
                 f"{_count(gains, cases)}the vehicles leave with {most:.6g} J more than they came with, which no impact gives; "
                 f"check courses and speeds",
                 code="energy_gain",
                 gain=most,
-            ),
-            stacklevel=level,
+            )
         )
     closing, e = solution["closing_speed"], solution["restitution"]
     if closing is None:

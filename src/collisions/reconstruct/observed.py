@@ -223,7 +223,8 @@ def _motions(
         for name in _KEPT
         if (value := getattr(body, name)) is not None
     }
-    cases = Cases.of({**kept, **everything})
+    # A coordinate that no motion needs is 0 in one and what was given in the other.
+    cases = Cases.of({**everything, **kept})
     found = []
     with np.errstate(all="ignore"):
         for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):

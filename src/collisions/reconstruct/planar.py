@@ -25,7 +25,7 @@ from ..errors import (
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
-from ..units import Door, Input, Pair, callers_level
+from ..units import Door, Input, Pair, callers_level, shown
 from ..vehicle import Vehicle
 from .origins import End, Origin
 from .outcome import NUMBERS, Cases, exactly, input_faults, plain_error, settle
@@ -122,7 +122,9 @@ def planar(
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
         door.refuse(
             InputError(
-                f"regime must be one of {', '.join(map(repr, _REGIMES))}, got {regime!r}", code="bad_regime", argument="regime"
+                f"regime must be one of {', '.join(map(repr, _REGIMES))}, got {shown(regime)}",
+                code="bad_regime",
+                argument="regime",
             )
         )
     e, n, rule, bound, contact, _ = read(

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError
+from ..units import shown
 
 _PIECES = 16
 # Sixteenths of a grid cell until they are rounding.
@@ -123,7 +124,7 @@ class RestitutionOf:
             self.refused = f"restitution({closing:.6g}) raised {type(error).__name__}: {error}"
             return float("nan")
         if not 0.0 <= e <= 1.0:
-            self.refused = f"restitution({closing:.6g}) gave {given!r}, which is not a number from 0 to 1"
+            self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from 0 to 1"
             return float("nan")
         return e
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
-from ..units import Door, is_quantity
-from .reading import one_value, single
+from ..units import Door, is_quantity, shown
+from .reading import one_value
 
 _HALF_TURN = math.pi * (1.0 + 1e-9)
 
@@ -32,8 +32,8 @@ def _parts(door: Door, value: Any, unit: str, name: str, shape: str) -> list[Any
     return None
 
 
-def read_points(door: Door, points: Any) -> list[tuple[float, float]] | None:
-    """The positions, at least two and no two in a row alike; None if they could not be read."""
+def read_points(door: Door, points: Any) -> list[tuple[Any, Any]] | None:
+    """The positions, at least two and of a single case no two in a row alike; None if they could not be read."""
     parts = _parts(door, points, "m", "points", "(n, 2)")
     if parts is None:
         return None
@@ -42,10 +42,9 @@ def read_points(door: Door, points: Any) -> list[tuple[float, float]] | None:
     for i, part in enumerate(parts):
         name = f"points[{i}]"
         if not _is_pair(part):
-            door.refuse(ShapeError(f"{name} must be a pair (x, y), got {str(part)[:60]}", code="bad_shape", argument=name))
+            door.refuse(ShapeError(f"{name} must be a pair (x, y), got {shown(part)}", code="bad_shape", argument=name))
             continue
-        x, y = door.pair(part, "m", name)
-        places.append((single(door, x, f"{name}[0]"), single(door, y, f"{name}[1]")))
+        places.append(door.pair(part, "m", name))
     if len(door.problems) > wrong:
         return None
     if len(places) < 2:
@@ -53,7 +52,7 @@ def read_points(door: Door, points: Any) -> list[tuple[float, float]] | None:
         door.refuse(ShapeError(text, code="too_few_points", argument="points"))
         return None
     for i, (before, after) in enumerate(pairwise(places)):
-        if before == after:
+        if all(isinstance(part, float) for part in (*before, *after)) and before == after:
             door.refuse(
                 InputError(
                     f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, {before[1]:.6g}), which has no "
@@ -72,7 +71,7 @@ def _is_pair(value: Any) -> bool:
     return isinstance(whole, (list, tuple)) and len(whole) == 2
 
 
-def read_headings(door: Door, headings: Any, count: int | None) -> list[float]:
+def read_headings(door: Door, headings: Any, count: int | None) -> list[Any]:
     """One heading for each point; ``count`` is None if the points could not be read."""
     # Counted on through turns, headings grow beyond the size at which the door suspects degrees; it looks at the first alone.
     door.trusted = ("headings",)
@@ -88,8 +87,10 @@ def read_headings(door: Door, headings: Any, count: int | None) -> list[float]:
         text = f"headings holds {len(turned)} and points holds {count}; give one heading for each point"
         door.refuse(ShapeError(text, code="bad_shape", argument="headings"))
     for i, (before, after) in enumerate(pairwise(turned)):
+        if not (isinstance(before, float) and isinstance(after, float)):
+            continue
         turn = after - before
-        if abs(turn) > _HALF_TURN:
+        if turns_too_far(turn):
             part = headings[i + 1] if isinstance(headings, (list, tuple)) else headings
             bare = not (isinstance(part, str) or is_quantity(part))
             radians = f"; bare numbers are radians, so write degrees as '{after:.6g} deg'" if bare else ""
@@ -106,10 +107,13 @@ def read_headings(door: Door, headings: Any, count: int | None) -> list[float]:
     return turned
 
 
-def _read_heading(door: Door, value: Any, name: str) -> float:
+def turns_too_far(turn: Any) -> Any:
+    """Whether a change of heading from one point to the next is more than can be told."""
+    return abs(turn) > _HALF_TURN
+
+
+def _read_heading(door: Door, value: Any, name: str) -> Any:
     if isinstance(value, (list, tuple)):
-        refused: float = one_value(door, value, "rad", name)
-        return refused
+        return one_value(door, value, "rad", name)
     angle, in_degrees = door.angle(value, name)
-    read: float = single(door, angle, name)
-    return math.radians(read) if in_degrees else read
+    return angle * (math.pi / 180.0) if in_degrees else angle

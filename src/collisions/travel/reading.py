@@ -11,7 +11,7 @@ import numpy as np
 
 from ..amounts import at_least_zero
 from ..errors import ShapeError, SuspectUnitsWarning, UnitsError
-from ..units import FINITE, Door, Input, callers_level, is_quantity
+from ..units import FINITE, Door, Input, callers_level, is_quantity, shown
 from .chain import GRAVITY
 
 Segments: TypeAlias = Input | Sequence[Input]
@@ -90,7 +90,7 @@ def _factor_or_deceleration(door: Door, value: Any, name: str) -> Any:
         return read / GRAVITY
     if isinstance(factor.problems[0], UnitsError) and isinstance(deceleration.problems[0], UnitsError):
         text = (
-            f"{name}: cannot read {str(value)[:60]!r} as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2' or "
+            f"{name}: cannot read {shown(value)} as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2' or "
             f"'22.5 ft/s**2'"
         )
         return door.refuse(UnitsError(text, code="bad_units", argument=name))
@@ -103,19 +103,6 @@ def read_grade(door: Door, value: Any, name: str) -> Any:
     if not (isinstance(value, str) or is_quantity(value)):
         warn_if_above(_STEEPEST_GRADE, read, name, "the rise over the run", "%")
     return read
-
-
-def single(door: Door, read: Any, name: str) -> Any:
-    """The number of a ``path``, which is one case."""
-    if isinstance(read, float):
-        return read
-    return door.refuse(
-        ShapeError(
-            f"{name} is an array, and path takes one case a call; give a number, or a list of one for each segment",
-            code="bad_shape",
-            argument=name,
-        )
-    )
 
 
 def warn_if_above(limit: float, read: Any, name: str, meaning: str, *units: str) -> None:

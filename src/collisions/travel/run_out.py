@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, fields
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from ..amounts import at_least_zero
 from ..errors import InputError, OutOfRangeWarning
-from ..fields import Shown, derived
-from ..units import UNIT_INTERVAL, Door, Input, Pair, callers_level, is_quantity
+from ..fields import Shown, derived, hypot, numeric
+from ..fields import lock as write_locked
+from ..kernels.select import divisor, select
+from ..units import UNIT_INTERVAL, Door, Input, Pair, Value, broadcast, callers_level, is_quantity, shown
 from ..vehicle import angle_of
 from .chain import durations_along, out_of_range, speeds_along
-from .places import read_headings, read_points
-from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed, single, warn_if_above
+from .lanes import settle
+from .places import read_headings, read_points, turns_too_far
+from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed, warn_if_above
 
 # For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
 _NOT_CHECKED = ""
@@ -29,42 +34,43 @@ class RunOut(Shown):
 
     Attributes
     ----------
-    speed : float [m/s]
+    speed : float or array [m/s]
         Speed at separation.
-    course : float [rad]
+    course : float or array [rad]
         Direction of motion at separation, the tangent of the path, in (-pi, pi].
-    yaw_rate : float [rad/s]
+    yaw_rate : float or array [rad/s]
         Yaw rate at separation, positive counter-clockwise.
-    time : float [s]
+    time : float or array [s]
         From the first point to the last.
-    distance : float [m]
+    distance : float or array [m]
         Along the path.
-    straight_course : float [rad]
+    straight_course : float or array [rad]
         Direction from the first point to the last, in (-pi, pi]; NaN where they are one place.
-    speeds : tuple of float [m/s]
+    speeds : tuple of float or array [m/s]
         Speed at every point.
-    crab_angles : tuple of float [rad]
+    crab_angles : tuple of float or array [rad]
         For every segment the heading less the course, in (-pi, pi]: positive where the vehicle points to the left of its way.
-    drags : tuple of float
+    drags : tuple of float or array
         For every segment the drag factor that friction, lock and crab angle come to.
     """
 
     _title = "Run-out"
 
-    speed: float = field(metadata={"unit": "m/s"})
-    course: float = field(metadata={"unit": "rad"})
-    yaw_rate: float = field(metadata={"unit": "rad/s"})
-    time: float = field(metadata={"unit": "s"})
-    distance: float = field(metadata={"unit": "m"})
-    straight_course: float = field(metadata={"unit": "rad"})
-    speeds: tuple[float, ...] = field(metadata={"unit": "m/s"})
-    crab_angles: tuple[float, ...] = field(metadata={"unit": "rad"})
-    drags: tuple[float, ...] = field(metadata={"unit": ""})
+    speed: Value = field(metadata={"unit": "m/s"})
+    course: Value = field(metadata={"unit": "rad"})
+    yaw_rate: Value = field(metadata={"unit": "rad/s"})
+    time: Value = field(metadata={"unit": "s"})
+    distance: Value = field(metadata={"unit": "m"})
+    straight_course: Value = field(metadata={"unit": "rad"})
+    speeds: tuple[Value, ...] = field(metadata={"unit": "m/s"})
+    crab_angles: tuple[Value, ...] = field(metadata={"unit": "rad"})
+    drags: tuple[Value, ...] = field(metadata={"unit": ""})
 
     @derived("rad")
-    def course_difference(self) -> float:
+    def course_difference(self) -> Value:
         """Course at separation less the straight line to rest [rad], in (-pi, pi]: what taking that line would be wrong by."""
-        return _wrapped(self.course - self.straight_course)
+        difference: Value = _wrapped(self.course - self.straight_course)
+        return difference
 
 
 def path(
@@ -84,7 +90,8 @@ def path(
 
         drag = friction * sqrt(sin(crab)**2 + (lock * cos(crab))**2)
 
-    One case a call: arrays are lists of positions here, not many cases.
+    Lists are positions and segments, and so is one array for all points or all headings. Many cases at once are arrays in place
+    of the single numbers: ``[(xs, ys), ...]``, ``[angles, ...]``, ``friction=factors``; they broadcast.
 
     Parameters
     ----------
@@ -95,21 +102,22 @@ def path(
         Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned by
         290 deg to the left, 0, -70 deg for one that turned by 70 deg to the right. From one point to the next at most half a
         turn; give more points for a faster spin.
-    friction : float, str or Quantity, or one for each segment
+    friction : float, str, Quantity or array, or a list with one for each segment
         Friction of locked tyres on the ground, >= 0.
-    lock : float, str or Quantity, or one for each segment
+    lock : float, str, Quantity or array, or a list with one for each segment
         Braking along the wheels as a fraction of what locked wheels give, from damage, brakes and gear: 0 if all roll freely,
         1 if all are locked.
-    grade : float, str or Quantity, or one for each segment
+    grade : float, str, Quantity or array, or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
-    end_speed : float, str or Quantity [m/s]
+    end_speed : float, str, Quantity or array [m/s]
         Speed at the last point, 0 at rest.
 
     Returns
     -------
     RunOut
         Course and yaw rate are the tangents at the first point: of the parabola through the first three positions over the
-        length of the path, and through their headings over time. With two points they are those of the straight line.
+        length of the path, and through their headings over time. With two points they are those of the straight line. A case
+        of a batch that cannot be answered is NaN.
 
     Raises
     ------
@@ -120,6 +128,8 @@ def path(
 
     Warns
     -----
+    CollisionsWarning
+        How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
         More than a quarter turn between two points, where one crab angle stands for all of it.
     SuspectUnitsWarning
@@ -164,25 +174,49 @@ def path(
     legs = None if places is None else len(places) - 1
     frictions = for_each(door, friction, "friction", legs, _read_friction)
     locks = for_each(door, lock, "lock", legs, _read_lock)
-    grades = for_each(door, grade, "grade", legs, _one_grade)
-    end = single(door, read_speed(door, end_speed, "end_speed"), "end_speed")
+    grades = for_each(door, grade, "grade", legs, read_grade)
+    end = read_speed(door, end_speed, "end_speed")
     door.close()
     places = places or []
+    named = {f"points[{i}][{axis}]": part for i, point in enumerate(places) for axis, part in enumerate(point)}
+    for name, parts in (("headings", turned), ("friction", frictions), ("lock", locks), ("grade", grades)):
+        named |= {f"{name}[{i}]": part for i, part in enumerate(parts)}
+    named["end_speed"] = end
+    shape = broadcast(named)
+    with np.errstate(all="ignore"):
+        run = _run_out(places, turned, frictions, locks, grades, end)
+        gaps = durations_along([_length(step) for step in _steps(places)], run.speeds)
+        answered = run.time + run.distance + run.yaw_rate
+        if shape is not None:
+            run = _settled(run, _lane_checks(places, turned, named, [*gaps, answered]), shape)
+        elif not (min(gaps) > 0.0 and math.isfinite(answered)):
+            raise out_of_range()
+    _warn_of_wide_segments(turned, locks)
+    return run
 
-    steps = [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
-    lengths = [math.hypot(dx, dy) for dx, dy in steps]
+
+def _run_out(
+    places: Sequence[tuple[Any, Any]],
+    turned: Sequence[Any],
+    frictions: Sequence[Any],
+    locks: Sequence[Any],
+    grades: Sequence[Any],
+    end: Any,
+) -> RunOut:
+    """The run-out of numbers, of one case or of many."""
+    steps = _steps(places)
+    lengths = [_length(step) for step in steps]
     crabs = [
-        _wrapped(before + 0.5 * (after - before) - math.atan2(dy, dx))
+        _wrapped(before + 0.5 * (after - before) - numeric(dx, dy).atan2(dy, dx))
         for (dx, dy), before, after in zip(steps, turned, turned[1:], strict=False)
     ]
     drags = [
-        mu * math.hypot(math.sin(crab), part * math.cos(crab)) for mu, part, crab in zip(frictions, locks, crabs, strict=True)
+        mu * hypot(numeric(crab).sin(crab), part * numeric(crab).cos(crab))
+        for mu, part, crab in zip(frictions, locks, crabs, strict=True)
     ]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
     durations = durations_along(lengths, speeds)
-    if not (min(durations) > 0.0 and math.isfinite(sum(durations) + sum(lengths))):
-        raise out_of_range()
-    run = RunOut(
+    return RunOut(
         speed=speeds[0],
         course=angle_of(_at_start([dx for dx, _ in steps], lengths), _at_start([dy for _, dy in steps], lengths)),
         yaw_rate=_at_start([after - before for before, after in pairwise(turned)], durations),
@@ -193,24 +227,67 @@ def path(
         crab_angles=tuple(crabs),
         drags=tuple(drags),
     )
-    if not math.isfinite(run.yaw_rate):
-        raise out_of_range()
-    _warn_of_wide_segments(turned, locks)
-    return run
 
 
-def _at_start(changes: Sequence[float], widths: Sequence[float]) -> float:
+def _steps(places: Sequence[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
+    return [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
+
+
+def _length(step: tuple[Any, Any]) -> Any:
+    return hypot(*step)
+
+
+def _lane_checks(
+    places: Sequence[tuple[Any, Any]], turned: Sequence[Any], named: dict[str, Any], answers: Sequence[Any]
+) -> Iterator[tuple[str, Any]]:
+    """What the door asks of single numbers, of the cases of a batch; then what came of them."""
+    below = {"friction": "bad_friction", "lock": "bad_fraction", "end_speed": "negative_speed"}
+    for value in named.values():
+        yield "not_finite", ~np.isfinite(value)
+    for name, value in named.items():
+        if (kind := name.partition("[")[0]) in below:
+            yield below[kind], np.less(value, 0.0)
+        if kind == "lock":
+            yield "bad_fraction", np.greater(value, 1.0)
+    for one, other in pairwise(places):
+        yield "coincident_points", np.equal(one[0], other[0]) & np.equal(one[1], other[1])
+    for before, after in pairwise(turned):
+        yield "turns_too_far", turns_too_far(after - before)
+    for answer in answers:
+        yield "contradictory", np.isnan(answer)
+    for answer in answers:
+        yield "out_of_range", np.isinf(answer)
+    for duration in answers[:-1]:
+        yield "out_of_range", np.less_equal(duration, 0.0)
+
+
+def _settled(run: RunOut, checks: Iterator[tuple[str, Any]], shape: tuple[int, ...]) -> RunOut:
+    """The answers of a batch, NaN where a case has none, all of its shape and locked."""
+    named = {f.name: getattr(run, f.name) for f in fields(run)}
+    flat = [part for value in named.values() for part in (value if isinstance(value, tuple) else (value,))]
+    settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, checks, shape))))
+    answers: dict[str, Any] = {
+        name: tuple(next(settled) for _ in value) if isinstance(value, tuple) else next(settled)
+        for name, value in named.items()
+    }
+    return RunOut(**answers)
+
+
+def _at_start(changes: Sequence[Any], widths: Sequence[Any]) -> Any:
     """Slope at the start of the parabola through the first three points; of the line, if there are two."""
-    first = changes[0] / widths[0]
-    if len(widths) == 1:
-        return first
-    return first + (first - changes[1] / widths[1]) * (widths[0] / (widths[0] + widths[1]))
+    # A width of 0 is refused elsewhere.
+    before, *after = (divisor(True, width) for width in widths[:2])
+    first = changes[0] / before
+    return first + (first - changes[1] / after[0]) * (before / (before + after[0])) if after else first
 
 
-def _wrapped(angle: float) -> float:
+def _wrapped(angle: Any) -> Any:
     """The angle in (-pi, pi]."""
-    rest = math.remainder(angle, 2.0 * math.pi)
-    return math.pi if rest == -math.pi else rest + 0.0
+    if isinstance(angle, float):
+        rest: Any = math.remainder(angle, 2.0 * math.pi)
+    else:
+        rest = angle - 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
+    return select(rest <= -math.pi, math.pi, rest + 0.0)
 
 
 def _leg(i: int) -> str:
@@ -219,11 +296,11 @@ def _leg(i: int) -> str:
 
 def _read_friction(door: Door, value: Any, name: str) -> Any:
     wrong = len(door.problems)
-    read = single(door, one_value(door, value, "", name, _NOT_CHECKED), name)
+    read = one_value(door, value, "", name, _NOT_CHECKED)
     if len(door.problems) > wrong:
         return read
-    if not math.isfinite(read):
-        return door.refuse(InputError(f"{name} must be finite, got {value!r}", code="not_finite", argument=name))
+    if isinstance(read, float) and not math.isfinite(read):
+        return door.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
     read = at_least_zero(door, read, value, name, "bad_friction", "its direction is worked out")
     if not (isinstance(value, str) or is_quantity(value)):
         warn_if_above(HIGHEST_DRAG, read, name, "a fraction of the load", "%")
@@ -231,16 +308,12 @@ def _read_friction(door: Door, value: Any, name: str) -> Any:
 
 
 def _read_lock(door: Door, value: Any, name: str) -> Any:
-    return single(door, one_value(door, value, "", name, UNIT_INTERVAL), name)
-
-
-def _one_grade(door: Door, value: Any, name: str) -> Any:
-    return single(door, read_grade(door, value, name), name)
+    return one_value(door, value, "", name, UNIT_INTERVAL)
 
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:
     turns = [abs(after - before) for before, after in pairwise(turned)]
-    wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if turn > _QUARTER_TURN and part < 1.0]
+    wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if np.any((turn > _QUARTER_TURN) & (part < 1.0))]
     if wide:
         named = ", ".join(_leg(i) for i in wide)
         warnings.warn(

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any
 
 import numpy as np
 
-from ..errors import CollisionsWarning, NoSolutionError, ShapeError
+from ..errors import NoSolutionError, ShapeError
 from ..kernels.select import select
-from ..units import Door, Input, Value, broadcast, callers_level
+from ..units import Door, Input, Value, broadcast
 from .chain import GRAVITY, durations_along, out_of_range, speeds_along
+from .lanes import settle
 from .reading import Segments, for_each, read_drag, read_grade, read_length, read_speed
 
 
@@ -244,25 +244,8 @@ def _settle(found: Any, named: dict[str, Any]) -> Any:
         if not math.isfinite(found):
             raise out_of_range()
         return found
-    unsettled = np.ones(found.shape, dtype=bool)
-    counts: dict[str, int] = {}
-    for code, lanes in _lane_checks(found, named):
-        hit = unsettled & lanes
-        if hit.any():
-            counts[code] = counts.get(code, 0) + int(np.count_nonzero(hit))
-            unsettled &= ~hit
-    if not counts:
-        return found
-    listed = ", ".join(f"{count} {code}" for code, count in counts.items())
-    warnings.warn(
-        CollisionsWarning(
-            f"{sum(counts.values())} of {found.size} cases cannot be answered and are NaN ({listed})",
-            code="refused_cases",
-            counts=counts,
-        ),
-        stacklevel=callers_level(),
-    )
-    return np.where(unsettled, found, math.nan)
+    settled: Any = settle([found], _lane_checks(found, named), found.shape)[0]
+    return settled
 
 
 def _lane_checks(found: Any, named: dict[str, Any]) -> list[tuple[str, Any]]:

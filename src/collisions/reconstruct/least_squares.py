@@ -1,0 +1,214 @@
+"""Weighted least squares within bounds, from many starts at once: numbers only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+_EPS = 2.0**-52
+_ROUNDS = 200
+# Of a standard error, or of the misfit where that is larger: what is left to go where a search ends.
+_CLOSE = 1e-8
+# The same where rounding of the model lets the search come no closer.
+_CLOSE_ENOUGH = 1e-3
+_FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
+_BEND = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
+_LEAST_WEIGHT = 1e-6  # of the damping: an unknown that changes nothing is damped all the same
+FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not tell it
+
+_PART = 0.1  # of a direction
+_ROUNDING = 10.0  # eps of what is computed, in a difference
+_LARGEST = 1e100
+
+SEARCHING, CONVERGED, STALLED, AT_REFUSAL, REFUSED = range(5)
+
+
+class Problem(NamedTuple):
+    """What is fitted: everything is counted in standard deviations of what was observed.
+
+    ``evaluate`` takes points (k, n) and gives what the model makes of them (k, m), NaN where it refuses; ``period`` is NaN for
+    what does not go round a circle; ``scale`` is how far each unknown may be thought to move.
+    """
+
+    evaluate: Callable[[Any], Any]
+    target: Any
+    period: Any
+    low: Any
+    high: Any
+    scale: Any
+
+    def wrapped(self, difference: Any) -> Any:
+        """Differences of angles by the short way round, within half a turn."""
+        with np.errstate(invalid="ignore"):
+            turns = np.ceil(difference / self.period - 0.5)
+        return difference - np.where(np.isnan(self.period), 0.0, self.period * np.where(np.isnan(turns), 0.0, turns))
+
+    def misfit(self, outputs: Any) -> Any:
+        """Computed less observed."""
+        return self.wrapped(outputs - self.target)
+
+    def steps(self, points: Any) -> Any:
+        """How far to move each unknown to see what changes, small enough to stay within the bounds on one side."""
+        size = np.clip(abs(points), 0.1 * self.scale, 10.0 * self.scale)
+        step = np.maximum(_EPS ** (1 / 3) * size, np.sqrt(_EPS * abs(points) * size))
+        return np.minimum(step, 0.25 * (self.high - self.low))
+
+    def with_slopes(self, points: Any) -> tuple[Any, Any]:
+        """Outputs (k, m) and their derivatives (k, m, n) by second-order differences, in one call of the model.
+
+        Both neighbours lie on one side where a bound is on the other. Where the model refuses one of them, the other is used;
+        the derivative is NaN where it refuses both.
+        """
+        outputs, one, other, to_one, to_other = self._differences(points)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slopes = (one * to_other - other * to_one) / (to_other - to_one)
+        slopes = np.where(np.isnan(one), other, np.where(np.isnan(other), one, slopes))
+        return outputs, np.swapaxes(slopes, 1, 2)
+
+    def is_bent(self, point: Any) -> bool:
+        """Whether the slopes to both neighbours differ by more than a smooth model's do: a bend or a jump between them."""
+        _, one, other, _, _ = self._differences(point[np.newaxis])
+        sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (one, other, one - other)]
+        return bool(np.any(sizes[2] > _BEND * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
+
+    def _differences(self, points: Any) -> tuple[Any, Any, Any, Any, Any]:
+        count, n = points.shape
+        step = self.steps(points)
+        first = np.where(points + step <= self.high, step, -step)
+        second = np.where((first > 0.0) & (points - step >= self.low), -step, 2.0 * first)
+        moves = np.stack([first, second], axis=1)
+        places = points[:, np.newaxis, np.newaxis] + moves[..., np.newaxis] * np.eye(n)
+        moves = np.einsum("kjii->kji", places) - points[:, np.newaxis]
+        every = np.concatenate([points[:, np.newaxis], places.reshape(count, 2 * n, n)], axis=1)
+        found = self.evaluate(every.reshape(-1, n)).reshape(count, 2 * n + 1, -1)
+        outputs = found[:, 0]
+        changes = self.wrapped(found[:, 1:] - found[:, :1]).reshape(count, 2, n, -1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            one, other = np.moveaxis(changes / moves[..., np.newaxis], 1, 0)
+        return outputs, one, other, moves[:, 0, :, np.newaxis], moves[:, 1, :, np.newaxis]
+
+
+class Ends(NamedTuple):
+    """Where the searches ended, one a row."""
+
+    points: Any
+    outputs: Any
+    slopes: Any
+    chi_squared: Any
+    state: Any
+
+
+def spread(count: int, low: Any, high: Any) -> Any:
+    """Points evenly over a box, the middle first: the additive recurrence on powers of the generalised golden ratio.
+
+    M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018): the root of x^(n+1) = x + 1.
+    """
+    n = len(low)
+    root = 2.0
+    for _ in range(60):
+        root = (1.0 + root) ** (1.0 / (n + 1))
+    share = (0.5 + np.arange(count)[:, np.newaxis] * root ** -np.arange(1.0, n + 1.0)) % 1.0
+    return low + (high - low) * share
+
+
+def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = _CLOSE) -> Ends:
+    """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
+
+    Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, seen in the metric of
+    the standard errors, is rounding; it stalls where no step however short lowers the misfit, which a smooth model does only
+    there. Where ``movable`` (k, n) is given, each search leaves the other unknowns as they start.
+    """
+    movable = np.ones(starts.shape, dtype=bool) if movable is None else movable
+    points = np.clip(starts, problem.low, problem.high)
+    outputs, slopes = problem.with_slopes(points)
+    misfit = problem.misfit(outputs)
+    cost = _cost(problem, misfit, slopes)
+    state = np.where(np.isfinite(cost), SEARCHING, REFUSED)
+    damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
+
+    for _ in range(_ROUNDS):
+        arrived = _left_to_go(problem, points, misfit, slopes, movable, state) <= close
+        state = np.where(arrived, CONVERGED, state)
+        live = np.flatnonzero(state == SEARCHING)
+        if not live.size:
+            break
+        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], movable[live], damping[live])
+        found, steep = problem.with_slopes(trial)
+        rest = problem.misfit(found)
+        new = _cost(problem, rest, steep)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            gain = (cost[live] - new) / foreseen
+        better = (new < cost[live]) & (foreseen > 0.0)
+        taken = live[better]
+        points[taken], outputs[taken], misfit[taken] = trial[better], found[better], rest[better]
+        slopes[taken], cost[taken] = steep[better], new[better]
+        damping[taken] *= np.maximum(1.0 / 3.0, 1.0 - (2.0 * np.clip(gain[better], 0.0, 1.0) - 1.0) ** 3)
+        growth[taken] = 2.0
+        left = live[~better]
+        damping[left] *= growth[left]
+        growth[left] *= 2.0
+        stuck = damping[live] > _MOST_DAMPING
+        state[live[stuck]] = np.where(np.isfinite(new[stuck]), STALLED, AT_REFUSAL)
+
+    ended = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
+    rest = _left_to_go(problem, points, misfit, slopes, movable, np.where(ended, SEARCHING, REFUSED))
+    return Ends(points, outputs, slopes, cost, np.where(ended & (rest <= _CLOSE_ENOUGH), CONVERGED, state))
+
+
+def _cost(problem: Problem, misfit: Any, slopes: Any) -> Any:
+    """Chi-squared, infinite where the model refuses or its numbers cannot be squared."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        usable = np.all(abs(misfit) < _LARGEST, axis=1) & np.all(abs(slopes * problem.scale) < _LARGEST, axis=(1, 2))
+    return np.where(usable, np.sum(np.where(usable[:, np.newaxis], misfit, 0.0) ** 2, axis=1), np.inf)
+
+
+def rounding(outputs: Any, scale: Any, steps: Any) -> Any:
+    """What rounding of the outputs makes of slopes that are differences over these steps, for a whole scale."""
+    return _ROUNDING * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
+
+
+def _untold(problem: Problem, points: Any, misfit: Any, direction: Any) -> Any:
+    """The length of slopes along each direction below which they tell nothing: rounding, or within bounds what is too flat."""
+    noise = rounding(misfit + problem.target, problem.scale, problem.steps(points))
+    least = np.einsum("kij,ki->kj", abs(direction), noise)
+    unbounded = np.isinf(problem.low) & np.isinf(problem.high)
+    outwards = np.linalg.norm(direction * unbounded[:, np.newaxis], axis=1) > _PART
+    return np.where(outwards, least, np.maximum(FLAT, least))
+
+
+def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
+    """Gradient and curvature in scaled unknowns, without those that a bound holds or that may not move."""
+    scaled = slopes * problem.scale
+    gradient = np.einsum("kmn,km->kn", scaled, misfit)
+    held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
+    free = movable & ~held
+    curvature = np.einsum("kmi,kmj->kij", scaled, scaled) * (free[:, :, np.newaxis] & free[:, np.newaxis, :])
+    return np.where(free, gradient, 0.0), curvature
+
+
+def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, damping: Any) -> tuple[Any, Any]:
+    """The damped step within the bounds, and by how much chi-squared should fall."""
+    gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
+    weight = np.einsum("kii->ki", curvature)
+    weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
+    damped = curvature + (damping[:, np.newaxis] * weight)[..., np.newaxis] * np.eye(len(problem.scale))
+    move = np.linalg.solve(damped, -gradient[..., np.newaxis])[..., 0]
+    trial = np.clip(points + move * problem.scale, problem.low, problem.high)
+    real = (trial - points) / problem.scale
+    return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)
+
+
+def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, state: Any) -> Any:
+    """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not searching."""
+    left = np.full(len(points), np.inf)
+    live = np.flatnonzero(state == SEARCHING)
+    if live.size:
+        gradient, curvature = _normal_equations(problem, points[live], misfit[live], slopes[live], movable[live])
+        size, direction = np.linalg.eigh(curvature)
+        along = np.einsum("kij,ki->kj", direction, gradient)
+        told = size > _untold(problem, points[live], misfit[live], direction) ** 2
+        step = np.sqrt(np.sum(np.where(told, along**2 / np.where(told, size, 1.0), 0.0), axis=1))
+        left[live] = step / np.maximum(1.0, np.sqrt(np.einsum("km,km->k", misfit[live], misfit[live])))
+    return left

@@ -1,0 +1,223 @@
+"""What every input of an uncertainty has in common: read with units once, frozen, compared by value, shown with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import FrozenInstanceError
+from typing import Any, Self
+
+import numpy as np
+
+from ..errors import InputError, ShapeError, UnitsError
+from ..units import Door, has_unit, is_quantity, si_unit
+from .standard_normal import both_tails
+
+
+class Stated:
+    """Base of what can be stated about a quantity: a frozen value made of SI numbers and the unit they are in."""
+
+    __slots__ = ("unit",)
+
+    unit: str
+
+    @classmethod
+    def _of(cls, unit: str, *parts: Any) -> Self:
+        """One made of SI numbers, past the door."""
+        made: Self = object.__new__(cls)
+        made._make(unit, *parts)
+        return made
+
+    def _make(self, unit: str, *parts: Any) -> None:
+        raise NotImplementedError
+
+    def _parts(self) -> dict[str, Any]:
+        """What it was made of, by the names of the arguments."""
+        raise NotImplementedError
+
+    def _set(self, **values: Any) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"cannot change {name!r}: {type(self).__name__} is frozen, make a new one")
+
+    def __delattr__(self, name: str) -> None:
+        raise FrozenInstanceError(f"cannot delete {name!r}: {type(self).__name__} is frozen, make a new one")
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self.unit == other.unit and self._parts() == other._parts()
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.unit, *self._parts().values()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), self.unit, *self._parts().values())
+
+    def __repr__(self) -> str:
+        shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts().items() if part is not None)
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+class Distribution(Stated):
+    """A quantity that is not known exactly, and how likely each of its values is.
+
+    Every number is a bare SI float, and that of the distribution as it is used: after truncation.
+
+    Attributes
+    ----------
+    mean, sd : float
+        Mean and standard deviation.
+    skewness, kurtosis : float
+        Third and fourth central moment over the third and fourth power of ``sd``: 0 and 3 for a normal distribution.
+    support : tuple of float
+        Lowest and highest value.
+    unit : str
+        SI unit of these numbers, such as "m/s"; "" when none was given.
+    """
+
+    __slots__ = ("kurtosis", "mean", "sd", "skewness", "support")
+
+    mean: float
+    sd: float
+    skewness: float
+    kurtosis: float
+    support: tuple[float, float]
+
+    def quantile(self, p: Any) -> Any:
+        """Value that the quantity stays below with probability p.
+
+        Parameters
+        ----------
+        p : float or array [1]
+            Probability, from 0 to 1.
+
+        Returns
+        -------
+        float or array
+            In SI.
+
+        Raises
+        ------
+        InputError
+            A probability outside 0 to 1.
+        """
+        p = _float_or_array(p)
+        if not np.all((p >= 0.0) & (p <= 1.0)):
+            raise InputError("p must be a probability from 0 to 1", code="bad_fraction", argument="p")
+        return self._at(p, 1.0 - p)
+
+    def scored(self, z: Any) -> Any:
+        """Value that is as likely to be exceeded as z is by a standard normal variable.
+
+        The quantile at the normal probability of z, without what is lost by way of a probability near 1.
+
+        Parameters
+        ----------
+        z : float or array [1]
+            Standard normal score.
+
+        Returns
+        -------
+        float or array
+            In SI.
+
+        Raises
+        ------
+        InputError
+            A score that is NaN.
+        """
+        z = _float_or_array(z)
+        if np.any(np.isnan(z)):
+            raise InputError("z must be a number, got NaN", code="not_finite", argument="z")
+        return self._scored(z)
+
+    def _scored(self, z: Any) -> Any:
+        return self._at(*both_tails(z))
+
+    def _at(self, below: Any, above: Any) -> Any:
+        """The value with these probabilities below and above it, which together are 1."""
+        raise NotImplementedError
+
+    def _describe(self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]) -> None:
+        """Sets the moments, of which none may have overflowed."""
+        if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
+            raise self._too_large()
+        self._set(mean=mean, sd=sd, skewness=skewness, kurtosis=kurtosis, support=support)
+
+    def _too_large(self) -> InputError:
+        return InputError(
+            f"{type(self).__name__}: its mean, its deviation or their ratio is too large for a float64; look for a wrong unit "
+            f"or a slipped digit",
+            code="out_of_range",
+            argument=next(iter(self._parts())),
+        )
+
+
+def _again(kind: type[Stated], unit: str, *parts: Any) -> Stated:
+    return kind._of(unit, *parts)
+
+
+def _float_or_array(value: Any) -> Any:
+    if isinstance(value, float):
+        return float(value)
+    array = np.asarray(value, dtype=np.float64)
+    return float(array) if array.ndim == 0 else array
+
+
+def show(value: Any, unit: str) -> str:
+    """A number of an input for people: four digits, or all before the point, and the unit."""
+    if isinstance(value, tuple):
+        return f"({', '.join(show(part, unit) for part in value)})"
+    if not isinstance(value, float):
+        return str(value)
+    text = f"{value:.0f}" if 1e4 <= abs(value) < 1e15 else f"{value:.4g}"
+    return f"{text} {unit}" if unit else text
+
+
+def read_alike(
+    needed: Mapping[str, Any], optional: Mapping[str, Any] | None = None, arrays: bool = False
+) -> tuple[list[Any], str]:
+    """SI numbers of one kind, and its SI unit: either all have a unit or none has; what is optional may be None."""
+    optional = optional or {}
+    given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
+    measured = [name for name, value in given.items() if has_unit(value)]
+    unit = si_unit(given[measured[0]], measured[0]) if measured else ""
+    bare = [name for name, value in given.items() if name not in measured and not _is_zero(value)]
+    if measured and bare:
+        raise UnitsError(
+            f"{bare[0]} = {_written(given[bare[0]])} has no unit, but {measured[0]} = {_written(given[measured[0]])} has one; "
+            f"give each with its unit, or each as a number in SI",
+            code="bad_units",
+            argument=bare[0],
+        )
+    door = Door()
+    numbers = {name: door.number(value, unit, name) for name, value in given.items()}
+    for name, number in numbers.items():
+        if isinstance(number, np.ndarray) is not arrays:
+            what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
+            door.refuse(ShapeError(f"{name} must be {what}, got {_written(given[name])}", code="bad_shape", argument=name))
+    door.close()
+    return [numbers.get(name) for name in (*needed, *optional)], unit
+
+
+def _is_zero(value: Any) -> bool:
+    """0 is the same in every unit."""
+    return isinstance(value, (int, float, np.integer)) and not isinstance(value, bool) and value == 0
+
+
+def _written(value: Any) -> str:
+    text = f"{value}" if is_quantity(value) else repr(value)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def check_order(low: float, high: float, what: str = "low and high") -> None:
+    """Refuses a range without width."""
+    if not low < high:
+        raise InputError(
+            f"{what} must be in rising order, got {low:.6g} and {high:.6g}; of a quantity that is known exactly give the "
+            f"number itself",
+            code="bad_range",
+            argument="low",
+        )

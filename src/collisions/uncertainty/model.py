@@ -1,0 +1,102 @@
+"""The user's model, called with arrays: what it is given, and what it may answer."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import InputError, ShapeError
+from ..quiet import quietly
+from ..units import Door, is_quantity, si_unit
+
+Function: TypeAlias = Callable[..., Mapping[str, Any]]
+
+
+class Model:
+    """A function of named inputs, the fixed ones kept beside it; the names and units of its outputs from the first call on."""
+
+    def __init__(self, function: Any, fixed: Mapping[str, Any]) -> None:
+        if not callable(function):
+            raise InputError(
+                f"model must be a function of the named inputs that returns a dict of outputs, got {type(function).__name__}",
+                code="bad_model",
+                argument="model",
+            )
+        self.function = function
+        self.fixed = dict(fixed)
+        self.units: dict[str, str | None] = {}
+
+    def __call__(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
+        """The outputs of the cases, as new float arrays; what is not finite has no answer and is NaN."""
+        for value in values.values():
+            value.setflags(write=False)
+        try:
+            with quietly(), np.errstate(all="ignore"):
+                answered = self.function(**self.fixed, **values)
+        except Exception as error:
+            error.add_note(
+                f"The model was called with arrays of {count} cases for {', '.join(values) or 'nothing'}; it must work "
+                f"case by case on arrays (numpy in place of math, numpy.where in place of if), and refused cases must be NaN: "
+                f"on_failure='nan'."
+            )
+            raise
+        if not isinstance(answered, Mapping) or not answered:
+            raise InputError(
+                f"model must return a dict of named outputs, such as {{'delta_v': impact.a.delta_v}}, got "
+                f"{type(answered).__name__}",
+                code="bad_model",
+                argument="model",
+            )
+        units = {name: si_unit(value) if is_quantity(value) else None for name, value in answered.items()}
+        if self.units and units != self.units:
+            raise InputError(
+                f"model returned {_listed(units)} now and {_listed(self.units)} before; it must always return the same outputs",
+                code="bad_model",
+                argument="model",
+            )
+        self.units = units
+        return {name: _read(name, value, units[name], count) for name, value in answered.items()}
+
+
+def check_names(function: Any, names: Collection[str]) -> None:
+    """Refuses inputs that the model has no argument for, and arguments without an input."""
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):
+        return
+    try:
+        signature.bind(**dict.fromkeys(names))
+    except TypeError as error:
+        raise InputError(
+            f"inputs are {', '.join(names) or 'none'}, but the model takes {signature}: {error}; name the inputs as the "
+            f"arguments of the model, and give one for each",
+            code="bad_inputs",
+            argument="inputs",
+        ) from None
+
+
+def _listed(units: Mapping[str, str | None]) -> str:
+    return ", ".join(f"{name} [{unit}]" if unit else name for name, unit in units.items())
+
+
+def _read(name: str, value: Any, unit: str | None, count: int) -> Any:
+    if not isinstance(name, str):
+        raise InputError(f"model must name its outputs by texts, got {name!r}", code="bad_model", argument="model")
+    if isinstance(value, np.ndarray) and value.dtype == np.bool_:
+        value = value.astype(np.float64)
+    door = Door(trusted=(name,))
+    read = door.number(value, unit or "", name)
+    door.close()
+    if np.shape(read) != (count,):
+        raise ShapeError(
+            f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by itself, "
+            f"so an array of shape ({count},)",
+            code="bad_shape",
+            argument=name,
+        )
+    found = np.array(read, dtype=np.float64)
+    found[~np.isfinite(found)] = np.nan
+    return found

@@ -1,0 +1,130 @@
+"""What sampling tells of one output: its figures, and the standard errors of all of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..fields import OWN, derived, returns
+from . import angles
+from .output import Histogram, Output, Shares, average, deviation, probability
+from .points import REPLICATES
+
+_MOST_BINS = 10000
+
+
+class Sampled(Output):
+    """An output that was sampled: one value for each case, in the order they were drawn, NaN where there was no answer."""
+
+    def __init__(self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]]) -> None:
+        super().__init__(name, unit, shares)
+        self._as_returned = values
+        self._fold(angles.cut(values) if unit == "rad" else None)
+
+    @property
+    def failed(self) -> int:
+        """Cases without an answer, which the figures leave out."""
+        return int(np.count_nonzero(np.isnan(self.values)))
+
+    def may_wrap(self) -> bool:
+        """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
+        found = self._answered()
+        if self.unit == "rad":
+            return angles.point_everywhere(found)
+        if self.unit is not None or not found.size or not -math.pi <= found[0] <= -2.0 or not 2.0 <= found[-1] <= math.pi:
+            return False
+        return not np.any(np.abs(found) < 1.0)
+
+    @derived(OWN)
+    def mean_standard_error(self) -> Any:
+        """Standard error of the mean from sampling."""
+        return self._error(average)
+
+    @derived(OWN)
+    def std_standard_error(self) -> Any:
+        """Standard error of the standard deviation from sampling."""
+        return self._error(deviation)
+
+    @returns(OWN)
+    def quantile_standard_error(self, p: Any) -> Any:
+        """Standard error of a quantile from sampling; NaN at 0 and 1, beyond which there is nothing to go by.
+
+        That of the share of cases up to the quantile, by the slope of the quantiles there: how quantiles differ between the
+        sequences would tell less, because each of them is even in itself.
+        """
+        share = probability(p)
+        with np.errstate(all="ignore"):
+            found = np.array([self._quantile_error(one) for one in np.ravel(share)]).reshape(np.shape(share))
+        return found if found.ndim else float(found)
+
+    def histogram(self, bins: int = 40) -> Histogram:
+        """Edges, shares of the cases between them and their standard errors: for a chart."""
+        if isinstance(bins, bool) or not isinstance(bins, (int, np.integer)) or not 1 <= bins <= _MOST_BINS:
+            raise InputError(
+                f"bins must be a whole number from 1 to {_MOST_BINS}, got {bins!r}", code="bad_option", argument="bins"
+            )
+        try:
+            with np.errstate(all="ignore"):
+                edges = np.histogram_bin_edges(self._answered(), bins)
+        except ValueError:
+            raise InputError(
+                f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
+                code="no_spread",
+                argument="bins",
+            ) from None
+
+        def shares(values: Any) -> Any:
+            return np.histogram(values, edges)[0] / max(1, values.size)
+
+        return Histogram(edges, shares(self._answered()), self._error(shares))
+
+    def _mean(self) -> Any:
+        return average(self._answered())
+
+    def _std(self) -> Any:
+        return deviation(self._answered())
+
+    def _quantile(self, p: Any) -> Any:
+        with np.errstate(all="ignore"):
+            found = np.quantile(self._answered(), p)
+        return found if found.ndim else float(found)
+
+    def _fold(self, where: float | None) -> None:
+        """Directions about the middle of the turn that ends there."""
+        self.values = angles.folded(self._as_returned, where)
+        self.values.setflags(write=False)
+        self._cache.clear()
+
+    def _directions(self) -> Any:
+        return self._as_returned
+
+    def _answered(self) -> Any:
+        """The cases with an answer, sorted."""
+        if "sorted" not in self._cache:
+            self._cache["sorted"] = np.sort(self.values[~np.isnan(self.values)])
+        return self._cache["sorted"]
+
+    def _quantile_error(self, share: float) -> float:
+        found = self._answered()
+        if not 0.0 < share < 1.0 or found.size < 2:
+            return math.nan
+        at = np.quantile(found, share)
+        # Of points that lie evenly the shares can all be the same, and the quantile still lies anywhere between two of them.
+        error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
+        reach = max(error, math.sqrt(share * (1.0 - share) / found.size))
+        low, high = max(0.0, share - reach), min(1.0, share + reach)
+        ends = np.quantile(found, (low, high))
+        return error * float(ends[1] - ends[0]) / (high - low)
+
+    def _error(self, figure: Callable[[Any], Any]) -> Any:
+        """The standard error of a figure, from how it differs between the independent sequences of points."""
+        columns = [self.values[which::REPLICATES] for which in range(REPLICATES)]
+        found = [figure(column[~np.isnan(column)]) for column in columns if np.count_nonzero(~np.isnan(column)) > 1]
+        if len(found) < 2:
+            return figure(np.zeros(2)) * math.nan
+        error = np.std(found, axis=0, ddof=1) / math.sqrt(len(found))
+        return error if np.ndim(error) else float(error)
