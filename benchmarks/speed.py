@@ -11,14 +11,17 @@ numba and pymunk are measured where they are installed (``pip install ".[bench]"
 from __future__ import annotations
 
 import argparse
+import compileall
 import gc
 import json
 import math
 import os
 import platform
+import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 import tracemalloc
 import warnings
@@ -38,7 +41,9 @@ import speed_rivals  # noqa: E402
 import time_resolved  # noqa: E402
 
 import collisions as col  # noqa: E402
-from collisions import reconstruct  # noqa: E402
+from collisions import arguments, reconstruct  # noqa: E402
+from collisions.kernels.eccentric import eccentric as eccentric_kernel  # noqa: E402
+from collisions.kernels.linear import linear_central as linear_kernel  # noqa: E402
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -336,6 +341,43 @@ def _beyond_what_is_kept() -> int:
     return most - held
 
 
+# --- Where the time goes ---------------------------------------------------------------------------------------------------
+
+
+def parts(effort: Effort) -> dict[str, Any]:
+    """Shares of the time: in one case those of the formulas, in a batch those of its arguments and of the attributes read."""
+    a, b = (col.Vehicle(**body) for body in BODIES)
+    line = [col.Vehicle(mass=1500.0, vx=13.9), col.Vehicle(mass=1200.0, vx=2.0)]
+    bodies = [number for car in (a, b) for number in (*(getattr(car, name) for name in batch_speed.BODY), 0.0, 0.0)]
+    eccentric = 0.1, math.cos(0.1), math.sin(0.1), 0.5, 0.0, 0.0, *bodies, "friction", "brach", False, False
+    linear = 0.1, 1.0, 0.0, *(number for car in line for number in (car.mass, car.vx, car.vy))
+    works = {
+        "eccentric": Work("", lambda: col.eccentric(a, b, 0.1, normal=0.1, point=(0.0, 0.0), friction=0.5)),
+        "eccentric_formulas": Work("", lambda: eccentric_kernel(*eccentric)),
+        "linear": Work("", lambda: col.linear_central(*line, 0.1)),
+        "linear_formulas": Work("", lambda: linear_kernel(*linear)),
+    }
+    single = timed(works, effort.rounds, effort.seconds)
+    scene = batch_speed.states(batch_speed.scenes(effort.cases))
+    asked = (*scene.values(), None, None, "brach")
+    batch = timed(
+        {
+            "whole": Work("", lambda: batch_speed.library(**scene)),
+            "solved": Work("", lambda: col.eccentric(**scene, on_failure="nan")),
+            "arguments": Work("", lambda: arguments.read(*asked)),
+        },
+        effort.batch_rounds,
+        0.0,
+    )
+    solved = ratio(batch, "solved", "whole")["median"]
+    return {
+        "eccentric": ratio(single, "eccentric_formulas", "eccentric")["median"],
+        "linear": ratio(single, "linear_formulas", "linear")["median"],
+        "arguments": ratio(batch, "arguments", "whole")["median"],
+        "attributes": speed_errors.rounded(1.0 - solved),
+    }
+
+
 # --- Imports ---------------------------------------------------------------------------------------------------------------
 
 MODULES = ("numpy", "collisions", "pint", "numba", "pymunk")
@@ -343,9 +385,20 @@ TIMED = "import sys, time; t = time.perf_counter(); import {0}; t = time.perf_co
 
 
 def imports(count: int, modules: tuple[str, ...] = MODULES) -> dict[str, Any]:
-    """The best import of so many, each in a process of its own, against that of numpy; whether pint was loaded."""
-    path = os.pathsep.join([str(ROOT / "src"), *filter(None, [os.environ.get("PYTHONPATH")])])
-    environment = {**os.environ, "PYTHONPATH": path}
+    """The best import of so many, each in a process of its own, against that of numpy; whether pint was loaded.
+
+    The package is compiled first, as it is where it was installed.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "src" / "collisions", Path(folder) / "collisions", ignore=shutil.ignore_patterns("__pycache__"))
+        assert compileall.compile_dir(folder, quiet=1)
+        path = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
+        environment = {**os.environ, "PYTHONPATH": path}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)
+        return _imports(count, modules, environment)
+
+
+def _imports(count: int, modules: tuple[str, ...], environment: dict[str, str]) -> dict[str, Any]:
     names = [name for name in modules if speed_rivals.installed(name)]
     found: Times = {name: [] for name in names}
     loaded = {}
@@ -484,6 +537,7 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
     of_batch = costs(batch, batch_times, UNIT)
     del batch, compiled
     mebibytes = memory(effort.cases)
+    shares = parts(effort)
     say("imports")
     imported = imports(effort.imports, MODULES if effort is FULL else MODULES[:2])
     say("errors")
@@ -500,6 +554,7 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
         "single": [*costs(single, single_times, UNIT), costs(long, long_times, UNIT)[-1]],
         "batch": of_batch,
         "budgets": budgets(single_times, batch_times, imported, mebibytes),
+        "parts": shares,
         "imports": imported,
         "rivals": versions,
         "errors": {"choices": speed_errors.choices(effort.scenes, contacts, rivals.pymunk), **speed_errors.curves()},

@@ -95,12 +95,49 @@ WHY = {
     "eccentric": "It checks the case, uses forms that keep their accuracy, and makes a result object.",
     "nine": "Attributes are worked out when they are read, and the states after are vehicles of their own.",
     "linear": "Checks and the result object cost more than so small a formula.",
-    "batch": "The forms that keep their accuracy need a third more operations than the textbook, and all is checked.",
-    "threads": "Both cores have to be idle, and the memory has to keep up with them.",
+    "batch": "The forms that keep their accuracy need more operations than the textbook, and all is checked.",
+    "threads": "Both cores have to be idle: before each of some two hundred numpy calls a block, a thread waits for the "
+    "interpreter, which the other one may have. Longer blocks make that rarer, and take more scratch.",
     "batch_linear": "Some answers are worked out and kept that nobody may read.",
     "memory": "Scratch is taken for a block of cases, once a thread.",
     "quantities": "The type, the dimension and the factor of every argument are looked up.",
 }
+
+
+def why(found: dict[str, Any], key: str) -> str:
+    """Why a budget is missed, with the shares of the time where they were measured."""
+    shares = found.get("parts")
+    if shares is None or key not in ("eccentric", "linear", "batch"):
+        return WHY[key]
+    if key == "batch":
+        told = ", ".join(
+            f"{100.0 * shares[name]:.0f} % {what}"
+            for name, what in (
+                ("arguments", "copies of the arguments and the sines and cosines of the normals"),
+                ("attributes", "the six velocities and yaw rates after"),
+            )
+        )
+        return f"{WHY[key]} Of its time {told}."
+    return f"{WHY[key]} The formulas alone are {100.0 * shares[key]:.0f} % of its time."
+
+
+def threads(found: dict[str, Any]) -> str:
+    """Whether a second thread was worth it in this run."""
+    row = rows(found, "budgets")["threads"]
+    share = f"takes {row['median']:.2f} of the time on one (half of the rounds {row['low']:.2f} to {row['high']:.2f})"
+    if row["median"] < 0.9:
+        return f"With an idle second core, a batch of `eccentric` on two threads {share}."
+    return f"In this run a second thread was **not** worth it: a batch of `eccentric` on two threads {share}. {WHY['threads']}"
+
+
+def solving(found: dict[str, Any]) -> str:
+    """What ``solve`` costs in a batch, and why."""
+    known = rows(found, "batch")
+    times = known["solve"]["median"] / known["eccentric"]["median"]
+    return (
+        f"In a batch `solve` costs {number(times)} times `eccentric`: every case is worked out by all three models up to their "
+        f"impulses, which is the prediction; then the cases of each model are gathered, solved, and put back in their places."
+    )
 
 
 def budgets(found: dict[str, Any]) -> str:
@@ -111,7 +148,7 @@ def budgets(found: dict[str, Any]) -> str:
             aim = row["aim"]
             verdict = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
         else:
-            verdict = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {WHY[row['key']]}"
+            verdict = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {why(found, row['key'])}"
         aim = "–" if row["aim"] is None else f"{row['aim']:g}"
         measured = f"{row['median']:.2g}" if row["median"] < 0.1 else f"{row['median']:.3g}"
         if row["low"] != row["high"]:

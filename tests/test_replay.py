@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions.kernels.batch import BLOCK, Scoped
+from collisions.kernels.batch import BLOCK, Scoped, block_length
 from collisions.kernels.codes import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, OUTPUTS, RULES
 from collisions.kernels.eccentric import eccentric
 from collisions.kernels.linear import linear_central, outside_linear
 from collisions.kernels.oblique import oblique_central, outside_central
-from collisions.kernels.replay import Replay, record
+from collisions.kernels.replay import OUTPUT, Replay, aligned, record
 
 ODD = (0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324, 1e308)
 LINEAR = Scoped(linear_central, outside_linear, 9, 8)
@@ -239,3 +239,49 @@ def test_what_is_asked_for_later_is_the_same_impact():
     assert impact._raw[1:3][1] is impact.slip_before
     assert not impact.slip_before.flags.writeable
     assert np.flatnonzero(np.isnan(impact.compression_impulse)).tolist() == [3]
+
+
+@pytest.mark.parametrize("scratch", [1, 30, 114, 400])
+@pytest.mark.parametrize("threads", [1, 2, 3, 8, 64])
+def test_blocks_of_threads_are_even_and_their_scratch_is_bounded(threads, scratch):
+    """No thread has two blocks more than another; together they take 6 MiB, or what blocks as short as those of one thread do."""
+    for size in (BLOCK + 1, 3 * BLOCK + 17, 100_000, 1_000_000):
+        length = block_length(size, threads, scratch)
+        assert length >= BLOCK
+        if threads == 1:
+            assert length == BLOCK
+        elif length > BLOCK:
+            assert threads * scratch * length <= 6 * 2**20 + 64 * threads * scratch
+            assert -(-size // length) % threads in (0, threads - 1)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32, np.uint8])
+def test_scratch_begins_on_a_page(dtype):
+    """Which halves the time of a call on it."""
+    for length in (1, 1000, BLOCK):
+        found = aligned(length, dtype)
+        assert found.shape == (length,)
+        assert found.dtype == dtype
+        assert found.ctypes.data % 4096 == 0
+
+
+def test_outputs_are_scratch_until_they_are_written():
+    """Values between stand in them: half of the buffers are saved."""
+    program = record(eccentric, (FRICTION, LAWS[0], False, False, 2.0**-52), (None,) * 24, np.float64, kinds(np.float64))
+    written = [chosen(program.cells)[-1] for _, chosen in (*program.calls, *program.late)]
+    assert sum(cell.place == OUTPUT for cell in written) > 2 * len(OUTPUTS)
+    assert program.buffers.count(8) < 10
+
+
+def test_a_root_is_recorded_as_numpy_takes_it():
+    """A power of one half is a square root, to the bit."""
+
+    def kernel(x, y):
+        return x**0.5, (x * x) ** 0.5, y**3.0
+
+    inputs = [abs(value) for value in numbers(2, 300, np.float64, np.random.default_rng(8), odd=True)]
+    outputs = [np.empty(300) for _ in range(3)]
+    with np.errstate(all="ignore"):
+        Replay(record(kernel, (), (None, None), np.float64, (np.dtype(float),) * 3), 300)(inputs, outputs)
+        for output, wanted in zip(outputs, kernel(*inputs), strict=True):
+            np.testing.assert_array_equal(output, wanted)

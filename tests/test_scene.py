@@ -4,12 +4,15 @@ import json
 import math
 import pickle
 import random
+import subprocess
+import sys
 
 import numpy as np
 import pint
 import pytest
 
 import collisions as col
+from collisions.kernels.batch import BLOCK
 
 MODELS = ("linear_central", "oblique_central", "eccentric")
 LAWS = ("brach", "kudlich-slibar")
@@ -289,3 +292,53 @@ def test_units_and_refusals_at_the_door():
         assert caught.value.code == code
     with pytest.raises(col.InputError, match="friction"):
         col.required_model(a, b, 0.2, normal=0.0, point=(0.0, 0.0), tolerance=0.1)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
+    """More cases than a block holds, worked out in blocks by model: the same bits, also of what is asked for later."""
+    rng = np.random.default_rng(6)
+    size = 2 * BLOCK + 5
+    turned = rng.choice([0.0, 0.02, 0.6], size)
+    a = {"mass": rng.uniform(900.0, 2000.0, size), "vx": rng.uniform(8.0, 20.0, size), "y": turned, "x": np.full(size, -2.0)}
+    b = {"mass": rng.uniform(900.0, 2000.0, size), "vy": rng.choice([0.0, 3.0], size), "y": -turned, "x": np.full(size, 2.0)}
+    inertia = rng.uniform(1500.0, 3000.0, size)
+    e, friction = rng.uniform(0.0, 0.4, size), rng.choice([0.0, 0.3], size)
+    e[7] = 2.0
+
+    def ask(part):
+        cars = [
+            col.Vehicle(**{n: v[part].astype(dtype) for n, v in (body | {"yaw_inertia": inertia}).items()}) for body in (a, b)
+        ]
+        contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": friction[part].astype(dtype)}
+        return col.solve(*cars, e[part].astype(dtype), **contact, tolerance=0.5, on_failure="nan")
+
+    whole = ask(slice(None))
+    assert set(whole.model) == set(MODELS)
+    assert np.flatnonzero(whole.refused).tolist() == [7]
+    for part in (slice(0, 100), slice(BLOCK - 50, BLOCK + 50), slice(2 * BLOCK, None)):
+        few = ask(part)
+        assert (few.model == whole.model[part]).all()
+        for name, errors in few.choice.errors.items():
+            assert errors.dtype == dtype
+            np.testing.assert_array_equal(whole.choice.errors[name][part], errors)
+        for mine, other in zip(whole._raw, few._raw, strict=True):
+            assert mine.dtype == other.dtype
+            assert not mine.flags.writeable
+            np.testing.assert_array_equal(mine[part], other)
+    assert pickle.loads(pickle.dumps(whole)) == whole
+
+
+def test_what_solve_wrote_is_read_before_solve_is_imported():
+    """A record and a pickle of it in a new process, which has imported no more than the package."""
+    a, b = col.Vehicle(mass=1.0, vx=1.0, x=-1.0, y=0.0), col.Vehicle(mass=1.0, x=1.0, y=0.0)
+    impact = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0, tolerance=0.1)
+    program = (
+        "import sys, json, pickle, collisions; assert 'collisions.scene' not in sys.modules;"
+        "impact = collisions.Impact.from_dict(json.loads(sys.argv[1]));"
+        "assert impact == pickle.loads(bytes.fromhex(sys.argv[2]));"
+        "print(impact.model, impact.choice.reason)"
+    )
+    given = json.dumps(impact.to_dict()), pickle.dumps(impact).hex()
+    told = subprocess.run([sys.executable, "-c", program, *given], capture_output=True, text=True)
+    assert told.stdout.strip() == f"{impact.model} {impact.choice.reason}", told.stderr

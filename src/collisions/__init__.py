@@ -2,7 +2,7 @@
 
 Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted at
 the door. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
-``travel`` has what the ground takes.
+``travel`` has what the ground takes, ``uncertainty`` says how sure an answer is.
 """
 
 from importlib import import_module
@@ -25,16 +25,16 @@ from .errors import (
     SuspectUnitsWarning,
     UnitsError,
 )
-from .impact import Impact
+from .impact import SOLVERS, Impact
 from .linear import linear_central
 from .oblique import oblique_central
-from .provenance import ModelChoice
-from .scene import required_model, solve
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from . import reconstruct, travel
+    from . import reconstruct, travel, uncertainty
     from .idealisation import left_out
+    from .provenance import ModelChoice
+    from .scene import required_model, solve
 
 __version__ = "0.1.0"
 
@@ -64,16 +64,31 @@ __all__ = [
     "required_model",
     "solve",
     "travel",
+    "uncertainty",
 ]
+
+
+# Where to find what not every caller needs, by name.
+_LATER = {"ModelChoice": "provenance", "left_out": "idealisation", "required_model": "scene", "solve": "scene"}
 
 
 def __getattr__(name: str) -> Any:
     """What not every caller needs is imported when it is first asked for."""
-    if name in ("reconstruct", "travel"):
+    if name in ("reconstruct", "travel", "uncertainty"):
         return import_module(f".{name}", __name__)
-    if name == "left_out":
-        return import_module(".idealisation", __name__).left_out
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    found = globals()[name] = getattr(import_module(f".{_LATER[name]}", __name__), name)
+    return found
+
+
+def _solve(*args: Any, **options: Any) -> Impact:
+    """For a record of ``solve`` that is read before ``solve`` has been imported; that import puts it in this place."""
+    impact: Impact = __getattr__("solve")(*args, **options)
+    return impact
+
+
+SOLVERS["solve"] = _solve
 
 
 def __dir__() -> list[str]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -14,12 +13,15 @@ from .directions import direction, from_radians
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
 from .impact import Asked, Impact, build
 from .kernels import checks, codes
-from .kernels.batch import Check, Scoped, precision, solve_lanes
 from .kernels.select import verdict
 from .progress import reporter
+from .quiet import warn_of_cases
 from .refusals import refusal
-from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, callers_level
+from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, shown
 from .vehicle import DOMAINS, Vehicle
+
+if TYPE_CHECKING:
+    from .kernels.batch import Check
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
@@ -110,7 +112,7 @@ def read(
         door.refuse(
             InputError(
                 f"law must be 'brach' (no slip at separation) or 'kudlich-slibar' (no slip at the end of compression), "
-                f"got {law!r}",
+                f"got {shown(law)}",
                 code="bad_law",
                 argument="law",
             )
@@ -200,7 +202,10 @@ def solved(
     progress: Any,
     lanes: Any = None,
 ) -> Any:
-    """The outputs of the cases of a batch, or in a row those of the cases that ``lanes`` picks."""
+    """The outputs of the cases of a batch, or in a row those of the cases at ``lanes``, counted through the shape."""
+    # Adds a twentieth to the import of the package, and single cases never come here.
+    from .kernels.batch import Scoped, precision, solve_lanes
+
     dtype = precision(value for _, value in numbers_of(asked))
     eps = float(np.finfo(dtype).eps)
     if scope is not None:
@@ -208,12 +213,11 @@ def solved(
         inputs = (*inputs, *scope[1])
     found = _value_checks(asked, eps)
     if lanes is not None:
-
-        def picked(values: Sequence[Any]) -> tuple[Any, ...]:
-            return tuple(np.broadcast_to(v, shape)[lanes] if isinstance(v, np.ndarray) else v for v in values)
-
-        inputs, found = picked(inputs), [check._replace(values=picked(check.values)) for check in found]
-        shape = (int(np.count_nonzero(lanes)),)
+        every = {id(v): v for v in (*inputs, *(v for check in found for v in check.values))}
+        part = {key: np.broadcast_to(v, shape).flat[lanes] if np.shape(v) else v for key, v in every.items()}
+        inputs = tuple(part[id(v)] for v in inputs)
+        found = [check._replace(values=tuple(part[id(v)] for v in check.values)) for check in found]
+        shape = lanes.shape
     return solve_lanes(kernel, (*settings, eps), inputs, found, shape, dtype, threads, reporter(progress))
 
 
@@ -247,6 +251,8 @@ def numbers_of(asked: Asked) -> list[tuple[str, Any]]:
 
 def _value_checks(asked: Asked, eps: float) -> list[Check]:
     """What the door checks of scalars, for the arrays of the question."""
+    from .kernels.batch import Check
+
     found: list[Check] = []
 
     def add(passes: Callable[..., bool] | None, values: tuple[Any, ...], *findings: tuple[int, Callable[..., Any]]) -> None:
@@ -312,36 +318,26 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
         Status(int(code)).label: int(np.count_nonzero(status == code)) for code in np.unique(status[status > codes.ENERGY_GAIN])
     }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
-    warnings.warn(
-        CollisionsWarning(
-            f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}",
-            code="refused_cases",
-            counts=kinds,
-        ),
-        stacklevel=callers_level(),
-    )
+    text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
+    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds))
 
 
 def _warn_of_gain(what: str, gain: float) -> None:
-    warnings.warn(
-        EnergyGainWarning(
-            f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
-            f"restitution or the ratio, or take law='kudlich-slibar' with friction=",
-            code="energy_gain",
-            gain=gain,
-        ),
-        stacklevel=callers_level(),
+    text = (
+        f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
+        f"restitution or the ratio, or take law='kudlich-slibar' with friction="
     )
+    warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
     """Refuses an option that no solver knows."""
     if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
         raise InputError(
-            f"on_failure must be None, 'raise' or 'nan', got {on_failure!r}", code="bad_option", argument="on_failure"
+            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}", code="bad_option", argument="on_failure"
         )
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(f"threads must be a whole number from 1, got {threads!r}", code="bad_option", argument="threads")
+        raise InputError(f"threads must be a whole number from 1, got {shown(threads)}", code="bad_option", argument="threads")
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
         raise InputError(
             f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}",

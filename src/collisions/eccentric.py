@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -104,8 +105,10 @@ def eccentric(
     )
 
 
-def missing_numbers(a: Any, b: Any, point: Any) -> list[InputError]:
+def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
     """What the model needs and was not given; a fixed body that does not turn needs no position."""
+    if point is not None and _is_complete(a) and _is_complete(b):
+        return ()
     found: list[InputError] = []
     if point is None:
         found.append(
@@ -123,13 +126,17 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
     """Vehicle and field of what the model needs and the vehicles do not have; a fixed body needs no position."""
     found: list[tuple[str, str]] = []
     for label, body in (("a", a), ("b", b)):
-        if type(body) is not Vehicle or (body.yaw_inertia is not None and body.x is not None and body.y is not None):
+        if type(body) is not Vehicle or _is_complete(body):
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
         fixed = np.all(np.isinf(body.mass) & np.isinf(inertia) & np.equal(body.yaw_rate, 0.0))
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
         found += [(label, name) for name in needed if getattr(body, name) is None]
     return found
+
+
+def _is_complete(body: Any) -> bool:
+    return type(body) is Vehicle and body.yaw_inertia is not None and body.x is not None and body.y is not None
 
 
 def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:

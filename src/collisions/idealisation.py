@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -11,16 +10,17 @@ import numpy as np
 
 from .amounts import at_least_zero
 from .directions import from_radians
-from .errors import CollisionsWarning, EnergyGainWarning, InputError
+from .errors import CollisionsWarning, InputError
 from .fields import Shown, hypot, lock, numeric
 from .impact import Impact
 from .kernels.batch import precision
 from .kernels.select import select
 from .kernels.turning import turning_velocity
+from .quiet import quietly, warn_of_cases
 from .side import Side
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag, warn_if_above
-from .units import Door, Input, Value, broadcast, callers_level, is_quantity
+from .units import Door, Input, Value, broadcast, is_quantity
 from .vehicle import Vehicle
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
@@ -255,13 +255,12 @@ def _unusable(values: dict[str, Any]) -> Any:
                     counts[code] = counts.get(code, 0) + int(np.count_nonzero(wrong))
     if counts:
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
-        warnings.warn(
+        warn_of_cases(
             CollisionsWarning(
                 f"{sum(counts.values())} durations or drags cannot be used, and what they are for is NaN ({listed})",
                 code="refused_cases",
                 counts=counts,
-            ),
-            stacklevel=callers_level(),
+            )
         )
     return lanes
 
@@ -378,8 +377,7 @@ def _with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
 
 def _ask(impact: Impact, a: Vehicle, b: Vehicle, **changes: Any) -> Impact:
     """The question of the impact again with other numbers; what is to be said of it was said the first time."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", EnergyGainWarning)
+    with quietly():
         return impact._again(a=a, b=b, **changes)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,11 +14,12 @@ from .fields import Quantities, attributes, derived, hypot, lock, numeric, retur
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
-from .provenance import ModelChoice, Reconstruction
-from .records import bad_record, from_record, to_columns, to_record
 from .side import Side
-from .units import UNIT_INTERVAL, Door, Input, Value, broadcast
+from .units import UNIT_INTERVAL, Door, Input, Value, broadcast, shown
 from .vehicle import Vehicle, angle_of
+
+if TYPE_CHECKING:
+    from .provenance import ModelChoice, Reconstruction
 
 # The solver of each model, entered by the module that defines it.
 SOLVERS: dict[str, Callable[..., Impact]] = {}
@@ -322,14 +323,18 @@ class Impact:
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
+        from .records import to_record
+
         return to_record(self)
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
+        from .records import bad_record, from_record
+
         question, options, origin, status = from_record(record)
         if question["model"] not in SOLVERS:
-            raise bad_record(f"its model is {question['model']!r}; known are {', '.join(SOLVERS)}")
+            raise bad_record(f"its model is {shown(question['model'])}; known are {', '.join(SOLVERS)}")
         try:
             impact = Asked(**question).ask(**options)
             return impact if origin is None else found_by(origin, impact._asked, impact._raw, status)
@@ -338,6 +343,8 @@ class Impact:
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
+        from .records import to_columns
+
         return to_columns(self)
 
     def __eq__(self, other: object) -> bool:

@@ -14,6 +14,7 @@ from .fields import attributes
 from .kernels import codes
 from .provenance import ModelChoice, Reconstruction
 from .side import Side
+from .units import shown
 from .vehicle import NAMES, Vehicle
 
 _FORMAT = "collisions impact 1"
@@ -40,11 +41,11 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
     """The question of a record by its parts, the options to ask it with, what found it, and its status."""
     try:
         if not isinstance(record["format"], str) or record["format"] != _FORMAT:
-            raise bad_record(f"its format is {record['format']!r} and not {_FORMAT!r}")
+            raise bad_record(f"its format is {shown(record['format'])} and not {_FORMAT!r}")
         inputs = record["inputs"]
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
-            raise bad_record(f"its model is {question['model']!r} and its rule {question['rule']!r}")
+            raise bad_record(f"its model is {shown(question['model'])} and its rule {shown(question['rule'])}")
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
@@ -151,7 +152,7 @@ def _number(value: Any) -> Any:
         return tuple(_number(part) for part in value)
     if isinstance(value, Mapping):
         if value["dtype"] not in ("float32", "float64"):
-            raise bad_record(f"an array of {value['dtype']!r} is none that to_dict writes")
+            raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
         numbers = [_number(part) for part in value["values"]]
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
     return _INFINITIES.get(value, value) if isinstance(value, str) else value

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,13 +11,14 @@ import numpy as np
 from .amounts import amount
 from .arguments import Law, OnFailure, answer, concluded, numbers_of, read, solved
 from .eccentric import body_numbers, lacking, missing_numbers
-from .fields import lock
+from .fields import lock, numeric
 from .impact import SOLVERS, Asked, Impact
+from .kernels import codes
 from .kernels.eccentric import eccentric as eccentric_kernel
 from .kernels.linear import linear_central as linear_kernel
 from .kernels.oblique import oblique_central as oblique_kernel
 from .kernels.select import select
-from .kernels.shortfall import shortfalls
+from .kernels.shortfall import shortfalls_of
 from .progress import Progress
 from .provenance import MODELS, ModelChoice
 from .units import Door, Input, Pair, broadcast
@@ -76,7 +78,8 @@ def required_model(
     >>> choice.model, round(choice.errors["linear_central"], 2)
     ('eccentric', 2.14)
     """
-    return _chosen(_read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance))
+    question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
+    return _chosen(question)[0]
 
 
 def solve(
@@ -127,8 +130,8 @@ def solve(
     ('linear_central', 6.667)
     """
     question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
-    choice = _chosen(question)
-    if np.any(np.equal(choice.model, _ECCENTRIC)) and question.missing:
+    choice, which = _chosen(question)
+    if question.missing and np.any(np.equal(which, MODELS.index(_ECCENTRIC))):
         door = Door()
         door.problems.extend(missing_numbers(a, b, point))
         door.close()
@@ -137,7 +140,7 @@ def solve(
         kernel, inputs, settings = _kernel(choice.model, asked)
         impact = answer(kernel, inputs, settings, tuple(asked), question.plain, None, on_failure, threads, progress)
     else:
-        impact = concluded(asked, _solved_by_model(asked, choice.model, threads, progress), on_failure)
+        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure)
     impact._cache["choice"] = choice
     return impact
 
@@ -188,24 +191,26 @@ def _kernel(model: str, asked: Asked) -> tuple[Any, tuple[Any, ...], tuple[Any, 
     return linear_kernel, (e, *n, *velocities), ()
 
 
-def _chosen(question: _Question) -> ModelChoice:
+def _chosen(question: _Question) -> tuple[ModelChoice, Any]:
+    """The choice, and which of ``MODELS`` it is, by number."""
     asked, tolerance = question.asked, question.tolerance
     shape = broadcast({"tolerance": tolerance, **dict(numbers_of(asked))})
     with np.errstate(all="ignore"):
         errors = _errors(asked)
-        model: Any = _ECCENTRIC
+        which: Any = MODELS.index(_ECCENTRIC)
         for name in (_OBLIQUE, _LINEAR):
-            model = select((_MARGIN * errors[name] <= tolerance) & (tolerance > 0.0), name, model)
+            which = select((_MARGIN * errors[name] <= tolerance) & (tolerance > 0.0), MODELS.index(name), which)
     if shape is not None:
-        model = np.broadcast_to(model, shape)
+        which = np.broadcast_to(np.asarray(which, dtype=np.uint8), shape)
         errors = {name: lock(np.array(np.broadcast_to(error, shape))) for name, error in errors.items()}
-    return ModelChoice(
-        model=model,
-        reason=_reason(model, errors, question),
+    choice = ModelChoice(
+        model=MODELS[which] if shape is None else lock(np.array(MODELS).take(which)),
+        reason=_reason(which, errors, question),
         errors=errors,
         missing={_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: question.missing},
         tolerance=tolerance,
     )
+    return choice, which
 
 
 def _errors(asked: Asked) -> dict[str, Any]:
@@ -214,37 +219,50 @@ def _errors(asked: Asked) -> dict[str, Any]:
     if any(body.pivot is not None for body in bodies):
         return {_LINEAR: math.inf, _OBLIQUE: math.inf}
     contact = asked.point or (0.0, 0.0)
-    numbers = []
+    numbers: list[Any] = [asked.restitution, *asked.normal, asked.bound, *contact]
     for body in bodies:
         placed = asked.point is not None and body.x is not None and body.y is not None
         place = (body.x, body.y) if placed else contact
         inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-        numbers.append((body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, 0.0, 0.0))
-    rest = asked.restitution, *asked.normal, asked.bound, *contact
-    linear, oblique, *torques = shortfalls(*rest, numbers[0], numbers[1], asked.rule, asked.law or "", False, False)
+        numbers += [body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, 0.0, 0.0]
+    linear, oblique, *torques = _shortfalls(asked, numbers)
     unknown: Any = False
-    for body, (_, inertia, _, _, yaw_rate, *_), torque in zip(bodies, numbers, torques, strict=True):
+    for body, torque in zip(bodies, torques, strict=True):
         if asked.point is None or body.x is None or body.y is None:
             # Without a place the lever is open; it does not matter to a body that cannot turn.
+            inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
             turns: Any = True if body.yaw_inertia is None else np.isfinite(inertia)
             fixed = np.isinf(body.mass) & np.isinf(inertia)
-            unknown = unknown | ((turns | np.not_equal(yaw_rate, 0.0)) & np.logical_not(fixed & np.equal(yaw_rate, 0.0)))
+            moves = np.not_equal(body.yaw_rate, 0.0)
+            unknown = unknown | ((turns | moves) & np.logical_not(fixed & np.logical_not(moves)))
         elif body.yaw_inertia is None:
             # No torque on a body that could not turn: none on one that can.
             unknown = unknown | np.not_equal(torque, 0.0)
     if isinstance(linear, float) and isinstance(oblique, float) and np.ndim(unknown) == 0:
         return {_LINEAR: math.nan, _OBLIQUE: math.nan} if unknown else {_LINEAR: linear, _OBLIQUE: oblique}
-    return {name: np.where(unknown, np.nan, error) for name, error in ((_LINEAR, linear), (_OBLIQUE, oblique))}
+    return {name: select(unknown, np.nan, error) for name, error in ((_LINEAR, linear), (_OBLIQUE, oblique))}
 
 
-def _reason(model: Any, errors: dict[str, Any], question: _Question) -> str:
+def _shortfalls(asked: Asked, numbers: list[Any]) -> Any:
+    """What the kernel says of one case, or of many in blocks; torques only where something follows from them."""
+    settings = asked.rule, asked.law or ""
+    if numeric(*numbers) is math:
+        return shortfalls_of(*numbers, *settings)
+    from .kernels.batch import precision, work_out
+
+    wanted = True, True, asked.a.yaw_inertia is None, asked.b.yaw_inertia is None
+    shape = np.broadcast_shapes(*map(np.shape, numbers))
+    return work_out(shortfalls_of, settings, numbers, wanted, shape, precision(numbers))
+
+
+def _reason(which: Any, errors: dict[str, Any], question: _Question) -> str:
     """Why, in a sentence."""
     tolerance = question.tolerance
-    if not isinstance(model, str):
-        counts = ((name, int(np.count_nonzero(model == name))) for name in MODELS)
+    if not isinstance(which, int):
+        counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(MODELS))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
-        return f"of {model.size} cases {listed or 'none'}: each the least within its tolerance"
-    cheaper = MODELS[: MODELS.index(model)]
+        return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
+    model, cheaper = MODELS[which], MODELS[:which]
     told = [f"{name} would err by {errors[name]:.3g} m/s" for name in cheaper]
     if model != _ECCENTRIC:
         others = f"; {told[0]}" if told else ""
@@ -260,20 +278,23 @@ def _reason(model: Any, errors: dict[str, Any], question: _Question) -> str:
     return f"{model}: {told[1]}, and {tolerance:.3g} m/s are accepted"
 
 
-def _solved_by_model(asked: Asked, model: Any, threads: int, progress: Any) -> tuple[Any, ...]:
+def _solved_by_model(asked: Asked, which: Any, threads: int, progress: Any) -> Any:
     """The outputs of a batch, every case worked out by its own model."""
-    outputs: list[Any] | None = None
-    for name in MODELS:
-        lanes = model == name
-        count = int(np.count_nonzero(lanes))
-        if count == model.size and (count or name == _ECCENTRIC):
-            whole: tuple[Any, ...] = solved(*_kernel(name, asked), asked, None, model.shape, threads, progress)
-            return whole
-        if count:
-            part = solved(*_kernel(name, asked), asked, None, model.shape, threads, progress, lanes)
-            if outputs is None:
-                outputs = [np.empty(model.shape, dtype=one.dtype) for one in part]
-            for output, one in zip(outputs, part, strict=True):
-                output[lanes] = one
-    found: tuple[Any, ...] = lock(tuple(outputs or ()))
-    return found
+    places = [np.flatnonzero(which == at) for at in range(len(MODELS))]
+    for name, lanes in zip(MODELS, places, strict=True):
+        if lanes.size == which.size and (lanes.size or name == _ECCENTRIC):
+            return solved(*_kernel(name, asked), asked, None, which.shape, threads, progress)
+    from .kernels.batch import FIRST, Answers
+
+    def joined(names: Sequence[str], progress: Any = None) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for name, lanes in zip(MODELS, places, strict=True):
+            if lanes.size:
+                part = solved(*_kernel(name, asked), asked, None, which.shape, threads, progress, lanes)
+                for output in names:
+                    answers = part[codes.AT[output]]
+                    found.setdefault(output, np.empty(which.shape, dtype=answers.dtype)).flat[lanes] = answers
+        lock(found)
+        return found
+
+    return Answers(joined, joined(FIRST, progress))

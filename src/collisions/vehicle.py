@@ -14,7 +14,7 @@ from .fields import Quantities, derived, hypot, lock, returns, same, show, table
 from .kernels.checks import not_about_pivot
 from .kernels.select import select
 from .kernels.turning import turning_velocity
-from .units import FINITE, POSITIVE, Door, Input, Pair, Value, broadcast
+from .units import FINITE, POSITIVE, Door, Input, Pair, Value, broadcast, shown
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
@@ -154,7 +154,7 @@ class Vehicle(_Written):
         if np.any(np.less(magnitude, 0.0)):
             door.refuse(
                 InputError(
-                    f"speed must be >= 0, got {speed!r}; turn the course by 180 deg to go the other way",
+                    f"speed must be >= 0, got {shown(speed)}; turn the course by 180 deg to go the other way",
                     code="negative_speed",
                     argument="speed",
                 )

@@ -16,10 +16,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .codes import ENERGY_GAIN, OK, OUTPUTS
-from .replay import Replay, record
+from .replay import Replay, aligned, record
 from .select import select
 
 BLOCK = 8192
+# Of all threads together, in bytes; a longer block gains nothing.
+_SCRATCH, _LONGEST = 6 * 2**20, 32768
 # What most callers read of a large batch, and the rest, which needs the status to blank the refused cases.
 FIRST = (
     "status",
@@ -141,18 +143,21 @@ def _solved(
     size = math.prod(shape)
     types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
     kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
-    outputs = [None if kind is None else np.empty(size, dtype=kind) for kind in kinds]
+    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
     # An array that is looked at more than once is cut once.
     given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
     lanes = {key: value if isinstance(value, float) else _flat(value, shape) for key, value in given.items()}
     work: Callable[[], Callable[[Sequence[Any], Sequence[Any]], None]] = partial(_Straight, kernel, settings)
+    length = BLOCK
     if size > BLOCK:
         texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
-        work = partial(Replay, record(kernel, settings, texts, dtype, kinds), BLOCK)
+        program = record(kernel, settings, texts, dtype, kinds)
+        length = block_length(size, threads, sum(program.buffers))
+        work = partial(Replay, program, length)
     mine = threading.local()
 
     def solve(start: int) -> int:
-        block = slice(start, min(start + BLOCK, size))
+        block = slice(start, min(start + length, size))
         if not hasattr(mine, "run"):
             mine.run = work()
         cut = {key: _part(lane, block, dtype) for key, lane in lanes.items()}
@@ -171,7 +176,7 @@ def _solved(
                     answer[refused] = False if name == "sticks" else np.nan
         return block.stop - block.start
 
-    starts = range(0, size, BLOCK)
+    starts = range(0, size, length)
     if threads == 1 or len(starts) < 2:
         _report(map(solve, starts), size, progress)
     else:
@@ -188,6 +193,42 @@ def _solved(
     for output in found.values():
         output.setflags(write=False)
     return found
+
+
+def work_out(
+    kernel: Callable[..., tuple[Any, ...]],
+    settings: tuple[Any, ...],
+    inputs: Sequence[Any],
+    wanted: Sequence[bool],
+    shape: tuple[int, ...],
+    dtype: Any,
+) -> list[Any]:
+    """The outputs of a kernel that has no status, None for those that are not wanted; the first one is."""
+    size, kinds = math.prod(shape), tuple(np.dtype(dtype) if want else None for want in wanted)
+    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
+    lanes = [value if isinstance(value, float) else _flat(value, shape) for value in inputs]
+    run: Callable[[Sequence[Any], Sequence[Any]], None] = _Straight(kernel, settings)
+    if size > BLOCK:
+        texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
+        run = Replay(record(kernel, settings, texts, np.dtype(dtype), kinds), BLOCK)
+    with np.errstate(all="ignore"):
+        for start in range(0, size, BLOCK):
+            block = slice(start, min(start + BLOCK, size))
+            run([_part(lane, block, dtype) for lane in lanes], [None if one is None else one[block] for one in outputs])
+    return [None if one is None else one.reshape(shape) for one in outputs]
+
+
+def block_length(size: int, threads: int, scratch: int) -> int:
+    """Cases a block, where a case needs so many bytes of scratch: what stays in the cache that a core has to itself.
+
+    With threads, more: every numpy call hands the interpreter over, and to wait for it takes as long as a call
+    on a short block. Then all blocks are about as long, so that no thread ends late.
+    """
+    if threads == 1:
+        return BLOCK
+    longest = max(BLOCK, min(_LONGEST, _SCRATCH // (threads * scratch)))
+    even = math.ceil(size / (threads * math.ceil(size / (threads * longest))))
+    return max(BLOCK, math.ceil(even / 64) * 64)
 
 
 class _Straight:

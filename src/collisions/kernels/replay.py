@@ -7,6 +7,7 @@ output needs, and no memory is asked for while a block runs. The calls are those
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from operator import itemgetter
@@ -18,6 +19,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 INPUT, CONSTANT, BUFFER, OUTPUT = range(4)
 _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
 _CODE = np.dtype(np.uint8)
+_PAGE = 4096
 
 Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
@@ -56,6 +58,10 @@ class _Noted(NDArrayOperatorsMixin):
 
     def __array_function__(self, function: Any, types: Any, operands: Any, options: Any) -> Any:
         return NotImplemented if function is not np.where or options else self.tape.choose(*operands)
+
+    def __pow__(self, power: Any) -> Any:
+        """What numpy does for an array and these powers."""
+        return self.tape.call(np.sqrt, self) if power == 0.5 else self.tape.call(np.power, self, power)
 
     def __bool__(self) -> bool:
         raise TypeError("a kernel chooses between arrays through select")
@@ -188,40 +194,75 @@ def _fine(tape: _Tape, status: int) -> int | None:
     return operands[0] if is_short and tape.cells[operands[0]].place == BUFFER else None
 
 
+class _Room(NamedTuple):
+    """Memory for a value between: a buffer, or an output up to the call that writes it."""
+
+    until: float
+    place: int
+    which: int
+
+
 def _placed(tape: _Tape) -> Program:
-    """The calls that an output needs, every value between in a buffer, which is given back after its last use."""
+    """The calls that an output needs, and for every value between a room, which is free again after its last use."""
     outputs = {index for index, cell in enumerate(tape.cells) if cell.place == OUTPUT}
     status = min(outputs, key=lambda index: int(tape.cells[index].which))
     fine = _fine(tape, status)
     early = _needs(tape, outputs if fine is None else (outputs - {status}) | {fine})
     order = [*sorted(early), *sorted(_needs(tape, outputs) - early)]
-    last = {tape.root[operand]: index for index in order for operand in tape.made[index][1]}
+    written = {index: at for at, index in enumerate(order)}
+    last = {tape.root[operand]: at for at, index in enumerate(order) for operand in tape.made[index][1]}
+    # A ufunc may write over what it reads; what takes two steps may not.
+    in_place = [isinstance(tape.made[index][0], np.ufunc) for index in order]
     cells = list(tape.cells)
-    calls: list[Call] = []
+    rooms: dict[int, _Room] = {}
+    free: dict[int, list[_Room]] = {}
+    for index in sorted(outputs - {status}):
+        until = written[index] if in_place[written[index]] else written[index] - 1
+        free.setdefault(cells[index].dtype.itemsize, []).append(_Room(until, OUTPUT, cells[index].which))
     buffers: list[int] = []
-    free: dict[int, list[int]] = {}
-    for index in order:
-        function, operands = tape.made[index]
-        roots = {tape.root[operand] for operand in operands}
-        ended = [cells[root] for root in roots if last[root] == index and cells[root].place == BUFFER]
-        # A ufunc may write over what it reads; what takes two steps may not.
-        in_place = isinstance(function, np.ufunc)
-        for _, which, dtype in ended if in_place else ():
-            free.setdefault(dtype.itemsize, []).append(which)
-        cell = cells[index]
-        if cell.place == BUFFER:
-            idle = free.setdefault(cell.dtype.itemsize, [])
-            if not idle:
-                buffers.append(cell.dtype.itemsize)
-                idle.append(len(buffers) - 1)
-            cells[index] = Cell(BUFFER, idle.pop(), cell.dtype)
-        for _, which, dtype in () if in_place else ended:
-            free.setdefault(dtype.itemsize, []).append(which)
-        calls.append((function, itemgetter(*operands, index)))
-    cells = [
-        cell._replace(place=cells[root].place, which=cells[root].which) for cell, root in zip(cells, tape.root, strict=True)
-    ]
-    return Program(tuple(calls[: len(early)]), tuple(calls[len(early) :]), fine, tuple(cells), tuple(buffers))
+    for at, index in enumerate(order):
+        size = cells[index].dtype.itemsize
+        ended = [root for root in {tape.root[operand] for operand in tape.made[index][1]} & rooms.keys() if last[root] == at]
+        if cells[index].place == BUFFER:
+            found = [rooms[root] for root in ended if in_place[at] and cells[root].dtype.itemsize == size]
+            found = [room for room in found + free.get(size, [])[::-1] if room.until >= last[index]]
+            if not found:
+                found.append(_Room(math.inf, BUFFER, len(buffers)))
+                buffers.append(size)
+            rooms[index] = min(found, key=lambda room: room.until)
+            cells[index] = Cell(rooms[index].place, rooms[index].which, cells[index].dtype)
+        for root in ended:
+            free.setdefault(cells[root].dtype.itemsize, []).append(rooms.pop(root))
+        free[size] = [room for room in free.get(size, []) if room != rooms.get(index)]
+    return _numbered(tape, order, len(early), fine, cells, buffers)
+
+
+def _numbered(tape: _Tape, order: list[int], early: int, fine: int | None, cells: list[Cell], buffers: list[int]) -> Program:
+    """The program of placed values, in which those that share a place and a type are one cell."""
+    places: dict[Any, int] = {}
+    found: list[Cell] = []
+
+    def number(index: int) -> int:
+        home = cells[tape.root[index]]
+        cell = Cell(home.place, home.which, cells[index].dtype)
+        key = (CONSTANT, index) if cell.place == CONSTANT else cell
+        if key not in places:
+            places[key] = len(found)
+            found.append(cell)
+        return places[key]
+
+    calls = [(tape.made[index][0], itemgetter(*map(number, (*tape.made[index][1], index)))) for index in order]
+    return Program(
+        tuple(calls[:early]), tuple(calls[early:]), None if fine is None else number(fine), tuple(found), tuple(buffers)
+    )
+
+
+def aligned(length: int, dtype: Any) -> Any:
+    """An empty array that begins on a page: numpy's own begin where a step over it costs up to twice as much."""
+    dtype = np.dtype(dtype)
+    whole = np.empty(length * dtype.itemsize + _PAGE, dtype=_CODE)
+    start = -whole.ctypes.data % _PAGE
+    return whole[start : start + length * dtype.itemsize].view(dtype)
 
 
 class Replay:
@@ -230,14 +271,14 @@ class Replay:
     def __init__(self, program: Program, length: int) -> None:
         self.program = program
         self.length = length
-        self.buffers = [np.empty(size * length, dtype=_CODE) for size in program.buffers]
+        self.buffers = [aligned(size * length, _CODE) for size in program.buffers]
         self.arrays = self._bound(length)
         self.moving = [(index, cell) for index, cell in enumerate(program.cells) if cell.place in (INPUT, OUTPUT)]
 
     def _bound(self, length: int) -> list[Any]:
         found: list[Any] = []
         for place, which, dtype in self.program.cells:
-            if place == BUFFER and which is not None:
+            if place == BUFFER:
                 found.append(self.buffers[which][: length * dtype.itemsize].view(dtype))
             else:
                 found.append(which if place == CONSTANT else None)

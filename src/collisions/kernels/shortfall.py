@@ -16,6 +16,13 @@ from .select import select
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
 
 
+def shortfalls_of(*given: Any) -> tuple[Any, ...]:
+    """``shortfalls`` of free bodies, its arguments in a row: six of the contact, nine of each body, rule and law."""
+    restitution, nx, ny, tangential, px, py = given[:6]
+    rule, law = given[24:]
+    return shortfalls(restitution, nx, ny, tangential, px, py, given[6:15], given[15:24], rule, law, False, False)
+
+
 def shortfalls(
     restitution: Any,
     nx: Any,
