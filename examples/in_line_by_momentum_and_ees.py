@@ -64,7 +64,7 @@ for label, (ees_a, ees_b) in EES.items():
 # A VW Rabbit (880 kg) and a Mercedes 240 TD (1600 kg) met nearly head-on. The data are those of Schreier and Nelson, SAE
 # Transactions 96 (1987), as they stand in eeswebgl (github.com/boonich/eeswebgl): speeds and courses after, how far each car
 # turned, EES of 66 and 42 km/h. The results of the paper are not at hand; the figures compared with were worked out apart from
-# this library (case X01 of `tests/data/worked_examples.json`).
+# this library (case X01 of `validation/data/worked_examples.json`).
 #
 # The damage was offset, so both cars kept going past each other. In the in-line model one would pass through the other, so it
 # refuses:

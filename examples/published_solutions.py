@@ -10,7 +10,8 @@
 # must return that motion. **Agreement here shows that this library computes the same physics. It says nothing about how well
 # the model predicts a crash that was not fitted.**
 #
-# The vehicles, their source and every input are rows of `data/nhtsa_oblique.csv` and `data/small_overlap_barrier.csv`.
+# The vehicles, their source and every input are rows of `nhtsa_oblique.csv` and `small_overlap_barrier.csv`,
+# in `validation/data` of the sources.
 
 # %%
 import csv
@@ -19,8 +20,9 @@ from pathlib import Path
 
 import collisions as col
 
-# As a script, the data lie beside this file; as a notebook, in the folder it runs in.
-DATA = Path(globals().get("__file__", "notebook")).parent / "data"
+# Above this file or, as a notebook, above the folder it runs in.
+ABOVE = Path(globals().get("__file__", "notebook")).resolve().parents
+DATA = next(folder / "validation" / "data" for folder in ABOVE if (folder / "validation" / "data").is_dir())
 
 
 def rows_of(name):

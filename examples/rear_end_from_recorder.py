@@ -4,14 +4,14 @@
 # The recorder of a struck car holds its delta-V. How fast was the car behind? The restitution decides, and at low speed it
 # falls as the closing speed rises. So it is given as a function, and both are solved together.
 #
-# The function is the fit of Cipriani and others (SAE 2002-01-0540) as it stands in pycrash (`functions/ar.py`); it is used here
-# from 2 to 15 mph. A recorder counts longitudinal delta-V positive forward, at the centre of mass, as `delta_v` is.
+# The function is `reference.restitution`, a published fit; it is used here from 2 to 15 mph. A recorder
+# counts longitudinal delta-V positive forward, at the centre of mass, as `delta_v` is.
 
 # %%
 import math
 
 import collisions as col
-from collisions import reconstruct
+from collisions import reconstruct, reference
 
 MPH = 0.44704
 CHECKS = []
@@ -24,10 +24,7 @@ def check(label, ours, expected, within):
 
 def low_speed(closing):
     """Restitution at a closing speed in m/s; no answer outside the range."""
-    if not 2 * MPH <= closing <= 15 * MPH:
-        return math.nan
-    x = math.log10(closing)
-    return 0.47477 - 0.26139 * x + 0.03382 * x**2 - 0.11639 * x**3
+    return reference.restitution(closing, outside="refuse")
 
 
 # %% [markdown]

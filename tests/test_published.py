@@ -1,4 +1,4 @@
-"""Published cases, each with its source in tests/data, solved forward and compared with print.
+"""Published cases, each with its source in validation/data, solved forward and compared with print.
 
 Unless a reason for another stands beside it, the tolerance is half a unit in the last printed digit. "Recomputed" figures were
 worked out apart from this library. Where the print is wrong the case is refuted: ours agrees with the recomputed figure and
@@ -15,7 +15,7 @@ import pytest
 
 import collisions as col
 
-DATA = Path(__file__).parent / "data"
+DATA = Path(__file__).parents[1] / "validation" / "data"
 CASES = {
     case["id"]: case
     for case in json.loads((DATA / "worked_examples.json").read_text("utf-8"), parse_float=Decimal, parse_int=Decimal)

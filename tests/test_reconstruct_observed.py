@@ -23,7 +23,8 @@ from scenes import FAMILIES, cases, solved
 
 INF = math.inf
 MPH = 0.44704
-CASES = {case["id"]: case for case in json.loads((Path(__file__).parent / "data" / "worked_examples.json").read_text("utf-8"))}
+PUBLISHED = Path(__file__).parents[1] / "validation" / "data" / "worked_examples.json"
+CASES = {case["id"]: case for case in json.loads(PUBLISHED.read_text("utf-8"))}
 
 
 def number(case, kind, name):

@@ -88,7 +88,7 @@ def test_the_slide_after_the_inline_collision_of_tar_origin():
     """Example L14: 66 ft at 0.65 is 35.8748 mph with 30 f d, exactly sqrt(30 / 29.9139) above ours; rel for its 6 digits."""
     found = travel.speed("66 ft", drag=0.65) / MPH
     assert found * math.sqrt(30 / THIRTY) == pytest.approx(35.8748, rel=2e-6)
-    cases = json.loads((Path(__file__).parent / "data" / "worked_examples.json").read_text("utf-8"))
+    cases = json.loads((Path(__file__).parents[1] / "validation" / "data" / "worked_examples.json").read_text("utf-8"))
     (example,) = (case for case in (cases if isinstance(cases, list) else cases["cases"]) if case["id"] == "L14")
     assert example["recomputed_outputs"]["v_common"] == {"value": 35.8748, "unit": "mph"}
 

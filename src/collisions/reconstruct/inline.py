@@ -69,11 +69,9 @@ def inline_closing_speed(
     --------
     A delta-V of 5 km/h in a car of the same mass: a restitution that belongs to the low speed makes two km/h of difference.
 
-    >>> from collisions import reconstruct
-    >>> import math
-    >>> def low_speed(v):  # fit of Cipriani et al., SAE 2002-01-0540
-    ...     x = math.log10(v)
-    ...     return 0.47477 - 0.26139 * x + 0.03382 * x**2 - 0.11639 * x**3
+    >>> from collisions import reconstruct, reference
+    >>> def low_speed(v):  # from 2 to 15 mph
+    ...     return reference.restitution(v, outside="refuse")
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, 0.1, delta_v_a="5 km/h"), 1)
     9.1
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)

@@ -1,0 +1,72 @@
+"""One impact under examination, with what was given about it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ..idealisation import LeftOut
+from ..impact import Impact
+from ..side import Side
+from .finding import LIMITS, Finding
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """An impact, the outlines by vehicle label, what the impulse leaves out, and the limits."""
+
+    impact: Impact
+    outlines: dict[str, Any]
+    left_out: LeftOut
+    limits: dict[str, float | None]
+
+    @property
+    def sides(self) -> tuple[tuple[str, Side], tuple[str, Side]]:
+        """Both vehicles with their labels."""
+        return ("a", self.impact.a), ("b", self.impact.b)
+
+    def above(self, code: str, measured: float, sentence: str, vehicle: str = "", limit: float = math.nan) -> Iterator[Finding]:
+        """The finding, if what was measured is above its limit; ``limit`` is the default of one that depends on the case."""
+        allowed = self._limit(code, limit)
+        if measured > allowed:
+            yield self._finding(code, measured, allowed, sentence, vehicle)
+
+    def below(self, code: str, measured: float, sentence: str, vehicle: str = "", *, or_at: bool = False) -> Iterator[Finding]:
+        """The finding, if what was measured is below its limit, or at it where that counts."""
+        allowed = self._limit(code, math.nan)
+        if measured < allowed or (or_at and measured == allowed > 0.0):
+            yield self._finding(code, measured, allowed, sentence, vehicle)
+
+    def _limit(self, code: str, otherwise: float) -> float:
+        given = self.limits[code]
+        return otherwise if given is None else given
+
+    @staticmethod
+    def _finding(code: str, measured: float, limit: float, sentence: str, vehicle: str) -> Finding:
+        return Finding(
+            code=code,
+            sentence=sentence,
+            measured=float(measured),
+            limit=float(limit),
+            unit=LIMITS[code].unit,
+            vehicle=vehicle,
+            source=LIMITS[code].source,
+        )
+
+
+def named(label: str, side: Side) -> str:
+    """The vehicle as a sentence calls it."""
+    name = side.before.name
+    return f"vehicle {label.upper()} ({name})" if name else f"vehicle {label.upper()}"
+
+
+def kmh(speed: float) -> str:
+    """A speed for people."""
+    return f"{3.6 * speed:.1f} km/h"
+
+
+def degrees(angle: float) -> str:
+    """An angle for people."""
+    return f"{math.degrees(angle):.1f} degrees"

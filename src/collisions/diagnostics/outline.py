@@ -1,0 +1,151 @@
+"""Outlines of vehicles: read at the door, placed in the scene, and how deep two of them overlap."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..directions import from_radians
+from ..errors import InputError, ShapeError
+from ..units import POSITIVE, Door, is_quantity, shown
+from ..vehicle import Vehicle, missing
+
+# Sines of corners closer to straight than this are no dents.
+_STRAIGHT = 1e-9
+
+
+def read_outline(door: Door, given: Any, argument: str) -> Any:
+    """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or from corners."""
+    whole = given.magnitude if is_quantity(given) else given
+    if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
+        read = door.number(given, "m", argument)
+        return _polygon(door, read, argument) if isinstance(read, np.ndarray) else None
+    if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
+        count = len(door.problems)
+        corners = [door.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
+        if len(door.problems) > count:
+            return None
+        if any(isinstance(number, np.ndarray) for corner in corners for number in corner):
+            return _bad_shape(door, given, argument)
+        return _polygon(door, np.array(corners), argument)
+    if isinstance(given, tuple) and len(given) in (2, 3):
+        return _rectangle(door, given, argument)
+    return _bad_shape(door, given, argument)
+
+
+def _bad_shape(door: Door, given: Any, argument: str) -> None:
+    door.refuse(
+        ShapeError(
+            f"{argument} must be (length, width), (length, width, how far the centre of mass is ahead of the middle), or at "
+            f"least three corners (forward, left) from the centre of mass; got {shown(given)}",
+            code="bad_shape",
+            argument=argument,
+        )
+    )
+
+
+def _rectangle(door: Door, given: tuple[Any, ...], argument: str) -> Any:
+    count = len(door.problems)
+    length, width = (
+        door.number(value, "m", f"{argument}[{i}] ({name})", POSITIVE)
+        for i, (name, value) in enumerate(zip(("length", "width"), given, strict=False))
+    )
+    ahead = door.number(given[2], "m", f"{argument}[2] (offset)") if len(given) == 3 else 0.0
+    if len(door.problems) > count:
+        return None
+    if any(isinstance(value, np.ndarray) for value in (length, width, ahead)):
+        return _bad_shape(door, given, argument)
+    if not abs(ahead) < 0.5 * length < math.inf or math.isinf(width):
+        door.refuse(
+            InputError(
+                f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a length of {length:.6g} m "
+                f"and a width of {width:.6g} m; both must be finite, and the offset less than half the length",
+                code="bad_outline",
+                argument=argument,
+            )
+        )
+        return None
+    front, back, side = 0.5 * length - ahead, -0.5 * length - ahead, 0.5 * width
+    return np.array([(front, side), (back, side), (back, -side), (front, -side)])
+
+
+def _polygon(door: Door, corners: Any, argument: str) -> Any:
+    """The corners counter-clockwise; refused if there is a dent or no area."""
+    problem = ""
+    if len(corners) < 3:
+        problem = "has fewer than three corners"
+    elif not np.all(np.isfinite(corners)):
+        problem = "has a corner that is not finite"
+    else:
+        edges = np.roll(corners, -1, axis=0) - corners
+        turns = _cross(edges, np.roll(edges, -1, axis=0))
+        lengths = np.hypot(*edges.T)
+        sines = turns / np.maximum(lengths * np.roll(lengths, -1), np.finfo(float).tiny)
+        if np.all(sines <= _STRAIGHT) and np.any(sines < -_STRAIGHT):
+            return _polygon(door, corners[::-1], argument)
+        angles = np.arctan2(edges[:, 1], edges[:, 0])
+        around = np.sum((np.roll(angles, -1) - angles) % (2.0 * math.pi))
+        if not np.any(sines > _STRAIGHT):
+            problem = "has no area"
+        elif np.any(sines < -_STRAIGHT) or not np.all(lengths) or around > 3.0 * math.pi:
+            problem = "has a dent, a corner twice, or sides that cross"
+    if problem:
+        door.refuse(
+            InputError(
+                f"{argument} {problem}; give corners (forward, left) one after another around a convex outline, such as "
+                f"[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
+                code="bad_outline",
+                argument=argument,
+            )
+        )
+        return None
+    return corners
+
+
+def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Any:
+    """The corners in the scene, where the vehicle is after so many seconds of its motion."""
+    x, y, heading = (_need(vehicle, name, label) for name in ("x", "y", "heading"))
+    turn = vehicle.yaw_rate * after
+    if vehicle.pivot is None:
+        x, y = x + vehicle.vx * after, y + vehicle.vy * after
+    else:
+        px, py = vehicle.pivot
+        c, s = from_radians(turn)
+        x, y = px + c * (x - px) - s * (y - py), py + s * (x - px) + c * (y - py)
+    c, s = from_radians(heading + turn)
+    return np.stack([x + c * outline[:, 0] - s * outline[:, 1], y + s * outline[:, 0] + c * outline[:, 1]], axis=1)
+
+
+def _need(vehicle: Vehicle, name: str, label: str) -> Any:
+    value = getattr(vehicle, name)
+    if value is None:
+        raise missing(vehicle, name, f"outline_{label}", label)
+    return value
+
+
+def distance_outside(corners: Any, point: tuple[float, float]) -> float:
+    """How far a point is from a convex polygon; 0 inside."""
+    edges = np.roll(corners, -1, axis=0) - corners
+    to_point = np.array(point) - corners
+    if np.all(_cross(edges, to_point) >= 0.0):
+        return 0.0
+    share = np.clip(np.sum(to_point * edges, axis=1) / np.sum(edges * edges, axis=1), 0.0, 1.0)
+    return float(np.min(np.hypot(*(to_point - share[:, np.newaxis] * edges).T)))
+
+
+def overlap(one: Any, other: Any) -> float:
+    """How deep two convex polygons overlap: the least way that would part them; below 0 with a gap."""
+    least = math.inf
+    for corners in (one, other):
+        edges = np.roll(corners, -1, axis=0) - corners
+        for ex, ey in edges / np.hypot(*edges.T)[:, np.newaxis]:
+            axis = np.array([ey, -ex])
+            first, second = one @ axis, other @ axis
+            least = min(least, float(first.max() - second.min()), float(second.max() - first.min()))
+    return least
+
+
+def _cross(one: Any, other: Any) -> Any:
+    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]

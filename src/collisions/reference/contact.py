@@ -1,0 +1,243 @@
+"""Restitution, friction between vehicles, and how long they touch."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..units import Door, Input, Value, shown
+from .published import Fit, Outside, Published, check_outside, settle
+from .ratios import OBLIQUE_TESTS, SMALL_OVERLAP_TESTS
+
+_MPH = 0.44704
+_PYCRASH = "https://github.com/joe-cormier/pycrash"
+_EDCRASH = (
+    "EDCRASH manual, chapter 6, Coefficient of Restitution Warnings (Engineering Dynamics Corporation; "
+    "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH/06-messages.md)"
+)
+
+RESTITUTION_FIT = Fit(
+    name="restitution against closing speed",
+    formula="e = 0.47477 - 0.26139 L + 0.03382 L**2 - 0.11639 L**3, L = log10(closing speed in m/s)",
+    unit="",
+    ranges={"closing_speed": (2.0 * _MPH, 15.0 * _MPH, "m/s")},
+    source=f"Cipriani and others, SAE 2002-01-0540, as it stands in {_PYCRASH} (pycrash/functions/ar.py, cipriani_rest)",
+    domain="low-speed, collinear, vehicle to vehicle",
+    quality=(
+        "Read from pycrash, not from the paper: neither the speeds that the paper tested nor the scatter about the fit could "
+        "be checked, and 2 to 15 mph is the range in which it is used here. Two tests of GBB lie 0.17 and 0.05 below it. It is "
+        "negative above 58.7 km/h."
+    ),
+)
+RESTITUTION = Published(
+    name="restitution, vehicle collisions in general",
+    low=0.0,
+    high=0.25,
+    unit="",
+    source=_EDCRASH,
+    domain="vehicle to vehicle; may be higher at low speed, where bumpers spring back",
+    quality="A rule in the manual of a program, without tests beside it; the tests at full speed pass it by 0.003 at most.",
+)
+RESTITUTION_LOW_SPEED = Published(
+    name="restitution, low speed",
+    low=0.2,
+    high=0.4,
+    unit="",
+    source="SAE 931842, abstract (https://www.sae.org/publications/technical-papers/content/931842/)",
+    domain="rear-end and barrier tests with factory bumpers, velocity changes of 2 to 5 mph (0.9 to 2.2 m/s)",
+    quality="Measured with accelerometers and high-speed film; the abstract says clustered in this range, not bounded by it.",
+)
+RESTITUTION_OBLIQUE = Published(
+    name="restitution, oblique frontal tests at full speed",
+    low=0.089,
+    high=0.150,
+    unit="",
+    source=OBLIQUE_TESTS,
+    domain="car into car or utility vehicle, 35 mph each, along the contact normal, closing speed 23.4 and 24.4 m/s in two",
+    quality="Four tests; how the paper arrived at the values could not be checked.",
+)
+RESTITUTION_SMALL_OVERLAP = Published(
+    name="restitution, small overlap with a barrier",
+    low=0.0,
+    high=0.253,
+    unit="",
+    source=SMALL_OVERLAP_TESTS,
+    domain="cars of 2008 to 2012, 40 mph, 20 or 25 percent of the width; closing speed along the contact normal 3.8 to 5.0 m/s",
+    quality="Fitted to measured motion; some yaw inertias behind the fit are borrowed from another car.",
+)
+RESTITUTION_FRONTAL_BARRIER = Published(
+    name="restitution, full frontal rigid barrier",
+    low=0.158,
+    high=0.181,
+    typical=0.17,
+    unit="",
+    source=f"NHTSA test 10146, raw accelerometers in {_PYCRASH} (projects/pycrash demo/data/input/v10146ascii), integrated",
+    domain="one car of 2018 into a rigid barrier at 57.1 km/h",
+    quality="One test; the range is that of its sensors.",
+)
+INTER_VEHICLE_FRICTION = Published(
+    name="inter-vehicle friction",
+    low=0.3,
+    high=1.0,
+    typical=0.55,
+    unit="",
+    source=(
+        "McHenry and McHenry, SAE 970947, as quoted by the authors "
+        "(http://www.mchenrysoftware.com/board/viewtopic.php?f=36&t=26); 0.55 is also the default of EDSMAC "
+        "(https://github.com/edccorp/hveManuals)"
+    ),
+    domain="Coulomb friction between vehicle bodies in SMAC simulations",
+    quality=(
+        "A recommendation from use, not a measurement. The same page reports that Marine (SAE 2007-01-0744) has values far "
+        "above 1; pycrash has 0.3 as default."
+    ),
+)
+CONTACT_DURATION = Published(
+    name="duration of contact",
+    low=0.108,
+    high=0.108,
+    unit="s",
+    source=(
+        "McHenry and McHenry, CRASH-97, SAE 970949, caption of a figure: impact at 0.10 s, separation at 0.208 s (excerpt at "
+        "https://m.moam.info/crash97-refinement-of-the-trajectory-solution-procedure_59b78c051723ddddc6094022.html)"
+    ),
+    domain="one collision of a 1030 kg and a 2236 kg car",
+    quality="One case; whether measured or simulated could not be told: an order of magnitude, not a range.",
+)
+
+# Half the width of the range that SAE 931842 measured, taken as the scatter about the fit.
+_SCATTER = 0.5 * (RESTITUTION_LOW_SPEED.high - RESTITUTION_LOW_SPEED.low)
+# At any speed above that of the fit: the highest value published for those speeds, 0.253, and a little to spare.
+_HIGHEST = 0.3
+
+
+def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
+    """Coefficient of restitution at a closing speed, by the fit of Cipriani and others.
+
+    The fit is a mean over pairs of vehicles, of which one pair may be 0.1 to 0.2 off: take a range. Source, range and quality
+    are in ``RESTITUTION_FIT``.
+
+    Parameters
+    ----------
+    closing_speed : float, str, Quantity or array [m/s]
+        Along the contact normal, > 0.
+    outside : {"warn", "refuse"}
+        What is done outside 2 to 15 mph: the formula goes on with a warning, or is refused. Where it gives no restitution,
+        above 58.7 km/h or below 0.25 km/h, it is refused in any case.
+
+    Returns
+    -------
+    float or array
+        Restitution, from 0 to 1; NaN for a case of a batch that is refused.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used; a single closing speed for which there is no answer (code ``outside_reference``).
+
+    Warns
+    -----
+    OutOfRangeWarning
+        Outside the range of the fit.
+
+    Examples
+    --------
+    >>> from collisions import reconstruct, reference
+    >>> round(reference.restitution("5 mph"), 4)
+    0.3826
+
+    As a function of the closing speed for the reverse solvers, which then stay in its range:
+
+    >>> fit = lambda speed: reference.restitution(speed, outside="refuse")
+    >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, fit, delta_v_a="5 km/h"), 1)
+    7.2
+    """
+    door = Door()
+    speed: Any = door.number(closing_speed, "m/s", "closing_speed")
+    check_outside(door, outside)
+    if isinstance(speed, float) and speed <= 0.0:
+        door.refuse(
+            InputError(
+                f"closing_speed must be > 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
+                code="not_positive",
+                argument="closing_speed",
+            )
+        )
+    door.close()
+    if isinstance(speed, float):
+        e = _fitted(math.log10(speed))
+        if not 0.0 <= e <= 1.0:
+            raise InputError(
+                f"closing_speed {speed:.6g} m/s: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
+                f"Give a value, such as one from reference.RESTITUTION",
+                code="outside_reference",
+                argument="closing_speed",
+            )
+        answer: Value = settle(RESTITUTION_FIT, e, {"closing_speed": speed}, False, outside)
+        return answer
+    with np.errstate(all="ignore"):
+        many = _fitted(np.log10(speed))
+        unusable = ~((many >= 0.0) & (many <= 1.0) & (speed > 0.0))
+        answers: Value = settle(RESTITUTION_FIT, many, {"closing_speed": speed}, unusable, outside)
+    return answers
+
+
+def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
+    """Restitutions that are plausible at a closing speed: lowest and highest.
+
+    The lowest is 0: bodies may stay together. The highest is, up to 15 mph, the fit plus 0.1 (half the width of
+    ``RESTITUTION_LOW_SPEED``) and at least 0.3; above 15 mph 0.3, which is above every value published here for such speeds
+    (``RESTITUTION``, ``RESTITUTION_OBLIQUE``, ``RESTITUTION_SMALL_OVERLAP``); below 2 mph 1, for nothing is published.
+
+    Parameters
+    ----------
+    closing_speed : float, str, Quantity or array [m/s]
+        Along the contact normal, >= 0.
+
+    Returns
+    -------
+    tuple of float or array
+        Lowest and highest.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used.
+
+    Examples
+    --------
+    >>> [round(restitution_range(speed)[1], 2) for speed in ("1 mph", "3 mph", "10 mph", "40 mph")]
+    [1.0, 0.54, 0.39, 0.3]
+    """
+    door = Door()
+    speed: Any = door.number(closing_speed, "m/s", "closing_speed")
+    if isinstance(speed, float) and speed < 0.0:
+        door.refuse(
+            InputError(
+                f"closing_speed must be >= 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
+                code="negative_speed",
+                argument="closing_speed",
+            )
+        )
+    door.close()
+    slowest, fastest, _ = RESTITUTION_FIT.ranges["closing_speed"]
+    if isinstance(speed, float):
+        fitted: Any = 1.0 if speed < slowest else -1.0 if speed > fastest else _fitted(math.log10(speed)) + _SCATTER
+        ends: tuple[Any, Any] = 0.0, max(_HIGHEST, fitted)
+        return ends
+    with np.errstate(all="ignore"):
+        fitted = np.where(speed < slowest, 1.0, np.where(speed > fastest, -1.0, _fitted(np.log10(speed)) + _SCATTER))
+        highest: Any = np.maximum(fitted, _HIGHEST)
+        highest = np.where(speed >= 0.0, highest, math.nan)
+        lowest: Any = np.where(speed >= 0.0, 0.0, math.nan)
+    for array in (lowest, highest):
+        array.setflags(write=False)
+    return lowest, highest
+
+
+def _fitted(x: Any) -> Any:
+    """The fit at the logarithm of the closing speed."""
+    return 0.47477 + x * (-0.26139 + x * (0.03382 - 0.11639 * x))

@@ -1,0 +1,144 @@
+"""What a published value carries with it, and what is done outside the range it was published for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from ..errors import InputError, OutOfRangeWarning
+from ..quiet import warn_of_cases
+from ..units import Door, shown
+
+Outside: TypeAlias = Literal["warn", "refuse"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Published:
+    """A published value or range.
+
+    Parameters
+    ----------
+    name : str
+        What it is of.
+    low, high : float
+        Ends of the published range; equal for a single value.
+    typical : float, optional
+        The value named as usual, where there is one.
+    unit : str
+        SI unit, "" for a plain number.
+    source : str
+        Where it was published and where it was read.
+    domain : str
+        What it holds for.
+    quality : str
+        How good it is, in a sentence.
+
+    Examples
+    --------
+    >>> from collisions import reference
+    >>> friction = reference.INTER_VEHICLE_FRICTION
+    >>> friction.low, friction.typical, friction.high, 1.2 in friction
+    (0.3, 0.55, 1.0, False)
+    """
+
+    name: str
+    low: float
+    high: float
+    typical: float | None = None
+    unit: str
+    source: str
+    domain: str
+    quality: str
+
+    def __contains__(self, value: float) -> bool:
+        """Whether a number in the SI unit lies in the range."""
+        return self.low <= value <= self.high
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fit:
+    """A published formula.
+
+    Parameters
+    ----------
+    name : str
+        What it gives.
+    formula : str
+        As it is worked out, in SI.
+    unit : str
+        SI unit of what it gives.
+    ranges : dict of (float, float, str)
+        By argument: lowest, highest and SI unit of what it was found used or checked for.
+    source, domain, quality : str
+        As for ``Published``.
+    """
+
+    name: str
+    formula: str
+    unit: str
+    ranges: dict[str, tuple[float, float, str]]
+    source: str
+    domain: str
+    quality: str
+
+
+def check_outside(door: Door, outside: Any) -> None:
+    """Refuses a choice that is none."""
+    if not isinstance(outside, str) or outside not in ("warn", "refuse"):
+        door.refuse(
+            InputError(
+                f"outside must be 'warn' (a value with a warning) or 'refuse', got {shown(outside)}",
+                code="bad_option",
+                argument="outside",
+            )
+        )
+
+
+def settle(fit: Fit, found: Any, given: dict[str, Any], unusable: Any, outside: str) -> Any:
+    """The value of a fit; NaN in the lanes of a batch it cannot answer, refused or warned of outside its ranges."""
+    beyond: Any = False
+    for name, (low, high, _) in fit.ranges.items():
+        if name in given:
+            beyond = beyond | (given[name] < low) | (given[name] > high)
+    if not isinstance(found, np.ndarray):
+        if beyond:
+            _tell_of_one(fit, given, outside)
+        return found
+    lost = unusable | (beyond if outside == "refuse" else False)
+    answer = np.where(lost, np.array(math.nan, dtype=found.dtype), found)
+    answer.setflags(write=False)
+    counts = {
+        "outside_reference": int(np.count_nonzero(np.broadcast_to(beyond, found.shape) & ~np.broadcast_to(lost, found.shape))),
+        "refused": int(np.count_nonzero(np.broadcast_to(lost, found.shape))),
+    }
+    if any(counts.values()):
+        warn_of_cases(
+            OutOfRangeWarning(
+                f"{fit.name}: of {found.size} cases {counts['outside_reference']} lie outside the range it holds for "
+                f"({_ranges(fit, given)}), and {counts['refused']} have no answer and are NaN",
+                code="outside_reference",
+                counts=counts,
+            )
+        )
+    return answer
+
+
+def _tell_of_one(fit: Fit, given: dict[str, Any], outside: str) -> None:
+    where = ", ".join(f"{name} {value:.6g} {fit.ranges[name][2]}" for name, value in given.items() if name in fit.ranges)
+    text = f"{fit.name}: {where} lies outside the range it holds for, which is {_ranges(fit, given)} ({fit.source})"
+    if outside == "refuse":
+        raise InputError(
+            f"{text}; give a measured value, or accept one from outside with outside='warn'",
+            code="outside_reference",
+            argument=next(name for name in given if name in fit.ranges),
+        )
+    warn_of_cases(OutOfRangeWarning(f"{text}; the value is an extrapolation", code="outside_reference", given=given))
+
+
+def _ranges(fit: Fit, given: dict[str, Any]) -> str:
+    return ", ".join(
+        f"{name} {low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items() if name in given
+    )

@@ -1,0 +1,77 @@
+"""Solves every published case, writes docs/_generated/validation.json and the figures of the page, and prints the tables.
+
+Run with ``python validation/run.py``. It takes a few seconds and needs the library and, for the figures, matplotlib.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import central_solutions  # noqa: E402
+import measured_fits  # noqa: E402
+import other_lists  # noqa: E402
+import planar_solutions  # noqa: E402
+import untuned_predictions  # noqa: E402
+import validation_figures  # noqa: E402
+import validation_tables as tables  # noqa: E402
+from published_records import record_names, table_of  # noqa: E402
+
+DOCS = HERE.parent / "docs"
+
+
+def homes(found: dict[str, Any]) -> dict[str, str]:
+    """Where every record is; refuses one that is nowhere or in two places."""
+    placed = [
+        (record, name)
+        for name in ("agreement", "fits", "predictions")
+        for case in found[name]["cases"]
+        for record in case["records"]
+    ]
+    placed += [(record, "nothing published") for case in found["nothing_published"] for record in case["records"]]
+    placed += [(record, "inputs only") for entry in found["inputs_only"] for record in entry["records"]]
+    counts = Counter(record for record, _ in placed)
+    wrong = {name: counts[name] for name in {*record_names(), *counts} if counts[name] != 1 or name not in record_names()}
+    if wrong:
+        raise AssertionError(f"records that are not in exactly one place: {wrong}")
+    return dict(sorted(placed))
+
+
+def everything() -> dict[str, Any]:
+    """All that the page shows."""
+    found: dict[str, Any] = {
+        "agreement": table_of([*central_solutions.cases(), *planar_solutions.cases()]),
+        "fits": {
+            **table_of(measured_fits.cases()),
+            "tabulated": measured_fits.tabulated(),
+            "held_out": table_of(measured_fits.held_out()),
+        },
+        "predictions": table_of(untuned_predictions.cases()),
+        "nothing_published": other_lists.nothing_published(),
+        "inputs_only": other_lists.inputs_only(),
+        "not_computed": other_lists.not_computed(),
+        "slips": other_lists.slips(),
+    }
+    found["records"] = homes(found)
+    return found
+
+
+def main() -> None:
+    """Write and print."""
+    found = everything()
+    (DOCS / "_generated" / "validation.json").write_text(
+        json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
+    )
+    for name in ("agreement", "fits", "predictions"):
+        validation_figures.draw(found, name, DOCS / "_static" / f"validation_{name}.svg")
+    print(tables.everything(found))
+
+
+if __name__ == "__main__":
+    main()
