@@ -1,0 +1,211 @@
+"""explain: an answer written down step by step, with the numbers of the result and the equations of the paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..amounts import at_least_zero
+from ..errors import InputError, ShapeError, Status
+from ..impact import Impact
+from ..kernels import codes
+from ..reconstruct import MomentumSolution
+from ..reconstruct.outcome import plain_error
+from ..uncertainty.result import Propagation
+from ..units import Door, shown
+from . import answers, momentum
+from .eccentric import eccentric
+from .linear import linear
+from .oblique import oblique
+from .origin import chosen, found
+from .page import Page
+from .rounding import SYSTEMS, System
+
+_FORMS = ("markdown", "text")
+_MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
+_SI = {"speed": "m/s", "angle": "rad", "yaw rate": "rad/s", "number": "", "impulse": "N*s", "energy": "J"}
+
+
+def explain(
+    impact: Impact | MomentumSolution,
+    *,
+    units: str = "si",
+    form: str = "markdown",
+    uncertainty: Propagation | Mapping[str, Any] | None = None,
+) -> str:
+    """The derivation of an answer with the numbers in it, step by step.
+
+    Every line is a formula, the same with numbers, and the number of the result: nothing is solved again, and a formula that
+    did not give the result's number would say so. Equation numbers, as (5), are those of "Application of Impulse Momentum
+    Theory to Vehicle Collisions". An energy gain is told first.
+
+    The working keeps a number as it is if six figures hold it, else four figures, so that it can be followed with a pocket
+    calculator. The answers at the end are rounded: speeds to 0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad,
+    yaw rates to 1 deg/s or 0.01 rad/s, ratios to 0.01, impulses and energies to three figures; or to two figures of their
+    standard deviation where that is known.
+
+    Parameters
+    ----------
+    impact : Impact or MomentumSolution
+        One case, of any forward or reverse solver.
+    units : {"si", "metric", "us"}, optional
+        "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Numbers that convert
+        units within a line are listed at the end.
+    form : {"markdown", "text"}, optional
+        Markdown with LaTeX between dollar signs, or plain text.
+    uncertainty : Propagation, or dict of float, str or Quantity, optional
+        Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. Of a
+        propagation those outputs are taken that have such a name, as SI if the model returned plain numbers.
+
+    Returns
+    -------
+    str
+        The derivation; the same for the same arguments.
+
+    Raises
+    ------
+    ShapeError
+        A batch: explain one case of it.
+    InputError, NoImpactError, NoSolutionError
+        An argument that cannot be used, or an impact that was refused (the status says why).
+
+    Examples
+    --------
+    Example 2 of the paper, as it was asked there: the restitution, and the velocity of the striking car.
+
+    >>> import collisions as col
+    >>> from collisions.derivation import explain
+    >>> impact = col.reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
+    >>> page = explain(impact, form="text")
+    >>> print(page[page.index("Restitution"):page.index("What follows")].rstrip())
+    Restitution, as in (9):
+      e = (v'_B - v'_A) / (v_A - v_B)
+        = (16.67 - 7.828) / (22.22 - 0)
+        = 0.3977
+    """
+    _allowed("units", units, SYSTEMS)
+    _allowed("form", form, _FORMS)
+    if not isinstance(impact, (Impact, MomentumSolution)):
+        raise InputError(
+            f"impact must be the answer of a solver (an Impact, or a MomentumSolution), got {type(impact).__name__}; a fit or "
+            f"a single number has no steps of its own",
+            code="not_an_impact",
+            argument="impact",
+        )
+    _one_case(impact)
+    system = System(units)
+    if isinstance(impact, MomentumSolution):
+        page = Page(system, form == "markdown", _deviations(uncertainty, momentum.NAMES, momentum.kind_of))
+        page.title("Planar momentum, step by step")
+        _gain(page, impact.status, impact.translational_energy_loss)
+        momentum.momentum(page, impact)
+    else:
+        page = _of_impact(impact, system, form, uncertainty)
+    _notes(page)
+    return page.text()
+
+
+def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> Page:
+    page = Page(system, form == "markdown", _deviations(uncertainty, answers.NAMES, answers.kind_of))
+    page.title("The impact, step by step")
+    _gain(page, impact.status, impact.energy_loss)
+    page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
+    answers.given(page, impact)
+    chosen(page, impact)
+    found(page, impact)
+    _MODELS[impact.model](page, impact)
+    answers.answers(page, impact)
+    return page
+
+
+def _gain(page: Page, status: Any, loss: float) -> None:
+    """An energy gain comes before anything else."""
+    if status == Status.ENERGY_GAIN:
+        page.stress(
+            f"Energy gain: the vehicles leave with {page.system.answer(-loss, 'energy')} more than they came with, which no "
+            "impact gives. The inputs do not go together; the numbers are shown as they are."
+        )
+
+
+def _notes(page: Page) -> None:
+    """What the numbers are."""
+    page.heading("Notes")
+    lines = [
+        'Equation numbers are those of "Application of Impulse Momentum Theory to Vehicle Collisions"; its vehicles 1 and 2 '
+        "are A and B here.",
+        "Every step was worked out with all digits and is printed with four figures, so a line worked out again from its "
+        "printed numbers may differ in the last one. The answers are rounded.",
+        "x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.",
+    ]
+    if page.system.conversions:
+        lines.append("Numbers that convert units: " + "; ".join(page.system.conversions).replace("**", "^") + ".")
+    page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
+
+
+def _allowed(argument: str, value: Any, allowed: tuple[str, ...]) -> None:
+    if not isinstance(value, str) or value not in allowed:
+        raise InputError(
+            f"{argument} must be one of {', '.join(map(repr, allowed))}, got {shown(value)}",
+            code="bad_option",
+            argument=argument,
+        )
+
+
+def _one_case(impact: Impact | MomentumSolution) -> None:
+    """Refuses a batch, and a case that has no numbers."""
+    status = impact.status
+    if isinstance(status, np.ndarray):
+        raise ShapeError(
+            f"impact is a batch of shape {status.shape}, and a derivation is of one case; call its solver again with the "
+            f"numbers of the case to explain",
+            code="bad_shape",
+            argument="impact",
+        )
+    if status > codes.ENERGY_GAIN:
+        problem = plain_error(
+            int(status), f"the impact was refused, so there is nothing to derive: {Status(status).sentence}; mend its inputs"
+        )
+        raise problem
+
+
+def _deviations(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> dict[str, float]:
+    """Standard deviations in SI, by the name of the answer."""
+    if uncertainty is None:
+        return {}
+    known = {**{name.replace(".", "_"): name for name in names}, **{name: name for name in names}}
+    if isinstance(uncertainty, Propagation):
+        found = {known[name]: uncertainty[name].std for name in uncertainty if name in known}
+        if not found:
+            raise _unknown(", ".join(uncertainty), names)
+        # With an interval among the inputs there are two; the larger one holds for both.
+        return {name: float(np.max(deviation)) for name, deviation in found.items()}
+    if not isinstance(uncertainty, Mapping):
+        raise InputError(
+            f"uncertainty must be a Propagation, or a dict of standard deviations by name, got {type(uncertainty).__name__}",
+            code="bad_option",
+            argument="uncertainty",
+        )
+    stray = [shown(name) for name in uncertainty if name not in known]
+    if stray:
+        raise _unknown(", ".join(stray), names)
+    door = Door()
+    found = {}
+    for name, value in uncertainty.items():
+        read = door.number(value, _SI[kind_of(known[name])], name)
+        found[known[name]] = at_least_zero(door, read, value, name, "negative_deviation", "give the standard deviation")
+    door.close()
+    for name, value in found.items():
+        if not isinstance(value, float) or not math.isfinite(value):
+            raise ShapeError(f"the standard deviation of {name} must be one number", code="bad_shape", argument=name)
+    return found
+
+
+def _unknown(given: str, names: tuple[str, ...]) -> InputError:
+    return InputError(
+        f"uncertainty names no answer of this derivation: {given}; the answers are {', '.join(names)}",
+        code="no_output",
+        argument="uncertainty",
+    )

@@ -1,0 +1,130 @@
+"""The derivation of planar momentum: two unknown speeds from courses that cross."""
+
+from __future__ import annotations
+
+import math
+
+from ..reconstruct import MomentumSolution
+from .expressions import Expression, Function, Symbol, total
+from .letters import letter
+from .page import Page
+
+_SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+
+
+def momentum(page: Page, solution: MomentumSolution) -> None:
+    """Write it down."""
+    speeds, courses, moving = {}, {}, []
+    for name in _SPEEDS:
+        label, mark = name[6].upper(), "'" if name.endswith("after") else ""
+        speeds[name] = letter(f"v_{label}{mark}", f"v{mark}_{label}", getattr(solution, name), "speed")
+        course = getattr(solution, name.replace("speed", "course"))
+        if course is not None:
+            courses[name] = letter(rf"\theta_{label}{mark}", f"theta{mark}_{label}", course, "angle")
+            moving.append(name)
+    masses = {"a": letter("m_A", "m_A", solution.mass_a, "mass"), "b": letter("m_B", "m_B", solution.mass_b, "mass")}
+    rows = [("A", "mass", page.number(solution.mass_a, "mass")), ("B", "mass", page.number(solution.mass_b, "mass"))]
+    for name in _SPEEDS:
+        label, when = name[6].upper(), "after" if name.endswith("after") else "before"
+        if name in courses:
+            rows.append((label, f"course {when}", page.number(courses[name].value, "angle")))
+        if name not in solution.unknowns and not (
+            name == "speed_b_after" and "speed_a_after" in solution.unknowns and _together(solution)
+        ):
+            rows.append((label, f"speed {when}", page.number(speeds[name].value, "speed")))
+    page.heading("Given")
+    page.table(("of", "quantity", "value"), rows)
+    page.heading("Planar momentum")
+    page.say(
+        "The momentum of both vehicles together is the same before and after, along x and along y (1), (2). Nothing is assumed "
+        "of restitution, friction or rotation. Unknown are the two speeds along their courses."
+    )
+    outside = any(name.startswith("outside") for row in solution.sensitivity.values() for name in row)
+    for axis, function in (("x", "cos"), ("y", "sin")):
+        sides = [
+            [
+                masses[name[6]] * speeds[name] * Function(function, courses[name])
+                for name in moving
+                if after == name.endswith("after")
+            ]
+            for after in (False, True)
+        ]
+        left, right = (total(*terms) if terms else letter("0", "0", 0.0, "impulse") for terms in sides)
+        if outside:
+            j = letter(f"J_{axis}", f"J_{axis}", right.value - left.value, "impulse")
+            page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(j)}.")
+            left = left + j
+        page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
+    first, second = solution.unknowns
+    page.say(
+        f"Turned across the course of one unknown, the balance holds the other alone: these give {page.shown(speeds[first])} "
+        f"and {page.shown(speeds[second])}."
+    )
+    one, other = courses[first], courses[second]
+    condition = letter(r"\kappa", "kappa", solution.condition, "number")
+    angle = one - other
+    page.equation(
+        "Condition, from the angle between both courses (1 at right angles)",
+        condition,
+        (1.0 + Function("abs", Function("cos", angle))) / Function("abs", Function("sin", angle)),
+    )
+    _changes(page, solution, speeds, courses)
+
+
+def _together(solution: MomentumSolution) -> bool:
+    """Whether the vehicles left as one."""
+    return bool(solution.speed_a_after == solution.speed_b_after and solution.course_a_after == solution.course_b_after)
+
+
+def _changes(page: Page, solution: MomentumSolution, speeds: dict[str, Symbol], courses: dict[str, Symbol]) -> None:
+    """What follows from all speeds."""
+    page.heading("Changes of velocity and energy")
+    for label in "ab":
+        before, after = f"speed_{label}", f"speed_{label}_after"
+        parts: list[Expression] = []
+        for function in ("cos", "sin"):
+            ends = [speeds[name] * Function(function, courses[name]) if name in courses else None for name in (after, before)]
+            end, start = ends
+            parts.append(
+                end - start if end is not None and start is not None else end or start or letter("0", "0", 0.0, "speed")
+            )
+        delta = letter(rf"\Delta v_{label.upper()}", f"dv_{label.upper()}", getattr(solution, f"delta_v_{label}"), "speed")
+        length = Function("sqrt", parts[0].squared() + parts[1].squared())
+        page.equation(f"Delta-V of {label.upper()}", delta, length)
+    loss = letter(r"\Delta E", "dE", solution.translational_energy_loss, "energy")
+    terms: list[Expression] = []
+    for name, speed in speeds.items():
+        mass = letter(f"m_{name[6].upper()}", f"m_{name[6].upper()}", getattr(solution, f"mass_{name[6]}"), "mass")
+        terms.append(mass * speed.squared() / 2.0)
+    page.equation("Energy of translation lost (7)", loss, terms[0] + terms[1] - terms[2] - terms[3])
+    page.heading("Answers")
+    rows = [
+        (
+            name[6].upper(),
+            "speed " + ("after" if name.endswith("after") else "before"),
+            page.answer(name, speeds[name].value, "speed"),
+        )
+        for name in solution.unknowns
+    ]
+    for label in "ab":
+        rows.append((label.upper(), "delta-V", page.answer(f"delta_v_{label}", getattr(solution, f"delta_v_{label}"), "speed")))
+        pdof = getattr(solution, f"pdof_{label}")
+        if pdof is not None and not math.isnan(pdof):
+            rows.append((label.upper(), "PDOF (0 from ahead, positive clockwise)", page.answer(f"pdof_{label}", pdof, "angle")))
+    if solution.closing_speed is not None:
+        rows.append(
+            ("centres", "closing speed along the normal", page.answer("closing_speed", solution.closing_speed, "speed"))
+        )
+    if solution.restitution is not None and not math.isnan(solution.restitution):
+        rows.append(("centres", "restitution along the normal", page.answer("restitution", solution.restitution, "number")))
+    rows.append(("both", "energy of translation lost", page.answer("translational_energy_loss", loss.value, "energy")))
+    page.table(("of", "quantity", "value"), rows)
+
+
+NAMES = (*_SPEEDS, "delta_v_a", "delta_v_b", "pdof_a", "pdof_b", "closing_speed", "restitution", "translational_energy_loss")
+
+
+def kind_of(name: str) -> str:
+    """The kind of quantity of an answer."""
+    words = {"pdof": "angle", "restitution": "number", "translational": "energy"}
+    return words.get(name.partition("_")[0], "speed")

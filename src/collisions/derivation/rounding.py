@@ -1,0 +1,176 @@
+"""Units and digits: in which unit each kind of quantity is printed, and how many figures of it."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import TypeAlias
+
+from ..units import to_quantity
+
+# Labels of units with their powers.
+Powers: TypeAlias = tuple[tuple[str, float], ...]
+
+# The unit inside the package, and how each system prints it.
+SYSTEMS = ("si", "metric", "us")
+_SI = {
+    "number": "",
+    "mass": "kg",
+    "speed": "m/s",
+    "angle": "rad",
+    "yaw rate": "rad/s",
+    "length": "m",
+    "inertia": "kg*m**2",
+    "impulse": "N*s",
+    "angular momentum": "kg*m**2/s",
+    "energy": "J",
+    "per mass": "1/kg",
+}
+_UNITS = {
+    "si": {**_SI},
+    "metric": {
+        **_SI,
+        "speed": "km/h",
+        "angle": "deg",
+        "yaw rate": "deg/s",
+        "impulse": "kN*s",
+        "angular momentum": "kN*m*s",
+        "energy": "kJ",
+    },
+    "us": {
+        **_SI,
+        "mass": "lb",
+        "speed": "mph",
+        "angle": "deg",
+        "yaw rate": "deg/s",
+        "length": "ft",
+        "inertia": "lb*ft**2",
+        "impulse": "lbf*s",
+        "angular momentum": "lbf*ft*s",
+        "energy": "ft*lbf",
+        "per mass": "1/lb",
+    },
+}
+# Decimals of an answer: 0.1 km/h, 0.1 mph and the next finer power of ten in m/s; 1 degree and the next finer in rad.
+_DECIMALS = {
+    "si": {"speed": 2, "angle": 2, "yaw rate": 2, "length": 2, "number": 2},
+    "metric": {"speed": 1, "angle": 0, "yaw rate": 0, "length": 2, "number": 2},
+    "us": {"speed": 1, "angle": 0, "yaw rate": 0, "length": 2, "number": 2},
+}
+# What is this near to nothing in SI is what rounding left of it, and printed as 0.
+_NOTHING = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
+_FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
+_WORKING = 4  # figures of a number in the working
+_EXACT = 1e-9  # relative: a number this near to one of six figures is that number
+
+
+class System:
+    """One system of units, and the conversions that were used while writing in it."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.conversions: dict[str, None] = {}
+
+    def label(self, kind: str) -> str:
+        """The unit of a kind, as pint writes it."""
+        return _UNITS[self.name][kind]
+
+    def unit(self, kind: str, latex: bool) -> str:
+        """The unit behind a number, with the space before it."""
+        label = self.label(kind)
+        if not label:
+            return ""
+        return rf"\ \mathrm{{{label.replace('**2', '^2').replace('*', chr(92) + ',')}}}" if latex else f" {label}"
+
+    def scale(self, kind: str) -> float:
+        """What an SI value of this kind is multiplied by."""
+        return _scale(_SI[kind], self.label(kind))
+
+    def working(self, value: float, kind: str) -> str:
+        """A number in the working: as it is if six figures hold it, else four figures or the decimals of an answer."""
+        if not math.isfinite(value):
+            return "not known" if math.isnan(value) else "infinite"
+        shown = value * self.scale(kind)
+        least = _DECIMALS[self.name].get(kind)
+        if abs(value) <= _NOTHING.get(kind, 1e-10):
+            return "0"
+        return self.figures(shown, least)
+
+    def figures(self, shown: float, least: int | None = None) -> str:
+        """A number as it is if six figures hold it, else four figures, or at least so many decimals and two more at most."""
+        exact = f"{shown:.6g}"
+        if abs(float(exact) - shown) <= _EXACT * abs(shown) and len(exact) <= 9 and "e" not in exact:
+            return exact
+        return _plain(shown, _places(shown, least))
+
+    def half_unit(self, value: float, kind: str) -> float:
+        """Half a unit of the last of the figures that the working promises for this number, in SI."""
+        least = _DECIMALS[self.name].get(kind)
+        scale = self.scale(kind)
+        places = least or 0 if value == 0.0 else _places(value * scale, least)
+        return 0.5 * 10.0**-places / scale
+
+    def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
+        """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
+        if not math.isfinite(value):
+            return str(value)
+        scale = self.scale(kind)
+        shown = value * scale
+        unit = self.unit(kind, False)
+        if deviation is not None and math.isfinite(deviation) and deviation > 0.0:
+            spread = deviation * scale
+            places = 1 - _magnitude(spread, 2)
+            return f"{_plain(shown, places)} ± {_plain(spread, places)}{unit}"
+        decimals = _DECIMALS[self.name].get(kind)
+        places = _FIGURES - 1 - _magnitude(shown, _FIGURES) if decimals is None else decimals
+        return _plain(shown, places) + unit
+
+    def conversion(self, factor: float, powers: Powers, wanted: Powers) -> tuple[bool, str]:
+        """Whether to divide, and by what number; it is noted down for the list of conversions."""
+        divides = factor < 1.0
+        one, other = (wanted, powers) if divides else (powers, wanted)
+        size = 1.0 / factor if divides else factor
+        number = f"{size:.6g}" if size < 999999.5 else f"{size:.0f}"
+        self.conversions[f"1 {_named(one)} = {number} {_named(other)}"] = None
+        return divides, number
+
+
+@cache
+def _scale(inside: str, label: str) -> float:
+    return 1.0 if inside == label else float(to_quantity(1.0, inside).m_as(label))
+
+
+def _magnitude(value: float, figures: int) -> int:
+    """The power of ten of the first figure, after rounding to so many figures."""
+    return int(f"{value:.{figures - 1}e}".partition("e")[2])
+
+
+def _places(shown: float, least: int | None) -> int:
+    """Decimals of a number in the working."""
+    figures = _WORKING - 1 - _magnitude(shown, _WORKING)
+    return max(figures if least is None else max(least, min(figures, least + 2)), 0)
+
+
+def _plain(value: float, places: int) -> str:
+    """A number with so many decimals, or rounded to a power of ten, and never -0."""
+    rounded = round(value, places)
+    text = f"{rounded:.{max(places, 0)}f}"
+    return text.lstrip("-") if float(text) == 0.0 else text
+
+
+def _named(powers: Powers) -> str:
+    over: list[str] = []
+    under: list[str] = []
+    for label, power in powers:
+        size = abs(power)
+        loose = ("/" in label and len(powers) > 1) or ("*" in label and power < 0.0)
+        held = f"({label})" if loose or (size != 1.0 and not label.isalpha()) else label
+        (over if power > 0.0 else under).append(held if size == 1.0 else f"{held}**{size:g}")
+    return " / ".join([" * ".join(over) or "1", *under])
+
+
+def powers_of(label: str) -> Powers:
+    """The powers of a unit by itself."""
+    if label.startswith("1/"):
+        return ((label[2:], -1.0),)
+    return ((label, 1.0),) if label else ()
