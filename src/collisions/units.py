@@ -132,7 +132,8 @@ def has_unit(value: Any) -> bool:
     """Whether a unit is written with it; a text that is no plain number is taken to have one."""
     if isinstance(value, str):
         return re.fullmatch(_NUMBER, value.strip()) is None
-    return is_quantity(value) and not value.unitless
+    # Asked of the units alone: a registry that counts in Decimal cannot convert a float to find out.
+    return is_quantity(value) and bool(value._units)
 
 
 def si_unit(value: Any, argument: str = "value") -> str:
@@ -542,10 +543,10 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) ->
     )
 
 
-def shown(value: Any) -> str:
+def shown(value: Any, longest: int = 80) -> str:
     """A short rendering of what was given, safe for any object."""
     try:
         text = f"{value}" if is_quantity(value) else repr(value)
     except Exception:
         text = f"a {type(value).__name__}"
-    return text if len(text) <= 80 else text[:77] + "..."
+    return text if len(text) <= longest else text[: longest - 3] + "..."

@@ -122,8 +122,8 @@ def crush_energy(
     if np.any(oblique):
         warnings.warn(
             OutOfRangeWarning(
-                f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction exceeds 2: outside what the crush "
-                f"model is used for",
+                f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction exceeds 2: outside what the "
+                f"crush model is used for",
                 code="force_angle",
             ),
             stacklevel=callers_level(),

@@ -13,7 +13,7 @@ from ..errors import InputError, NoSolutionError
 from ..fields import Shown, derived, show
 from ..uncertainty.inputs import Normal
 from ..uncertainty.standard_normal import score_of_coverage
-from ..units import to_quantity
+from ..units import shown, to_quantity
 
 BENT = 0.2  # of the half-width of a 95 percent interval
 CONTRADICTION = 0.01  # chance below which evidence is said to contradict itself
@@ -84,7 +84,9 @@ class Estimate(_WithUnit):
         """
         if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
             raise InputError(
-                f"coverage must be between 0 and 1, such as 0.95, got {coverage!r}", code="bad_fraction", argument="coverage"
+                f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
+                code="bad_fraction",
+                argument="coverage",
             )
         if not self.determined:
             return self.low, self.high

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
-from ..units import Door, Input
+from ..units import Door, Input, shown
 from .distribution import Distribution, check_order, read_alike, show
 from .kept import Moments, kept_score, moments
 from .standard_normal import cdf, quantile, score_of_coverage, survival
@@ -286,7 +286,7 @@ def parts_of(truncate: Any) -> dict[str, Any]:
         return {"truncate[0]": None, "truncate[1]": None}
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
         raise ShapeError(
-            f"truncate must be a pair (low, high), where None leaves a side open, got {truncate!r}",
+            f"truncate must be a pair (low, high), where None leaves a side open, got {shown(truncate)}",
             code="bad_shape",
             argument="truncate",
         )
@@ -301,8 +301,8 @@ def read_range(low: Input, high: Input, coverage: Input, truncate: Bounds | None
     door.close()
     if not isinstance(share, float) or not 0.0 < share < 1.0:
         raise InputError(
-            f"coverage must be more than 0 and less than 1, such as 0.95, got {coverage!r}; a range that cannot be left is "
-            f"Uniform(low, high), or Interval(low, high) where nothing is known of likelihood",
+            f"coverage must be more than 0 and less than 1, such as 0.95, got {shown(coverage)}; a range that cannot be left "
+            f"is Uniform(low, high), or Interval(low, high) where nothing is known of likelihood",
             code="bad_fraction",
             argument="coverage",
         )

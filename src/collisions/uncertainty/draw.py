@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import InputError
+from ..units import shown
 from . import standard_normal
 from .inputs import Distribution, Samples
 
@@ -98,14 +99,14 @@ def _checked(inputs: Mapping[str, Distribution], correlation: Any) -> dict[froze
     found: dict[frozenset[str], float] = {}
     for pair, value in correlation.items():
         if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
-            raise _bad(f"its keys are pairs of two names, got {pair!r}")
+            raise _bad(f"its keys are pairs of two names, got {shown(pair)}")
         for name in pair:
             if name not in inputs:
                 raise _bad(f"{name!r} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
             if getattr(inputs[name], "group", None) is not None:
                 raise _bad(f"{name!r} belongs to joint samples, which already say how it goes with the others")
         if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)) or not -1.0 <= value <= 1.0:
-            raise _bad(f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got {value!r}")
+            raise _bad(f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got {shown(value)}")
         key = frozenset(pair)
         if key in found and found[key] != float(value):
             raise _bad(f"{pair[0]} and {pair[1]} are given twice, as {found[key]:g} and {float(value):g}")

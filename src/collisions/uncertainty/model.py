@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import InputError, ShapeError
 from ..quiet import quietly
-from ..units import Door, is_quantity, si_unit
+from ..units import Door, is_quantity, shown, si_unit
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -84,7 +84,7 @@ def _listed(units: Mapping[str, str | None]) -> str:
 
 def _read(name: str, value: Any, unit: str | None, count: int) -> Any:
     if not isinstance(name, str):
-        raise InputError(f"model must name its outputs by texts, got {name!r}", code="bad_model", argument="model")
+        raise InputError(f"model must name its outputs by texts, got {shown(name)}", code="bad_model", argument="model")
     if isinstance(value, np.ndarray) and value.dtype == np.bool_:
         value = value.astype(np.float64)
     door = Door(trusted=(name,))

@@ -110,7 +110,7 @@ def propagate(
     >>> inputs = {"speed": Normal("20 km/h", "1 km/h"), "restitution": Uniform(0.1, 0.3)}
     >>> found = propagate(rear_end, inputs, method="quasi_random", seed=1)["delta_v"]
     >>> round(found.mean, 3), round(found.std, 3), [round(end, 2) for end in found.interval(0.95)]
-    (3.704, 0.256, [3.22, 4.22])
+    (3.704, 0.257, [3.23, 4.21])
     >>> [f"{name} {share:.0%}" for name, share in found.contributions.items()]
     ['speed 52%', 'restitution 48%']
     """

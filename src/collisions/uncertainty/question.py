@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..units import Door
+from ..units import Door, shown
 from .inputs import Distribution, Interval, read_input
 from .points import DESIGNS, REPLICATES
 from .sampling import MOST_SAMPLES
@@ -47,7 +47,7 @@ def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads:
     """Refuses what is no option, or none of this method."""
 
     def refuse(argument: str, allowed: str, given: Any) -> None:
-        raise InputError(f"{argument} must be {allowed}, got {given!r}", code="bad_option", argument=argument)
+        raise InputError(f"{argument} must be {allowed}, got {shown(given)}", code="bad_option", argument=argument)
 
     def whole(value: Any, least: int) -> bool:
         return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and bool(value >= least)
@@ -91,6 +91,6 @@ def read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:
             raise InputError(
-                f"tolerance must be a number > 0, got {value!r} for {name}", code="bad_tolerance", argument="tolerance"
+                f"tolerance must be a number > 0, got {shown(value)} for {name}", code="bad_tolerance", argument="tolerance"
             )
     return found

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..fields import table
+from ..units import shown
 from .output import Output
 from .sampled import Sampled
 
@@ -83,7 +84,7 @@ class Propagation:
         """Figures of all outputs, and what they are given, as nested plain values that strict JSON can hold."""
         return {
             "method": self.method,
-            "inputs": {name: repr(value) for name, value in self.inputs.items()},
+            "inputs": {name: shown(value, 1000) for name, value in self.inputs.items()},
             "samples": self.samples,
             "failed": self.failed,
             "seed": self.seed,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..fields import OWN, derived, returns
+from ..units import shown
 from . import angles
 from .output import Histogram, Output, Shares, average, deviation, probability
 from .points import REPLICATES
@@ -65,7 +66,7 @@ class Sampled(Output):
         """Edges, shares of the cases between them and their standard errors: for a chart."""
         if isinstance(bins, bool) or not isinstance(bins, (int, np.integer)) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
-                f"bins must be a whole number from 1 to {_MOST_BINS}, got {bins!r}", code="bad_option", argument="bins"
+                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
             )
         try:
             with np.errstate(all="ignore"):

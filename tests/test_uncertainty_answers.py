@@ -1,0 +1,714 @@
+"""What a propagation answers with: cases that fail, interrupts, directions, units, tables, pickles; and every refusal."""
+
+import itertools
+import json
+import math
+import pickle
+import signal
+import threading
+
+import numpy as np
+import pint
+import pytest
+
+import collisions as col
+from collisions.uncertainty import Interval, Normal, Samples, Uniform, propagate, sampling
+from uncertain_scenes import SCENES
+
+METHODS = ("quasi_random", "latin_hypercube", "monte_carlo")
+every_method = pytest.mark.parametrize("method", METHODS)
+ureg = pint.get_application_registry()
+SPEED = {"speed": Normal(11.0, 1.0)}
+
+
+def catching_up(speed):
+    """A car behind one that drives at 10 m/s: no impact where it is slower."""
+    a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0, vx=10.0)
+    impact = col.linear_central(a, b, 0.2, on_failure="nan")
+    return {"delta_v": impact.b.delta_v, "hit": impact.ok, "speed": speed}
+
+
+# Cases without an answer
+
+
+@every_method
+def test_failed_cases_are_counted(method):
+    """Their share is the normal probability below -1, of 8192 cases with a binomial deviation of at most 0.004; the figures are
+    those of a normal cut off there, mean closing speed 1 + phi(1)/Phi(1); and one warning says so at the caller."""
+    with pytest.warns(
+        col.OutOfRangeWarning, match="had no answer .* left out: the figures hold given that there is one"
+    ) as caught:
+        found = propagate(catching_up, SPEED, method=method, seed=2)
+    assert [record.message.code for record in caught] == ["failed_cases"]
+    assert caught[0].filename == __file__
+    below = 0.5 * math.erfc(math.sqrt(0.5))
+    assert found.failed == caught[0].message.fields["failed"]
+    assert abs(found.failed / found.samples - below) < 5.0 * 0.004
+    delta_v = found["delta_v"]
+    assert delta_v.failed == found.failed == np.count_nonzero(np.isnan(delta_v.values))
+    closing = 1.0 + math.exp(-0.5) / math.sqrt(2.0 * math.pi) / (1.0 - below)
+    assert abs(delta_v.mean - closing * 1.2 * 1500.0 / 2700.0) < 6.5 * delta_v.mean_standard_error
+    # A truth value has an answer in every case, and its mean is the probability.
+    assert found["hit"].failed == 0
+    assert abs(found["hit"].mean - (1.0 - below)) < 6.5 * found["hit"].mean_standard_error
+    assert found["speed"].mean == pytest.approx(11.0, abs=0.05)
+    assert f"{found.failed} without an answer" in repr(found)
+    assert f"{found.failed} without an answer" in found._repr_html_()
+    assert sum(delta_v.histogram().shares) == pytest.approx(1.0, abs=1e-12)
+    assert delta_v.contributions["speed"] == pytest.approx(1.0, abs=0.1)
+
+
+def test_truncation_leaves_no_case_without_an_answer():
+    """What the warning advises."""
+    found = propagate(catching_up, {"speed": Normal(11.0, 1.0, truncate=(10.0 + 1e-9, None))}, method="quasi_random", seed=1)
+    assert found.failed == 0
+
+
+@every_method
+def test_no_case_has_an_answer(method):
+    """Refused with the output's name; with a tolerance too, and then at once."""
+    inputs = {"speed": Normal(5.0, 0.1)}
+    for options in ({}, {"tolerance": {"delta_v": 1e-3}}):
+        with pytest.raises(col.NoSolutionError, match="'delta_v' in any of 8192 cases") as caught:
+            propagate(catching_up, inputs, method=method, seed=1, **options)
+        assert caught.value.code == "all_failed"
+        assert caught.value.fields["output"] == "delta_v"
+
+
+def test_a_single_case_with_an_answer():
+    """It has a mean and nothing else: no deviation and no standard error is made up."""
+    with pytest.warns(col.OutOfRangeWarning, match="63 of 64"):
+        found = propagate(
+            lambda x: {"y": np.where(x == x.max(), x, np.nan)},
+            {"x": Normal(0.0, 1.0)},
+            method="monte_carlo",
+            samples=64,
+            seed=1,
+        )
+    y = found["y"]
+    assert y.mean == y.quantile(0.5) == np.nanmax(y.values)
+    for figure in (y.std, y.mean_standard_error, y.std_standard_error, y.quantile_standard_error(0.5)):
+        assert math.isnan(figure)
+    assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["outputs"]["y"]["std"] == "nan"
+
+
+def test_infinite_is_no_answer():
+    """A quotient that overflows is left out and counted like a refusal."""
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        found = propagate(
+            lambda x: {"y": np.where(x > 0.0, x, math.inf)},
+            {"x": Normal(0.0, 1.0)},
+            method="latin_hypercube",
+            samples=64,
+            seed=1,
+        )
+    assert found.failed == 32
+
+
+# Progress and interrupts
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_progress(monkeypatch, threads):
+    """Called after every block, in order, with the cases done and those in all."""
+    monkeypatch.setattr(sampling, "BLOCK", 1000)
+    seen = []
+    model, inputs, _ = SCENES["rear_end"]
+    options = {"method": "monte_carlo", "samples": 3500, "seed": 1}
+    propagate(model, inputs, threads=threads, progress=lambda *of: seen.append(of), **options)
+    assert seen == [(1000, 3500), (2000, 3500), (3000, 3500), (3500, 3500)]
+
+
+def test_progress_towards_a_tolerance():
+    """As far as is known: the run is doubled until it suffices."""
+    seen = []
+    found = propagate(
+        lambda x: {"y": x},
+        {"x": Normal(0.0, 1.0)},
+        method="monte_carlo",
+        seed=1,
+        tolerance=0.02,
+        progress=lambda *of: seen.append(of),
+    )
+    assert seen[0] == (8192, 8192)
+    assert seen[-1] == (found.samples, found.samples)
+    assert [done for done, _ in seen] == sorted(done for done, _ in seen)
+
+
+@every_method
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("where", ["progress", "model"])
+def test_an_interrupt_returns_what_is_done(monkeypatch, method, threads, where):
+    """With a warning; the cases are the beginning of the whole run to the bit."""
+    monkeypatch.setattr(sampling, "BLOCK", 500)
+    calls, lock = itertools.count(1), threading.Lock()
+
+    def stop(done, total):
+        if where == "progress" and done == 1500:
+            raise KeyboardInterrupt
+
+    def model(**inputs):
+        with lock:
+            call = next(calls)
+        if where == "model" and call == 4:
+            raise KeyboardInterrupt
+        return SCENES["rear_end"][0](**inputs)
+
+    inputs = SCENES["rear_end"][1]
+    with pytest.warns(col.CollisionsWarning, match="interrupted after") as caught:
+        found = propagate(model, inputs, method=method, samples=5000, seed=3, threads=threads, progress=stop)
+    (warning,) = [record.message for record in caught]
+    assert (warning.code, warning.fields["done"]) == ("interrupted", found.samples)
+    assert found.interrupted
+    # Two threads may begin their blocks in another order than they were given.
+    assert found.samples in ((1500,) if where == "progress" or threads == 1 else (500, 1000, 1500, 2000))
+    whole = propagate(SCENES["rear_end"][0], inputs, method=method, samples=5000, seed=3)
+    assert not whole.interrupted
+    for name in found:
+        assert found[name].values.tobytes() == whole[name].values[: found.samples].tobytes()
+    assert found["delta_v"].mean_standard_error > 0.0
+    assert next(iter(found["delta_v"].contributions)) == "restitution"
+
+
+def test_an_interrupt_while_a_tolerance_is_sought(monkeypatch):
+    """What was done before the doubling counts too."""
+    monkeypatch.setattr(sampling, "BLOCK", 4096)
+
+    def stop(done, total):
+        if done == 12288:
+            raise KeyboardInterrupt
+
+    with pytest.warns(col.CollisionsWarning, match="interrupted after 12288"):
+        found = propagate(
+            lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1, tolerance=1e-6, progress=stop
+        )
+    whole = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1, samples=16384)
+    assert found["y"].values.tobytes() == whole["y"].values[:12288].tobytes()
+
+
+def test_an_interrupt_before_anything_is_done():
+    """Nothing to return: it is passed on."""
+
+    def model(x):
+        raise KeyboardInterrupt
+
+    for threads in (1, 2):
+        with pytest.raises(KeyboardInterrupt):
+            propagate(model, {"x": Normal(0.0, 1.0)}, method="monte_carlo", threads=threads)
+
+
+@pytest.mark.skipif(threading.current_thread() is not threading.main_thread(), reason="signals reach the main thread only")
+def test_an_interrupt_from_the_keyboard(monkeypatch):
+    """The signal itself, in the middle of a block."""
+    monkeypatch.setattr(sampling, "BLOCK", 500)
+    calls = []
+
+    def model(x):
+        calls.append(None)
+        if len(calls) == 3:
+            signal.raise_signal(signal.SIGINT)
+        return {"y": x}
+
+    with pytest.warns(col.CollisionsWarning, match="interrupted after 1000"):
+        found = propagate(model, {"x": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
+    assert found.samples == 1000
+
+
+def test_a_model_that_fails_on_a_thread():
+    """Its own error, not a hang nor a partial answer."""
+
+    def model(x):
+        if x[0] != first:
+            raise ZeroDivisionError("mine")
+        return {"y": x}
+
+    first = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", seed=1)["y"].values[0]
+    for threads in (1, 3):
+        with pytest.raises(ZeroDivisionError, match="mine"):
+            propagate(model, {"x": Normal(0.0, 1.0)}, method="monte_carlo", samples=50000, seed=1, threads=threads)
+
+
+# Tolerances
+
+
+@pytest.mark.parametrize("given", ["0.02 mph", ureg.Quantity(3.0, "cm/s"), {"v": "0.1 km/h"}, {"v": 0.02}])
+def test_tolerances_with_units(given):
+    """A text, a Quantity, one for each output: read in the unit of the output."""
+    found = propagate(
+        lambda v: {"v": v * ureg("m/s")}, {"v": Normal("20 km/h", "2 km/h")}, method="monte_carlo", seed=1, tolerance=given
+    )
+    wanted = given["v"] if isinstance(given, dict) else given
+    limit = wanted if isinstance(wanted, float) else ureg.Quantity(wanted).m_as("m/s")
+    v = found["v"]
+    errors = [v.mean_standard_error, v.std_standard_error, *v.quantile_standard_error([0.025, 0.975])]
+    assert max(errors) <= limit
+    assert found.samples >= 8192
+
+
+@pytest.mark.parametrize(
+    ("given", "code", "words"),
+    [
+        (0.0, "bad_tolerance", "must be a number > 0, got 0.0 for delta_v"),
+        (-1.0, "bad_tolerance", "> 0"),
+        ({"speeds": 0.1}, "bad_tolerance", "'speeds', which is no output; the model returned delta_v, energy_loss"),
+        ({}, "bad_tolerance", "names no output"),
+        ([0.1], "bad_tolerance", "must be a number > 0"),
+        ("0.1 km/h", "bad_units", "tolerance"),
+        (True, "not_a_number", "tolerance"),
+        (math.nan, "not_finite", "tolerance"),
+        ("fast", "bad_units", "tolerance"),
+    ],
+)
+def test_tolerances_that_are_none(given, code, words):
+    """Refused with what was given."""
+    model, inputs, _ = SCENES["rear_end"]
+    with pytest.raises(col.InputError, match=words) as caught:
+        propagate(model, inputs, method="quasi_random", seed=1, tolerance=given)
+    assert caught.value.code == code
+
+
+# Directions
+
+
+def struck(course):
+    a = col.Vehicle(mass=1500.0, vx=15.0, heading=0.0)
+    b = col.Vehicle(mass=1200.0, heading=course)
+    return col.oblique_central(a, b, 0.1, normal=0.0, friction=0.0, on_failure="nan").b
+
+
+@every_method
+def test_directions_on_both_sides_of_pi(method):
+    """The force on a car struck from behind: with its unit, mean pi and the deviation of its heading, and every share with the
+    heading; without, a warning that names it."""
+    inputs = {"course": Normal("0 deg", "5 deg"), "idle": Normal(0.0, 1.0)}
+    found = propagate(lambda course, idle: {"pdof": struck(course).q.pdof}, inputs, method=method, seed=1)["pdof"]
+    assert abs(abs(found.mean) - math.pi) < 6.5 * found.mean_standard_error + 1e-12
+    assert abs(found.std - math.radians(5.0)) < 6.5 * found.std_standard_error
+    assert found.contributions["course"] == pytest.approx(1.0, abs=0.06)
+    assert found.contributions["idle"] == pytest.approx(0.0, abs=1e-12)
+    with pytest.warns(col.OutOfRangeWarning, match="pdof has values near pi and near -pi: if it is an angle") as caught:
+        propagate(lambda course, idle: {"pdof": struck(course).pdof}, inputs, method=method, seed=1)
+    assert [record.message.code for record in caught] == ["may_wrap"]
+    assert caught[0].message.fields["outputs"] == ("pdof",)
+
+
+@pytest.mark.parametrize("middle", [-3.1, -2.0, 0.0, 1.0, 3.0, math.pi])
+def test_directions_are_counted_about_their_middle(middle):
+    """Values that lie within the turn stay as they are to the bit; those beyond pi are counted on."""
+    found = propagate(
+        lambda x: {"y": np.remainder(x + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian, "x": x},
+        {"x": Normal(middle, 0.2)},
+        method="quasi_random",
+        seed=1,
+    )
+    away = (found["y"].mean - found["x"].mean) / (2.0 * math.pi)
+    assert away == pytest.approx(round(away), abs=1e-12)
+    assert -math.pi - 1e-3 <= found["y"].mean <= math.pi + 1e-3
+    assert found["y"].std == pytest.approx(found["x"].std, rel=1e-12)
+
+
+def test_directions_to_all_sides():
+    """There is no place to cut, and that is said, unit or not."""
+    with pytest.warns(col.OutOfRangeWarning, match="points to all sides has no mean"):
+        propagate(
+            lambda x: {"y": np.remainder(x, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian},
+            {"x": Uniform(0.0, 100.0)},
+            method="quasi_random",
+            seed=1,
+        )
+
+
+@pytest.mark.parametrize("stated", [Normal(7.0, 3.0), Uniform(0.0, 6.0), Uniform(-1.0, 2.5), Uniform(-20.0, 20.0)])
+def test_rotations_keep_their_turns(stated):
+    """What counts turns, or has its gap where the count begins, is left as it is."""
+    found = propagate(lambda x: {"turned": x * ureg.radian, "x": x}, {"x": stated}, method="quasi_random", seed=1)
+    assert found["turned"].values.tobytes() == found["x"].values.tobytes()
+
+
+# Units, tables, pickles
+
+
+@pytest.fixture(scope="module")
+def chained():
+    """A chain whose outputs have units."""
+
+    def model(**inputs):
+        answer = SCENES["chain"][0](**inputs)
+        return {"speed_a": answer["speed_a"] * ureg("m/s"), "ratio": answer["speed_a"] / answer["speed_b"]}
+
+    return propagate(model, SCENES["chain"][1], method="quasi_random", seed=1, samples=2048)
+
+
+def test_quantities(chained):
+    """The same figures with their unit; none for plain numbers."""
+    found = chained["speed_a"]
+    assert found.unit == "m/s"
+    assert found.q.mean.m_as("km/h") == pytest.approx(3.6 * found.mean, rel=1e-15)
+    for name in ("std", "mean_standard_error", "std_standard_error"):
+        assert getattr(found.q, name) == getattr(found, name) * ureg("m/s")
+    assert found.q.quantile([0.1, 0.9]).m_as("m/s").tolist() == found.quantile([0.1, 0.9]).tolist()
+    assert tuple(end.m_as("m/s") for end in found.q.interval(0.9)) == found.interval(0.9)
+    assert found.q.quantile_standard_error(0.5).units == ureg("m/s").units
+    with pytest.raises(col.InputError, match="'ratio' has no unit, because the model returned plain numbers") as caught:
+        _ = chained["ratio"].q
+    assert caught.value.code == "no_unit"
+
+
+def test_other_units_are_turned_into_si():
+    """Whatever unit and registry the model answers in."""
+    other = pint.UnitRegistry()
+    found = propagate(lambda v: {"v": other.Quantity(v, "km/h")}, {"v": Normal(36.0, 3.6)}, method="first_order")["v"]
+    assert (found.unit, found.mean) == ("m/s", pytest.approx(10.0))
+
+
+def test_to_dict_is_strict_json(chained):
+    """Plain values, and what was stated."""
+    record = json.loads(json.dumps(chained.to_dict(), allow_nan=False))
+    assert record["method"] == "quasi_random"
+    assert (record["samples"], record["failed"], record["seed"], record["interrupted"]) == (2048, 0, 1, False)
+    assert record["inputs"]["drag"] == repr(SCENES["chain"][1]["drag"])
+    speed = record["outputs"]["speed_a"]
+    assert speed["unit"] == "m/s"
+    assert speed["mean"] == chained["speed_a"].mean
+    assert speed["interval_95"] == list(chained["speed_a"].interval())
+    assert speed["contributions"] == chained["speed_a"].contributions
+    assert record["outputs"]["ratio"]["unit"] is None
+    local = propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="first_order")
+    assert json.loads(json.dumps(local.to_dict(), allow_nan=False))["outputs"]["y"]["mean_standard_error"] == "nan"
+
+
+@pytest.mark.filterwarnings("ignore:method=:collisions.errors.OutOfRangeWarning")
+@pytest.mark.parametrize("method", ["quasi_random", "second_order", "interval"])
+def test_a_pickle_without_its_model(method):
+    """A lambda cannot be pickled, what it was asked for can: figures, contributions, and values locked as before."""
+    inputs = {"x": Uniform(1.0, 2.0), "y": Uniform(0.0, 1.0)}
+    options = {"seed": 1, "samples": 512} if method == "quasi_random" else {}
+    found = propagate(lambda x, y: {"z": x * y + x}, inputs, method=method, **options)
+    again = pickle.loads(pickle.dumps(found))
+    assert again.to_dict() == found.to_dict()
+    assert repr(again) == repr(found)
+    assert again.inputs == found.inputs
+    if method != "interval":
+        assert again["z"].total_contributions == found["z"].total_contributions
+        assert again["z"].contribution_standard_errors.keys() == {"x", "y"}
+    if method == "quasi_random":
+        assert again["z"].values.tobytes() == found["z"].values.tobytes()
+
+
+def test_what_is_shown(chained):
+    """Every range says what it is given."""
+    for text in (repr(chained), chained._repr_html_(), repr(chained["speed_a"])):
+        assert "given the stated inputs" in text.lower()
+    assert "95 percent from" in repr(chained["speed_a"])
+    assert "m/s" in repr(chained["speed_a"])
+    assert "<th style" in chained._repr_html_()
+    escaped = propagate(lambda x: {"<b>": x}, {"x": Normal(0.0, 1.0)}, method="first_order")._repr_html_()
+    assert "&lt;b&gt;" in escaped
+    assert "<b>" not in escaped
+
+
+def test_the_outputs_by_name(chained):
+    """In the order in which the model returned them; another name is refused with the ones there are."""
+    assert list(chained) == ["speed_a", "ratio"]
+    assert len(chained) == 2
+    assert "ratio" in chained
+    with pytest.raises(col.InputError, match="no output 'speed_b'; the model returned speed_a, ratio") as caught:
+        chained["speed_b"]
+    assert caught.value.code == "no_output"
+
+
+def test_correlation_of_outputs():
+    """Of x + y and x - y with deviations 2 and 1: (4 - 1) / (4 + 1); over the cases that answer both."""
+    inputs = {"x": Normal(0.0, 2.0), "y": Normal(0.0, 1.0)}
+    found = propagate(lambda x, y: {"p": x + y, "m": x - y}, inputs, method="quasi_random", seed=1)
+    assert found.correlation["p", "m"] == pytest.approx(0.6, abs=0.01)
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        half = propagate(
+            lambda x, y: {"p": np.where(x > 0.0, x, np.nan), "m": -x}, inputs, method="quasi_random", seed=1
+        )  # fmt: skip
+    assert half.correlation["p", "m"] == pytest.approx(-1.0, abs=1e-12)
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        apart = propagate(
+            lambda x, y: {"p": np.where(x > 0.0, x, np.nan), "m": np.where(x > 0.0, np.nan, x)},
+            inputs,
+            method="monte_carlo",
+            seed=1,
+        )
+    assert math.isnan(apart.correlation["p", "m"])
+
+
+def test_histograms(chained):
+    """Shares that make up the whole, with binomial errors at most; their edges hold every case."""
+    found = chained["speed_a"]
+    edges, shares, errors = found.histogram(25)
+    assert len(edges) == 26
+    assert len(shares) == len(errors) == 25
+    assert sum(shares) == pytest.approx(1.0, abs=1e-12)
+    assert (edges[0], edges[-1]) == (found.values.min(), found.values.max())
+    assert np.array_equal(shares * 2048, np.histogram(found.values, edges)[0])
+    assert 0.0 < np.mean(errors) < 1.2 * np.mean(np.sqrt(shares * (1.0 - shares) / 2048))
+    for bins in (0, -1, 1.5, "auto", True, None, [1.0, 2.0], 10**9):
+        with pytest.raises(col.InputError, match="bins must be a whole number") as caught:
+            found.histogram(bins)
+        assert caught.value.code == "bad_option"
+    flat = propagate(lambda x: {"y": 1e20 + 0.0 * x}, {"x": Normal(0.0, 1.0)}, method="monte_carlo", samples=64, seed=1)["y"]
+    with pytest.raises(col.InputError, match="do not differ by more than rounding"):
+        flat.histogram()
+    with pytest.raises(col.InputError, match="nothing was sampled; take method='quasi_random'"):
+        propagate(lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, method="first_order")["y"].histogram()
+
+
+@pytest.mark.parametrize("p", [-0.1, 1.1, math.nan, "0.5", True, None, [0.5, 2.0], 0.5j, ureg.Quantity(0.5), object()])
+def test_what_is_no_probability(chained, p):
+    """Refused wherever one is asked for."""
+    for call in (chained["speed_a"].quantile, chained["speed_a"].quantile_standard_error, chained["speed_a"].interval):
+        with pytest.raises(col.InputError, match="from 0 to 1") as caught:
+            call(p)
+        assert caught.value.code == "bad_fraction"
+    with pytest.raises(col.InputError, match="coverage must be one number"):
+        chained["speed_a"].interval([0.5, 0.9])
+
+
+def test_quantiles(chained):
+    """numpy's, of the values; arrays of any shape, floats for floats."""
+    found = chained["speed_a"]
+    assert type(found.quantile(0.3)) is float
+    assert found.quantile(0.3) == np.quantile(found.values, 0.3)
+    assert found.quantile(np.array([[0.1, 0.2]])).shape == (1, 2)
+    assert found.quantile_standard_error(np.array([[0.1, 0.2]])).shape == (1, 2)
+    assert (found.quantile(0), found.quantile(1)) == (found.values.min(), found.values.max())
+    with pytest.raises(ValueError, match="read-only"):
+        found.values[0] = 0.0
+
+
+# Refusals
+
+
+def refused(model, inputs, **options):
+    with pytest.raises(col.InputError) as caught:
+        propagate(model, inputs, **{"method": "quasi_random", **options})
+    assert str(caught.value)
+    return caught.value
+
+
+X = {"x": Normal(0.0, 1.0)}
+
+
+@pytest.mark.parametrize("model", [None, 3.0, "model", {"y": 1.0}])
+def test_a_model_that_is_no_function(model):
+    found = refused(model, X)
+    assert found.code == "bad_model"
+    assert f"got {type(model).__name__}" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("answer", "code", "words"),
+    [
+        (lambda x: x, "bad_model", "must return a dict of named outputs"),
+        (lambda x: None, "bad_model", "got NoneType"),
+        (lambda x: {}, "bad_model", "must return a dict"),
+        (lambda x: {3: x}, "bad_model", "must name its outputs by texts, got 3"),
+        (lambda x: {"y": 1.0}, "bad_shape", r"output 'y' of the model has shape \(\)"),
+        (lambda x: {"y": x[:-1]}, "bad_shape", r"an array of shape \(8192,\)"),
+        (lambda x: {"y": np.stack([x, x])}, "bad_shape", r"\(2, 8192\)"),
+        (lambda x: {"y": "fast"}, "bad_units", "fast"),
+        (lambda x: {"y": np.array(["a"] * len(x))}, "not_a_number", "y"),
+        (lambda x: {"y": x * 1j}, "not_a_number", "y"),
+        (lambda x: {"y": None}, "not_a_number", "y"),
+        (lambda x: {"y": x.astype(object)}, "not_a_number", "y"),
+        (lambda x: {"y": np.mean(x) * ureg("m/s")}, "bad_shape", "case by itself"),
+    ],
+)
+@pytest.mark.parametrize("method", ["quasi_random", "first_order"])
+def test_answers_that_are_none(answer, code, words, method):
+    """Refused with the name of the output and what an answer is."""
+    with pytest.raises(col.InputError, match=words.replace("8192", "8192" if method == "quasi_random" else "5")) as caught:
+        propagate(answer, X, method=method)
+    assert caught.value.code == code
+
+
+@pytest.mark.parametrize("second", [{"z": 1.0}, {"y": 1.0, "z": 1.0}, {"y": 1.0 * ureg("m")}])
+def test_another_answer_on_the_second_call(second, monkeypatch):
+    """Refused: other names, more of them, another unit."""
+    monkeypatch.setattr(sampling, "BLOCK", 100)
+    calls = []
+
+    def model(x):
+        calls.append(None)
+        return {"y": x} if len(calls) == 1 else {name: x * value for name, value in second.items()}
+
+    found = refused(model, X)
+    assert found.code == "bad_model"
+    assert "now and y before; it must always return the same outputs" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("model", "error"),
+    [
+        (lambda x: {"y": math.sin(x)}, TypeError),
+        (lambda x: {"y": x if x > 0.0 else -x}, ValueError),
+        (lambda x: {"y": x.speed}, AttributeError),
+    ],
+)
+def test_models_that_cannot_take_arrays(model, error):
+    """Their own error, with a note of what a model is called with."""
+    with pytest.raises(error) as caught:
+        propagate(model, X, method="quasi_random")
+    (note,) = caught.value.__notes__
+    for words in ("arrays of 8192 cases for x", "numpy in place of math", "numpy.where in place of if", "on_failure='nan'"):
+        assert words in note
+
+
+def test_a_refusal_of_a_solver_comes_with_the_note_too():
+    """As it is raised where on_failure was not thought of."""
+    with pytest.raises(col.InputError) as caught:
+        propagate(
+            lambda x: {"y": col.linear_central(col.Vehicle(mass=1.0, vx=x), col.Vehicle(mass=1.0), "much").b.delta_v},
+            X,
+            method="monte_carlo",
+        )
+    assert "called with arrays" in caught.value.__notes__[0]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ({"z": Normal(0.0, 1.0)}, "inputs are z, but the model takes .x.: missing a required argument: 'x'"),
+        ({"x": Normal(0.0, 1.0), "z": 1.0}, "got an unexpected keyword argument 'z'"),
+        ({}, "inputs are none"),
+        ({1: Normal(0.0, 1.0)}, "inputs must be a dict"),
+        ([Normal(0.0, 1.0)], "got list"),
+        (None, "got NoneType"),
+        (Normal(0.0, 1.0), "got Normal"),
+    ],
+)
+def test_inputs_that_do_not_fit(inputs, words):
+    """Names that the model does not know are refused before it is called; so is what is no dict."""
+    with pytest.raises(col.InputError, match=words) as caught:
+        propagate(lambda x: {"y": x}, inputs, method="quasi_random")
+    assert caught.value.code == "bad_inputs"
+
+
+def test_models_without_a_signature():
+    """Some functions written in C tell no names, and are called all the same."""
+
+    class Silent:
+        __signature__ = "none"
+
+        def __call__(self, x):
+            return {"y": x}
+
+    assert propagate(Silent(), X, method="first_order")["y"].std == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "code"),
+    [
+        (math.nan, "not_finite"),
+        (True, "not_a_number"),
+        ("soft", "bad_units"),
+        (np.array([1.0, 2.0]), "bad_shape"),
+        ("12 foo", "bad_units"),
+    ],
+)
+def test_fixed_inputs_that_are_none(value, code):
+    """Refused with the name of the input."""
+    found = refused(lambda x, k: {"y": x}, X | {"k": value})
+    assert found.code == code
+    assert "k" in str(found)
+
+
+def test_fixed_inputs_reach_the_model_in_si():
+    """A text with its unit as a number; what is no number as it is."""
+    seen = {}
+
+    def model(x, **rest):
+        seen.update(rest)
+        return {"y": x}
+
+    law = object()
+    found = propagate(model, X | {"v": "36 km/h", "k": 2, "law": law}, method="first_order")
+    assert seen == {"v": 10.0, "k": 2.0, "law": law}
+    assert found.inputs["v"] == 10.0
+
+
+def test_a_model_cannot_change_its_inputs():
+    """They are the same arrays for everything that follows."""
+
+    def model(x):
+        x += 1.0
+        return {"y": x}
+
+    with pytest.raises(ValueError, match="read-only"):
+        propagate(model, X, method="monte_carlo")
+    values = propagate(lambda x: {"y": x}, X, method="monte_carlo", seed=1, samples=64)["y"].values
+    assert values.base is None or not values.flags.writeable
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"method": "fosm"}, "method must be one of first_order, second_order, .* interval, got 'fosm'"),
+        ({"method": None}, "method must be .* got None"),
+        ({"method": ["quasi_random"]}, "method must be one of"),
+        ({"samples": 63}, "samples must be a whole number from 64 to 16777216, got 63"),
+        ({"samples": 2**24 + 1}, "samples must be"),
+        ({"samples": 100.0}, "samples must be"),
+        ({"samples": True}, "samples must be"),
+        ({"samples": "many"}, "samples must be"),
+        ({"seed": -1}, "seed must be a whole number from 0, or None, got -1"),
+        ({"seed": 1.0}, "seed must be"),
+        ({"seed": "1"}, "seed must be"),
+        ({"seed": True}, "seed must be"),
+        ({"threads": 0}, "threads must be a whole number from 1, got 0"),
+        ({"threads": None}, "threads must be"),
+        ({"threads": 1.5}, "threads must be"),
+        ({"progress": 1}, "progress must be a function of .done, total., or True for a bar, got 1"),
+        ({"progress": "yes"}, "progress must be"),
+        ({"samples": 100, "tolerance": 0.1}, "give samples= or tolerance=, not both"),
+        ({"method": "first_order", "samples": 100}, "samples is for methods that draw; method='first_order' does not"),
+        ({"method": "second_order", "tolerance": 0.1}, "tolerance is for methods that draw"),
+        ({"method": "interval", "samples": 100}, "samples is for methods that draw"),
+    ],
+)
+def test_options_that_are_none(options, words):
+    """Each is named with what was given and what is allowed."""
+    with pytest.raises(col.InputError, match=words) as caught:
+        propagate(lambda x: {"y": x}, X, **{"method": "quasi_random", **options})
+    assert caught.value.code == "bad_option"
+    assert caught.value.fields["argument"] in words
+
+
+@pytest.mark.parametrize(
+    ("correlation", "words"),
+    [
+        ([("a", "b", 0.5)], "must be a dict such as .*, got list"),
+        ({("a",): 0.5}, "keys are pairs of two names"),
+        ({"ab": 0.5}, "keys are pairs of two names, got 'ab'"),
+        ({("a", "a"): 0.5}, "keys are pairs"),
+        ({("a", "z"): 0.5}, "'z' is not an input with a distribution; these are a, b, j, k"),
+        ({("a", "fixed"): 0.5}, "'fixed' is not an input with a distribution"),
+        ({("a", "range"): 0.5}, "'range' is not an input with a distribution"),
+        ({("a", "b"): 1.5}, "correlation of a and b must be a number from -1 to 1, got 1.5"),
+        ({("a", "b"): math.nan}, "from -1 to 1"),
+        ({("a", "b"): True}, "from -1 to 1"),
+        ({("a", "b"): "0.5"}, "from -1 to 1"),
+        ({("a", "b"): 0.5, ("b", "a"): 0.6}, "b and a are given twice, as 0.5 and 0.6"),
+        ({("a", "j"): 0.5}, "'j' belongs to joint samples"),
+    ],
+)
+def test_correlations_that_are_none(correlation, words):
+    inputs = {"a": Normal(0.0, 1.0), "b": Normal(0.0, 1.0), "fixed": 1.0, "range": Interval(0.0, 1.0)}
+    inputs |= Samples.joint(j=[1.0, 2.0], k=[2.0, 1.0])
+    with pytest.raises(col.InputError, match=words) as caught:
+        propagate(lambda **x: {"y": x["a"]}, inputs, method="quasi_random", correlation=correlation)
+    assert caught.value.code == "bad_correlation"
+
+
+def test_a_correlation_given_twice_alike():
+    """Is one."""
+    inputs = {"a": Normal(0.0, 1.0), "b": Normal(0.0, 1.0)}
+    pairs = {("a", "b"): 0.5, ("b", "a"): np.float32(0.5)}
+    assert propagate(lambda a, b: {"y": a + b}, inputs, method="first_order", correlation=pairs)["y"].std == pytest.approx(
+        math.sqrt(3.0)
+    )
