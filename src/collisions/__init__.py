@@ -31,7 +31,9 @@ from .oblique import oblique_central
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from . import reconstruct, travel, uncertainty
+    from . import plot, reconstruct, reference, travel, uncertainty
+    from .derivation import explain
+    from .diagnostics import diagnose
     from .idealisation import left_out
     from .provenance import ModelChoice
     from .scene import required_model, solve
@@ -56,11 +58,15 @@ __all__ = [
     "SuspectUnitsWarning",
     "UnitsError",
     "Vehicle",
+    "diagnose",
     "eccentric",
+    "explain",
     "left_out",
     "linear_central",
     "oblique_central",
+    "plot",
     "reconstruct",
+    "reference",
     "required_model",
     "solve",
     "travel",
@@ -69,12 +75,20 @@ __all__ = [
 
 
 # Where to find what not every caller needs, by name.
-_LATER = {"ModelChoice": "provenance", "left_out": "idealisation", "required_model": "scene", "solve": "scene"}
+_LATER = {
+    "ModelChoice": "provenance",
+    "diagnose": "diagnostics",
+    "explain": "derivation",
+    "left_out": "idealisation",
+    "required_model": "scene",
+    "solve": "scene",
+}
+_MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:
     """What not every caller needs is imported when it is first asked for."""
-    if name in ("reconstruct", "travel", "uncertainty"):
+    if name in _MODULES:
         return import_module(f".{name}", __name__)
     if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -14,7 +14,7 @@ from ..units import Door, Input
 from . import inputs, physics, robustness
 from .case import Case
 from .finding import LIMITS, Finding, read_limits
-from .outline import read_outline
+from ..outlines import read_outline
 
 _CHECKS: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     physics.energy_gain,

@@ -9,7 +9,7 @@ from ..reference import restitution_range
 from ..side import Side
 from .case import Case, degrees, kmh, named
 from .finding import Finding
-from .outline import distance_outside, overlap, placed
+from ..outlines import distance_outside, overlap, placed
 
 # A shorter lever turns a car by nothing that could be seen.
 _NO_LEVER = 0.01

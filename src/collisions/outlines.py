@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..directions import from_radians
-from ..errors import InputError, ShapeError
-from ..units import POSITIVE, Door, is_quantity, shown
-from ..vehicle import Vehicle, missing
+from .directions import from_radians
+from .errors import InputError, ShapeError
+from .units import POSITIVE, Door, is_quantity, shown
+from .vehicle import Vehicle, missing
 
 # Sines of corners closer to straight than this are no dents.
 _STRAIGHT = 1e-9

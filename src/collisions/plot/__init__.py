@@ -1,0 +1,16 @@
+"""Pictures of an impact and of an uncertainty result, legible in black and white.
+
+Needs matplotlib (``pip install 'collisions[plot]'``), which is imported when the first picture is drawn. Every function draws
+on the ``axes`` given, or on a new figure, and returns the Axes. ``units`` is "si", "metric" (km/h, degrees, kN s, kJ) or "us"
+(mph, ft, degrees, lbf s, ft lbf). What was drawn can be found again by its ``get_gid()``, which is also its id in an SVG file.
+"""
+
+from .contributions import contributions
+from .distribution import distribution
+from .energy import energy
+from .force_time import force_time
+from .impulse_plane import impulse_plane
+from .momentum import momentum
+from .scene import scene
+
+__all__ = ["contributions", "distribution", "energy", "force_time", "impulse_plane", "momentum", "scene"]

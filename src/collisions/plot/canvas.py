@@ -1,0 +1,192 @@
+"""What every picture begins with: matplotlib, the Axes to draw on, the units to label in, and one answered impact."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError, MissingInputError, ShapeError
+from ..impact import Impact
+from ..units import shown, to_quantity
+from ..vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+INK, GREY, LIGHT = "#1a1a1a", "#6a6a6a", "#d0d0d0"
+SIDES = ("a", "b")
+COLOURS = ("#1f5fa8", "#b3541e")
+FORCE = "#a01040"
+THIN = "\u2009"  # between thousands
+
+_SYSTEMS: dict[str, dict[str, str]] = {
+    "si": {},
+    "metric": {
+        "m/s": "km/h",
+        "rad": "deg",
+        "rad/s": "deg/s",
+        "s": "ms",
+        "N": "kN",
+        "N*s": "kN*s",
+        "kg*m/s": "kN*s",
+        "J": "kJ",
+    },
+    "us": {
+        "m/s": "mph",
+        "m/s**2": "ft/s**2",
+        "m": "ft",
+        "rad": "deg",
+        "rad/s": "deg/s",
+        "s": "ms",
+        "kg": "lb",
+        "kg*m**2": "lbf*ft*s**2",
+        "N": "lbf",
+        "N/m": "lbf/in",
+        "N*s": "lbf*s",
+        "kg*m/s": "lbf*s",
+        "J": "ft*lbf",
+    },
+}
+
+# Nobody knows a speed or an angle better than this.
+_DECIMALS = {"m/s": 2, "km/h": 1, "mph": 1, "°": 0, "°/s": 0}
+
+
+class Units:
+    """The units a picture is labelled in."""
+
+    def __init__(self, system: Any) -> None:
+        if not isinstance(system, str) or system not in _SYSTEMS:
+            raise InputError(
+                f"units must be 'si', 'metric' or 'us', got {shown(system)}; the SI units of the numbers are known, only those "
+                f"of the labels are chosen",
+                code="bad_option",
+                argument="units",
+            )
+        self._names = _SYSTEMS[system]
+
+    def factor(self, unit: str) -> float:
+        """What a number in this SI unit is multiplied by."""
+        wanted = self._names.get(unit, unit)
+        return 1.0 if wanted == unit else float(to_quantity(1.0, unit).m_as(wanted))
+
+    def name(self, unit: str) -> str:
+        """The unit a number in this SI unit is shown in, as it is printed."""
+        printed = self._names.get(unit, unit).replace("**2", "²").replace("*", " ")
+        return printed.replace("deg", "°")
+
+    def label(self, what: str, unit: str) -> str:
+        """What an axis shows, and its unit."""
+        return f"{what} [{self.name(unit)}]"
+
+    def text(self, value: float, unit: str) -> str:
+        """A number in this SI unit with the unit it is shown in."""
+        return with_unit(value * self.factor(unit), self.name(unit))
+
+
+def with_unit(value: float, name: str) -> str:
+    """A number and the name of its unit; the sign of degrees stands close."""
+    return f"{number(value, _DECIMALS.get(name, 6))}{'' if name[:1] in ('°', '') else ' '}{name}"
+
+
+def number(value: float, decimals: int = 6) -> str:
+    """Four digits, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
+    size = abs(value)
+    if value != value or math.isinf(value):
+        return str(value)
+    if size != 0.0 and not 1e-4 <= size < 1e9:
+        text = f"{value:.3e}"
+    else:
+        beyond = 0 if size == 0.0 else 3 - math.floor(math.log10(size))
+        value = round(value, beyond)
+        # 999.96 has become 1000.
+        digits = max(0, beyond - (abs(value) >= 10.0 ** (4 - beyond)))
+        digits = min(digits, decimals) if size >= 0.5 * 10.0**-decimals else digits
+        text = f"{value:,.{digits}f}".replace(",", THIN)
+    return text.replace("-", "\u2212")
+
+
+def answered(impact: Any, function: str) -> Impact:
+    """The impact, if it is a single one that has an answer."""
+    if not isinstance(impact, Impact):
+        raise InputError(
+            f"impact must be an Impact, got {type(impact).__name__}; write plot.{function}(collisions.eccentric(...))",
+            code="not_an_impact",
+            argument="impact",
+        )
+    shape = getattr(impact.status, "shape", None)
+    if shape is not None:
+        raise ShapeError(
+            f"impact is a batch of shape {shape}, and plot.{function} draws one case; solve the case that is wanted again with "
+            f"numbers in place of arrays, or draw a spread with plot.distribution(propagate(...)['...'])",
+            code="bad_shape",
+            argument="impact",
+        )
+    if impact.refused:
+        raise InputError(
+            f"impact was refused, so plot.{function} has nothing to draw: {impact.status.sentence}",
+            code="refused_cases",
+            argument="impact",
+            status=impact.status.label,
+        )
+    return impact
+
+
+def who(index: int, vehicle: Vehicle) -> str:
+    """The letter of a vehicle, and its name if that says more."""
+    letter = "AB"[index]
+    return letter if vehicle.name in ("", letter) else f"{letter} ({vehicle.name})"
+
+
+def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
+    """The Axes given, or those of a new figure."""
+    try:
+        import matplotlib.pyplot as plt
+        from matplotlib.axes import Axes
+    except ImportError as error:
+        raise MissingInputError(
+            f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: pip install 'collisions[plot]'",
+            code="missing_matplotlib",
+            argument="matplotlib",
+        ) from error
+    if axes is None:
+        made: Axes = plt.subplots(figsize=size, layout="constrained")[1]
+        return made
+    if not isinstance(axes, Axes) or axes.name != "rectilinear":
+        raise InputError(
+            f"axes must be one Axes with x and y, got {shown(axes)} of type {type(axes).__name__}; write "
+            f"figure, axes = matplotlib.pyplot.subplots() and give axes",
+            code="bad_option",
+            argument="axes",
+        )
+    return axes
+
+
+def tidy(axes: Axes) -> None:
+    """Only the lines that are read, and numbers in full beside them."""
+    from matplotlib.ticker import ScalarFormatter
+
+    axes.spines[["top", "right"]].set_visible(False)
+    for axis in (axes.xaxis, axes.yaxis):
+        formatter = axis.get_major_formatter()
+        if isinstance(formatter, ScalarFormatter):
+            formatter.set_useOffset(False)
+            formatter.set_scientific(False)
+
+
+def legend_below(axes: Axes, columns: int = 2) -> None:
+    """A legend under the labels of the x axis, where it hides nothing."""
+    from matplotlib.transforms import ScaledTranslation
+
+    # In points, so that it keeps clear of them on small Axes too.
+    below = 30 + 14 * (axes.get_xlabel().count("\n") + 1)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes + ScaledTranslation(0.0, -below / 72.0, axes.figure.dpi_scale_trans),
+        borderaxespad=0.0,
+        ncols=columns,
+        frameon=False,
+        fontsize=9,
+        handlelength=3.4,
+    )

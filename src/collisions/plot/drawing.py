@@ -1,0 +1,165 @@
+"""Arrows, and labels that keep clear of them and of each other."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .canvas import INK
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Place = tuple[float, float]
+_Box = tuple[float, float, float, float]
+
+_FONT = 9.5
+# Of a font size: the mean width of a letter, and the height of a line.
+_LETTER, _LINE = 0.6, 1.45
+_TURNS = tuple(math.radians(angle) for angle in (0, 30, -30, 60, -60, 90, -90, 130, -130, 180))
+# Of the larger extent: what is left free around, and the least there is of the other one.
+_MARGIN, _STRIP = 0.14, 0.42
+_AWAY = (5.0, 14.0, 26.0, 42.0)
+
+
+class _Label(NamedTuple):
+    places: tuple[Place, ...]
+    text: str
+    direction: Place
+    colour: str
+
+
+class Drawing:
+    """What is drawn on one Axes in its own coordinates; limits and labels are settled at the end."""
+
+    def __init__(self, axes: Axes) -> None:
+        self.axes = axes
+        self._labels: list[_Label] = []
+        self._taken: list[Any] = []
+        self._seen: list[Place] = []
+
+    def arrow(self, tail: Place, tip: Place, gid: str, *, colour: str = INK, width: float = 1.8, style: Any = "-") -> None:
+        """An arrow whose ends are exactly these; none without a length."""
+        self.include(tail, tip)
+        if tail == tip:
+            return
+        made = self.axes.annotate(
+            "",
+            xy=tip,
+            xytext=tail,
+            arrowprops={
+                "arrowstyle": "-|>,head_length=0.55,head_width=0.22",
+                "mutation_scale": 13,
+                "linewidth": width,
+                "linestyle": style,
+                "color": colour,
+                "shrinkA": 0,
+                "shrinkB": 0,
+            },
+            annotation_clip=False,
+            zorder=4,
+        )
+        made.set_gid(gid)
+        self.avoid(tail, tip)
+
+    def line(self, one: Place, other: Place, gid: str, **style: Any) -> None:
+        """A straight line."""
+        self.include(one, other)
+        self.axes.plot([one[0], other[0]], [one[1], other[1]], gid=gid, **style)
+        self.avoid(one, other)
+
+    def include(self, *places: Place) -> None:
+        """Make these places visible."""
+        self._seen.extend(places)
+
+    def avoid(self, one: Place, other: Place) -> None:
+        """No label shall cover the line between these."""
+        self._taken.append(np.linspace(one, other, 60))
+
+    def label(self, place: Place, text: str, direction: Place = (0.0, 1.0), colour: str = INK, *others: Place) -> None:
+        """A text beside a place, or one of the others, in this direction from it if there is room."""
+        self._labels.append(_Label((place, *others), text, direction, colour))
+
+    def finish(self) -> None:
+        """Settle the limits, so that everything is in view, and put the labels where there is room."""
+        places = np.array(self._seen)
+        low, high = places.min(axis=0), places.max(axis=0)
+        middle = 0.5 * (low + high)
+        half = 0.5 * (high - low) + _MARGIN * max(high - low)
+        # Widened where one direction would be a thin strip.
+        half = np.maximum(half, _STRIP * max(half))
+        self.axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
+        self.axes.set_aspect("equal", adjustable="box")
+        self.axes.apply_aspect()
+        self._place_labels()
+
+    def _place_labels(self) -> None:
+        points = 72.0 / self.axes.figure.dpi
+        in_points = self.axes.transData.transform
+        lines = np.array([in_points(line) * points for line in self._taken])
+        inside = np.array(self.axes.bbox.extents) * points
+        boxes: list[_Box] = []
+        for places, text, direction, colour in self._labels:
+            rows = text.split("\n")
+            size = _FONT * _LETTER * max(map(len, rows)), _FONT * _LINE * len(rows)
+            along = math.atan2(direction[1], direction[0])
+            _, best, place, at = min(
+                (
+                    (_cost(box, at, lines, boxes, inside) + 0.4 * distance + 3.0 * abs(turn) + 2.0 * later, box, place, at)
+                    for later, place in enumerate(places)
+                    for at in [in_points(place) * points]
+                    for distance in _AWAY
+                    for turn in _TURNS
+                    for box in [_box(at, size, along + turn, distance)]
+                ),
+                key=lambda found: found[0],
+            )
+            boxes.append(best)
+            self.axes.annotate(
+                text,
+                xy=place,
+                xytext=(0.5 * (best[0] + best[2]) - at[0], 0.5 * (best[1] + best[3]) - at[1]),
+                textcoords="offset points",
+                ha="center",
+                va="center",
+                fontsize=_FONT,
+                color=colour,
+                parse_math=False,
+                annotation_clip=False,
+                zorder=6,
+                bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.75},
+            )
+
+
+def _box(at: Any, size: tuple[float, float], angle: float, distance: float) -> _Box:
+    """Where a text of this size lies whose edge is this far away in this direction."""
+    c, s = math.cos(angle), math.sin(angle)
+    reach = min(0.5 * size[0] / max(abs(c), 1e-9), 0.5 * size[1] / max(abs(s), 1e-9)) + distance
+    x, y = at[0] + reach * c, at[1] + reach * s
+    return x - 0.5 * size[0], y - 0.5 * size[1], x + 0.5 * size[0], y + 0.5 * size[1]
+
+
+def _cost(box: _Box, at: Any, lines: Any, boxes: list[_Box], inside: Any) -> float:
+    """How bad this place for a label is: over lines or other labels, on the far side of a line, or outside."""
+    left, low, right, high = box
+    x, y = lines[..., 0], lines[..., 1]
+    crossed = np.count_nonzero((x > left - 2.0) & (x < right + 2.0) & (y > low - 2.0) & (y < high + 2.0))
+    covered = sum(
+        max(0.0, min(right, other[2]) - max(left, other[0])) * max(0.0, min(high, other[3]) - max(low, other[1]))
+        for other in boxes
+    )
+    over = max(0.0, inside[0] - left) + max(0.0, right - inside[2]) + max(0.0, inside[1] - low) + max(0.0, high - inside[3])
+    behind = np.count_nonzero(_crosses(at, (0.5 * (left + right), 0.5 * (low + high)), lines[:, 0], lines[:, -1]))
+    return 8.0 * int(crossed) + 5.0 * covered + 20.0 * float(over) + 25.0 * int(behind)
+
+
+def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:
+    """Which of the lines a way to a label crosses, but for those it begins on."""
+    way, lines, gap = np.subtract(end, start), tips - tails, tails - start
+    turn = way[0] * lines[:, 1] - way[1] * lines[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        on_way = (gap[:, 0] * lines[:, 1] - gap[:, 1] * lines[:, 0]) / turn
+        on_line = (gap[:, 0] * way[1] - gap[:, 1] * way[0]) / turn
+    return (on_way > 0.05) & (on_way < 1.0) & (on_line > 0.0) & (on_line < 1.0)

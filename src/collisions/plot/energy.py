@@ -1,0 +1,111 @@
+"""Where the energy went: from the kinetic energies before, over what was lost, to those after."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..errors import InputError, MissingInputError
+from ..impact import Impact
+from ..vehicle import Vehicle, missing
+from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def energy(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+    """The energy split: kinetic energy of A and B before, what was lost along normal and tangent, and what A and B have after.
+
+    Every bar begins where the one above ends, so that the last ends at zero: what came in is what went out. Kinetic energies
+    depend on the frame of reference, the losses do not. A negative loss is energy gained, drawn as such.
+
+    Parameters
+    ----------
+    impact : Impact
+        A single one of any solver.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        J, kJ or ft lbf.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "a.after", "b.after".
+
+    Raises
+    ------
+    InputError
+        Not a single answered impact, an infinite mass or inertia that moves, or an option that is not known.
+    MissingInputError
+        A turning vehicle without yaw inertia; or matplotlib is missing.
+
+    Examples
+    --------
+    Example 2 of the paper:
+
+    >>> import collisions as col
+    >>> from collisions import plot
+    >>> a, b = col.Vehicle(mass="1100 kg", vx="80 km/h"), col.Vehicle(mass="950 kg")
+    >>> axes = plot.energy(col.linear_central(a, b, restitution=0.398), units="metric")
+    >>> axes.get_xlabel()
+    'energy [kJ]'
+    """
+    labels = Units(units)
+    impact = answered(impact, "energy")
+    a, b = impact.a, impact.b
+    names = who(0, a.before), who(1, b.before)
+    rows = [
+        ("a.before", f"{names[0]} before", _kinetic(a.before, "a"), COLOURS[0], ""),
+        ("b.before", f"{names[1]} before", _kinetic(b.before, "b"), COLOURS[1], ""),
+        ("lost.normal", "lost along\nthe normal", -impact.energy_loss_normal, FORCE, "xxx"),
+        ("lost.tangential", "lost along\nthe tangent", -impact.energy_loss_tangential, FORCE, "..."),
+        ("a.after", f"{names[0]} after", -_kinetic(a.after, "a"), COLOURS[0], "///"),
+        ("b.after", f"{names[1]} after", -_kinetic(b.after, "b"), COLOURS[1], "///"),
+    ]
+    axes = begin(axes, (7.0, 4.2))
+    factor = labels.factor("J")
+    total = sum(value for gid, _, value, _, _ in rows if gid.endswith("before")) * factor
+    reached = 0.0
+    for row, (gid, _, value, colour, hatch) in enumerate(rows):
+        step = value * factor
+        axes.barh(row, step, left=reached, height=0.62, fc=f"{colour}40", ec=colour, hatch=hatch, lw=1.3, gid=gid, zorder=3)
+        end = reached + step
+        if row < len(rows) - 1:
+            axes.plot([end, end], [row - 0.31, row + 1.31], color=GREY, lw=0.9, ls=":", zorder=2)
+        gains = gid.startswith("lost") and value > 0.0
+        told = labels.text(abs(value), "J") + (" gained" if gains else "")
+        axes.annotate(
+            told, (max(reached, end), row), (6, 0), textcoords="offset points", va="center", fontsize=9.5, color=INK,
+            annotation_clip=False,
+        )  # fmt: skip
+        reached = end
+    axes.set_yticks(range(len(rows)), [text for _, text, _, _, _ in rows], parse_math=False)
+    axes.invert_yaxis()
+    axes.axvline(0.0, color=INK, lw=0.9, zorder=4)
+    low, high = axes.get_xlim()
+    axes.set_xlim(min(0.0, low), max(high, total) + 0.22 * (max(high, total) - min(0.0, low)))
+    axes.set_xlabel(labels.label("energy", "J"))
+    lost = impact.energy_loss
+    share = f"\n{number(100.0 * abs(lost) * factor / total, 1)} % of the kinetic energy in this frame" if total > 0.0 else ""
+    axes.set_title(f"Energy {'lost' if lost >= 0.0 else 'gained'}: {labels.text(abs(lost), 'J')}{share}", fontsize=10.5)
+    axes.locator_params(axis="x", nbins=5)
+    tidy(axes)
+    return axes
+
+
+def _kinetic(state: Vehicle, letter: str) -> float:
+    try:
+        found = float(state.kinetic_energy)
+    except MissingInputError as error:
+        raise missing(state, "yaw_inertia", "plot.energy of a turning body", letter) from error
+    if math.isinf(found):
+        raise InputError(
+            f"{letter} has an infinite mass or yaw inertia and moves, so its kinetic energy is infinite in this frame; solve "
+            f"the impact in a frame in which it rests (take its velocity from both vehicles), which changes no loss",
+            code="infinite_mass",
+            argument="impact",
+            vehicle=letter,
+        )
+    return found

@@ -1,0 +1,120 @@
+"""The force of the contact against time, idealised: compression and restitution as areas A1 and A2 (figures 3 and 4)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import InputError
+from ..impact import Impact
+from ..travel.reading import one_value, warn_if_above
+from ..units import POSITIVE, Door, Input, is_quantity, shown
+from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_POINTS = 400
+# No contact of vehicles lasts longer: beyond, a bare number is in another unit.
+_LONGEST = 1.0
+
+
+def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: str = "si") -> Axes:
+    """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
+
+    Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;
+    the shape is assumed: a quarter of a sine up to the end of compression and another one down, with one peak. Then restitution
+    takes e times as long as compression: as long if elastic, no time if plastic, as in the figure. The duration is
+    assumed too: peak and mean force go as one over it, and no impulse tells them.
+
+    Parameters
+    ----------
+    impact : Impact
+        A single one of any solver.
+    duration : float, str or Quantity [s]
+        From touching to parting, > 0: 0.05 to 0.15 s for cars, the longer the softer.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        s, N and N s; ms, kN and kN s; ms, lbf and lbf s.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Areas by gid: "A1", "A2" (not if plastic); lines "mean force" and "end of compression".
+
+    Raises
+    ------
+    InputError
+        Not a single answered impact, a duration that cannot be, or an option that is not known.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    Example 2 of the paper, in an assumed tenth of a second:
+
+    >>> import collisions as col
+    >>> from collisions import plot
+    >>> a, b = col.Vehicle(mass="1100 kg", vx="80 km/h"), col.Vehicle(mass="950 kg")
+    >>> axes = plot.force_time(col.linear_central(a, b, restitution=0.398), "100 ms", units="metric")
+    >>> axes.get_ylabel()
+    'normal force [kN]'
+    """
+    labels = Units(units)
+    impact = answered(impact, "force_time")
+    door = Door()
+    time = one_value(door, duration, "s", "duration", POSITIVE)
+    door.close()
+    if not isinstance(time, float) or math.isinf(time):
+        raise InputError(
+            f"duration must be one finite time, got {shown(duration)}; write '100 ms'", code="bad_shape", argument="duration"
+        )
+    if not (isinstance(duration, str) or is_quantity(duration)):
+        warn_if_above(_LONGEST, time, "duration", "seconds", "ms")
+    axes = begin(axes)
+
+    e = impact.restitution
+    compression, restitution = impact.compression_impulse, impact.restitution_impulse
+    turn = time / (1.0 + e)
+    share = np.linspace(0.0, 1.0, _POINTS)
+    rise = np.sin(0.5 * math.pi * share)
+    # The height for which the polygon drawn, not only the sine, has the area A1; A2 then has its own.
+    peak = compression / (turn * float(np.mean(0.5 * (rise[1:] + rise[:-1]))))
+    in_time, in_force = labels.factor("s"), labels.factor("N")
+    for name, what, impulse, start, end, heights, hatch, shade in (
+        ("A1", "compression", compression, 0.0, turn, rise, "///", "#d9a7b5"),
+        ("A2", "restitution", restitution, turn, time, rise[::-1], "...", "#f6e9ed"),
+    ):
+        told = f"{name} = {labels.text(impulse, 'N*s')}, {what}"
+        if end <= start or impulse <= 0.0:
+            axes.plot([], [], " ", label=told)
+            continue
+        x = (start + (end - start) * share) * in_time
+        y = heights * peak * in_force
+        axes.fill(
+            [x[0], *x, x[-1]], [0.0, *y, 0.0], fc=shade, ec=FORCE, lw=1.4, hatch=hatch, gid=name, label=told, zorder=2
+        )  # fmt: skip
+        if end - start > 0.12 * time:
+            middle = start + (end - start) * (0.64 if name == "A1" else 0.36)
+            axes.text(middle * in_time, 0.3 * peak * in_force, name, ha="center", va="center", fontsize=12, zorder=5,
+                      bbox={"boxstyle": "round,pad=0.25", "fc": "white", "ec": "none"})  # fmt: skip
+    mean = impact.normal_impulse / time
+    told = f"mean force {labels.text(mean, 'N')}"
+    axes.plot(
+        [0.0, time * in_time], [mean * in_force] * 2, color=INK, lw=1.4, ls=(0, (6, 3)), zorder=4, gid="mean force", label=told
+    )
+    told = f"end of compression, peak {labels.text(peak, 'N')}"
+    axes.plot(
+        [turn * in_time] * 2, [0.0, peak * in_force], color=GREY, lw=1.4, ls=":", zorder=4, gid="end of compression", label=told
+    )
+
+    axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
+    axes.set_xlabel(labels.label("time", "s"))
+    axes.set_ylabel(labels.label("normal force", "N"))
+    axes.set_title(f"e = A2/A1 = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed", fontsize=10.5)
+    tidy(axes)
+    legend_below(axes)
+    return axes

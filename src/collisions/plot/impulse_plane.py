@@ -1,0 +1,176 @@
+"""The impulse plane: which impulses end compression, slip and restitution, which friction allows, and which one it was."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..impact import Impact
+from ..kernels import codes
+from ..quiet import quietly
+from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
+_FAR = 4.0
+
+
+def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+    """Normal against tangential impulse on B, with the lines that decide the answer.
+
+    An impulse changes the closing speed and the slip in proportion to itself. So compression ends on one line, restitution on
+    a parallel one 1 + e times as far out, and slip on a third. Friction keeps the impulse within a cone. Where the contact
+    sticks, the answer lies where restitution and slip end together; where it slides, at the edge of the cone.
+
+    Parameters
+    ----------
+    impact : Impact
+        A single one of any solver.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        N s, kN s or lbf s.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Lines by gid: "end of compression", "end of restitution", "no slip", "no slip at separation" (only under
+        "kudlich-slibar", where slip returns), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
+        compression" and "no-slip impulse". ``linear_central`` has no tangential impulse, and no lines of slip and friction.
+
+    Raises
+    ------
+    InputError
+        Not a single answered impact, or an option that is not known.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> from collisions import plot
+    >>> a = col.Vehicle(mass=1500, yaw_inertia=2600, vx="60 km/h", x=-2.2, y=0)
+    >>> b = col.Vehicle(mass=1200, yaw_inertia=2000, vy="30 km/h", x=0.9, y=-0.8)
+    >>> impact = col.eccentric(a, b, 0.1, normal=0, point=(0, 0), friction=0.5)
+    >>> axes = plot.impulse_plane(impact, units="metric")
+    >>> axes.get_xlabel()
+    'normal impulse Pn on B [kN s]'
+    """
+    labels = Units(units)
+    impact = answered(impact, "impulse_plane")
+    axes = begin(axes, (7.5, 6.0))
+    factor = labels.factor("N*s")
+    normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor
+    no_slip = impact._output("no_slip_normal") * factor, impact._output("no_slip_tangential") * factor
+    plain = impact.model == "linear_central"
+    shows_no_slip = not plain and no_slip[0] > 0.0 and math.hypot(*no_slip) <= _FAR * math.hypot(normal, tangential)
+    seen = [(0.0, 0.0), (normal, tangential), *([no_slip] if shows_no_slip else [])]
+    right = 1.3 * max(x for x, _ in seen)
+    low, high = (pick(y for _, y in seen) for pick in (min, max))
+    room = max(0.35 * (high - low), 0.18 * right)
+    low, high = low - room, high + room
+
+    e = impact.restitution
+    k_nn, k_nt = 1.0 / impact.effective_mass, impact._output("coupling")
+    closing = impact.closing_speed * factor
+    if not plain:
+        _draw_friction(axes, impact, right, low, high)
+
+    def line(gid: str, along_n: float, along_t: float, total: float, text: str, **style: Any) -> None:
+        """Where along_n Pn + along_t Pt is the total, within the picture."""
+        foot = total / (along_n * along_n + along_t * along_t)
+        size = math.hypot(along_n, along_t)
+        reach = 2.0 * math.hypot(right, high - low) + abs(foot) * size
+        x, y = foot * along_n, foot * along_t
+        dx, dy = reach * along_t / size, -reach * along_n / size
+        axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text, **style)
+
+    line("end of compression", k_nn, k_nt, closing, "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))
+    line("end of restitution", k_nn, k_nt, (1.0 + e) * closing, f"end of restitution (e = {e:.3g})", color=INK, lw=1.8)
+    if not plain:
+        k_tt = _tangential_yield(impact)
+        slip = impact.slip_before * factor
+        line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
+        if impact.law == codes.KUDLICH_SLIBAR and e > 0.0:
+            text = "slip at separation if it sticks"
+            line("no slip at separation", k_nt, k_tt, -(1.0 + e) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
+
+    axes.plot([0.0, normal], [0.0, tangential], color=FORCE, lw=2.4, zorder=5, gid="impulse")
+    if shows_no_slip:
+        told = "no-slip impulse"
+        axes.plot(*no_slip, "D", ms=11, mfc="none", mec=INK, mew=1.5, ls="none", zorder=6, gid="no-slip impulse", label=told)
+    compressed = normal / (1.0 + e), tangential / (1.0 + e)
+    axes.plot(
+        *compressed,
+        "o",
+        ms=8,
+        mfc="white",
+        mec=FORCE,
+        mew=1.8,
+        ls="none",
+        zorder=7,
+        gid="at compression",
+        label="impulse at the end of compression",
+    )
+    axes.plot(
+        *(normal, tangential), "o", ms=8, color=FORCE, ls="none", zorder=8, gid="answer", label=f"impulse: {_regime(impact)}"
+    )
+
+    axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
+    axes.set(xlim=(0.0, right), ylim=(low, high))
+    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s"))
+    axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
+    pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
+    beyond = "" if plain or shows_no_slip else "\n(the no-slip impulse lies outside)"
+    axes.set_title(f"{pair}{beyond}", fontsize=10.5)
+    tidy(axes)
+    legend_below(axes)
+    return axes
+
+
+def _regime(impact: Impact) -> str:
+    if impact.model == "linear_central":
+        return "no tangential one in this model"
+    return {"given": "ratio given"}.get(impact.regime, str(impact.regime))
+
+
+def _draw_friction(axes: Axes, impact: Impact, right: float, low: float, high: float) -> None:
+    """What the rule allows: a cone, or the one ratio that was given."""
+    mu = impact.friction
+    if mu is None:
+        ratio = impact.impulse_ratio
+        axes.plot(
+            [0.0, right],
+            [0.0, ratio * right],
+            color=GREY,
+            lw=1.3,
+            ls=(0, (3, 2)),
+            gid="ratio",
+            label=f"Pt/Pn = {ratio:.3g}, given",
+        )
+        return
+    if math.isinf(mu) or mu == 0.0:
+        return
+    axes.fill([0.0, right, right], [0.0, mu * right, -mu * right], fc=LIGHT, ec="none", alpha=0.45, zorder=0, gid="cone")
+    for sign, name in ((1.0, "+"), (-1.0, "-")):
+        text = f"friction cone (friction {mu:.3g})" if sign > 0.0 else None
+        axes.plot(
+            [0.0, right], [0.0, sign * mu * right], color=GREY, lw=1.2, ls=(0, (3, 2)), gid=f"friction {name}", label=text
+        )
+
+
+def _tangential_yield(impact: Impact) -> float:
+    """Change of slip by a unit of tangential impulse [1/kg]: read off the solver's answer to another impulse ratio."""
+    if impact.model != "eccentric":
+        return 1.0 / impact.effective_mass
+    coupling = impact._output("coupling")
+    # Of this sign the contact cannot jam.
+    ratio: Any = math.copysign(1.0, coupling)
+    with quietly():
+        other = impact._asked._replace(model="eccentric", rule=codes.IMPULSE_RATIO, bound=ratio).ask(on_failure="nan")
+    slip_change = other.slip_after - other.slip_before - coupling * other.normal_impulse
+    return float(np.divide(slip_change, other.tangential_impulse))

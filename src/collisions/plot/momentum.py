@@ -1,0 +1,179 @@
+"""Momentum diagram: the momenta before, those after and their total, head to tail."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
+from ..impact import Impact
+from ..side import Side
+from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, legend_below, tidy, who
+from .drawing import Drawing, Place
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# All within this of one line are drawn side by side: sine of the angle.
+_ALONG_ONE_LINE = 0.03
+# Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
+_LANE, _APART = 0.11, 0.04
+
+
+def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+    """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
+
+    Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes from
+    outside, by a body of infinite mass or by a pivot, closes the diagram as an arrow of its own; a body of infinite mass has
+    no momentum to draw.
+
+    Parameters
+    ----------
+    impact : Impact
+        A single one of any solver.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        kg m/s, kN s or lbf s.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Arrows by gid: "before.a", "before.b", "after.a", "after.b", "total"; where something comes from
+        outside "total.before", "total.after" (if both vehicles have a finite mass) and "outside".
+
+    Raises
+    ------
+    InputError
+        Not a single answered impact, two infinite masses, or an option that is not known.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    Example 2 of the paper:
+
+    >>> import collisions as col
+    >>> from collisions import plot
+    >>> a, b = col.Vehicle(mass="1100 kg", vx="80 km/h"), col.Vehicle(mass="950 kg")
+    >>> axes = plot.momentum(col.linear_central(a, b, restitution=0.398), units="metric")
+    >>> axes.get_xlabel()
+    'momentum along x [kN s]'
+    """
+    labels = Units(units)
+    impact = answered(impact, "momentum")
+    takes_part = [math.isfinite(side.before.mass) for side in (impact.a, impact.b)]
+    if not any(takes_part):
+        raise InputError(
+            "both vehicles have an infinite mass, so there is no momentum to draw", code="infinite_mass", argument="impact"
+        )
+    axes = begin(axes, (6.5, 6.2))
+    factor = labels.factor("kg*m/s")
+    chains = {when: [_momentum(side, when, factor) for side in (impact.a, impact.b)] for when in ("before", "after")}
+    totals = {when: _sum(chain) for when, chain in chains.items()}
+    outside = totals["after"][0] - totals["before"][0], totals["after"][1] - totals["before"][1]
+    longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
+    open_ended = not all(takes_part) or any(side.before.pivot is not None for side in (impact.a, impact.b))
+
+    drawing = Drawing(axes)
+    across = _common_normal([*chains["before"], *chains["after"]], longest)
+    drawn: list[tuple[Place, Place]] = []
+    apart: list[str] = []
+
+    def draw(tail: Place, vector: Place, gid: str, tag: str, text: str, colour: str, style: Any, width: float = 2.0) -> None:
+        length = math.hypot(*vector)
+        if length <= 1e-9 * longest:
+            return
+        # To the right, seen along the arrow.
+        side = (vector[1] / length, -vector[0] / length) if across is None else across
+        start = tail if across is None else _beside(tail, across, -_LANE * longest * len(drawn))
+        while across is None and any(_covers(start, vector, *other, longest) for other in drawn):
+            start = _beside(start, side, _APART * longest)
+            apart.append(gid)
+        drawn.append((start, vector))
+        drawing.arrow(start, _sum([start, vector]), gid, colour=colour, style=style, width=width)
+        middle, *others = (_beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
+        drawing.label(middle, tag, side, colour, *others)
+        told = f"{tag}: {text} {labels.text(length / factor, 'kg*m/s')}"
+        axes.plot([], [], color=colour, lw=width, ls=style, label=told)
+
+    for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
+        tail: Place = (0.0, 0.0)
+        for index, vector in enumerate(chains[when]):
+            draw(tail, vector, f"{when}.{SIDES[index]}", "AB"[index] + prime, when, COLOURS[index], style)
+            tail = _sum([tail, vector])
+    if not open_ended:
+        draw((0.0, 0.0), totals["before"], "total", "total", "before and after", INK, (0, (1, 1.2)), 1.6)
+    else:
+        if all(takes_part):
+            for when, prime in (("before", ""), ("after", "\u2032")):
+                draw((0.0, 0.0), totals[when], f"total.{when}", "total" + prime, when, INK, (0, (1, 1.2)), 1.6)
+        draw(totals["before"], outside, "outside", "outside", _by_whom(impact), FORCE, (0, (7, 2, 1, 2)))
+
+    drawing.include((0.0, 0.0))
+    axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
+    axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
+    axes.set_ylabel(labels.label("momentum along y", "kg*m/s"))
+    note = "\nthose along one line side by side" if across is not None or apart else ""
+    named = [who(index, side.before) for index, side in enumerate((impact.a, impact.b)) if side.before.name]
+    title = "Momenta before (dashed) and after (solid)" + (f": {' and '.join(named)}" if named else "")
+    axes.set_title(title + note, fontsize=10.5, parse_math=False)
+    axes.grid(color="#e2e2e2", lw=0.6)
+    axes.set_axisbelow(True)
+    tidy(axes)
+    legend_below(axes, 1 if open_ended else 2)
+    drawing.finish()
+    return axes
+
+
+def _momentum(side: Side, when: str, factor: float) -> Place:
+    """The momentum of a body whose mass is finite; of another one what it does not have is not drawn."""
+    state = side.before if when == "before" else side.after
+    if math.isinf(state.mass):
+        return 0.0, 0.0
+    x, y = state.momentum
+    return x * factor, y * factor
+
+
+def _sum(vectors: list[Place]) -> Place:
+    return sum(vector[0] for vector in vectors), sum(vector[1] for vector in vectors)
+
+
+def _beside(place: Place, direction: Place, far: float) -> Place:
+    return place[0] + far * direction[0], place[1] + far * direction[1]
+
+
+def _covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
+    """Whether one arrow lies on another one."""
+    length, size = math.hypot(*vector), math.hypot(*along)
+    gap = start[0] - other[0], start[1] - other[1]
+    if abs(_cross(vector, along)) > _ALONG_ONE_LINE * length * size or abs(_cross(gap, along)) > 0.02 * longest * size:
+        return False
+    begin_at = (gap[0] * along[0] + gap[1] * along[1]) / size
+    end_at = begin_at + (vector[0] * along[0] + vector[1] * along[1]) / size
+    return min(max(begin_at, end_at), size) - max(min(begin_at, end_at), 0.0) > 0.02 * longest
+
+
+def _cross(one: Place, other: Place) -> float:
+    return one[0] * other[1] - one[1] * other[0]
+
+
+def _common_normal(vectors: list[Place], longest: float) -> Place | None:
+    """The direction across the line all of them lie along; None if they do not."""
+    chief = max(vectors, key=lambda vector: math.hypot(*vector))
+    if longest == 0.0 or any(abs(_cross(chief, v)) > _ALONG_ONE_LINE * longest * math.hypot(*chief) for v in vectors):
+        return None
+    length = math.hypot(*chief)
+    across = -chief[1] / length, chief[0] / length
+    return across if (across[1], across[0]) > (0.0, 0.0) else (-across[0], -across[1])
+
+
+def _by_whom(impact: Impact) -> str:
+    """What gives the momentum that the bodies drawn do not have from each other."""
+    parts = []
+    for index, side in enumerate((impact.a, impact.b)):
+        if math.isinf(side.before.mass):
+            parts.append(f"{'AB'[index]}, of infinite mass,")
+        elif side.before.pivot is not None:
+            parts.append(f"the pivot of {'AB'[index]}")
+    return f"given by {' and '.join(parts)}"

@@ -1,0 +1,908 @@
+"""Pictures show the numbers of the result: ends of arrows, areas, bars and lines are read back from what was drawn."""
+
+import ast
+import functools
+import itertools
+import math
+import re
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pint
+import pytest
+
+mpl.use("agg")
+
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+import collisions as col
+from collisions import plot, uncertainty
+from collisions.plot.canvas import Units, number
+from scenes import cases, solved
+
+ROOT = Path(__file__).resolve().parent.parent
+SYSTEMS = ("si", "metric", "us")
+# What one SI unit is in the units of the labels, by pint's definitions and not by the package.
+UREG = pint.UnitRegistry()
+SHOWN = {
+    "si": {"speed": "m/s", "length": "m", "impulse": "N*s", "energy": "J", "force": "N", "time": "s"},
+    "metric": {"speed": "km/h", "length": "m", "impulse": "kN*s", "energy": "kJ", "force": "kN", "time": "ms"},
+    "us": {"speed": "mph", "length": "ft", "impulse": "lbf*s", "energy": "ft*lbf", "force": "lbf", "time": "ms"},
+}
+# Ends of arrows are sums and products of a few roundings; the reading takes differences of numbers of the same size.
+ROUNDING = 1e-12
+
+A = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx="60 km/h", x=-2.2, y=0.0, heading=0.0)
+B = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, vy="30 km/h", x=0.9, y=-0.8, heading="90 deg")
+T_BONE = {"normal": 0.0, "point": (0.0, 0.0)}
+IMPACTS = {
+    "example 2": col.linear_central(col.Vehicle(mass="1100 kg", vx="80 km/h"), col.Vehicle(mass="950 kg"), 0.398),
+    "wall in line": col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle.barrier(), 0.2),
+    "oblique": col.oblique_central(
+        col.Vehicle(mass=1500.0, vx=15.0, vy=3.0, x=-2.0, y=-0.3, name="van $1"),
+        col.Vehicle(mass=1200.0, vy=12.0, x=2.0, y=0.8),
+        0.2,
+        normal=0.3,
+        friction=0.3,
+    ),
+    "sticking": col.eccentric(A, B, 0.1, friction=0.5, **T_BONE),
+    "sliding": col.eccentric(A, B, 0.1, friction=0.02, **T_BONE),
+    "no slip": col.eccentric(A, B, 0.1, friction=math.inf, **T_BONE),
+    "returning slip": col.eccentric(A, B, 0.3, friction=1.5, law="kudlich-slibar", **T_BONE),
+    "ratio": col.eccentric(A, B, 0.0, impulse_ratio=-0.1, **T_BONE),
+    "elastic": col.eccentric(A, B, 1.0, friction=0.0, **T_BONE),
+    "head-on": col.eccentric(
+        A.replace(y=0.3),
+        col.Vehicle(mass=1800.0, yaw_inertia=3300.0, vx=-20.0, x=2.3, y=-0.5, heading="180 deg"),
+        0.1,
+        friction=0.5,
+        **T_BONE,
+    ),
+    "example 3": col.eccentric(
+        col.Vehicle(mass=900.0, yaw_inertia=math.inf, vx="60 km/h", x=-2.0, y=4.0),
+        col.Vehicle(mass=1000.0, yaw_inertia=4000.0 / 3.0, x=0.0, y=2.0, pivot=(0.0, 0.0)),
+        0.8,
+        normal=0.0,
+        point=(0.0, 4.0),
+        friction=0.0,
+    ),
+    "wall aslant": col.eccentric(
+        A.replace(vy=-3.0, yaw_rate=0.4), col.Vehicle.barrier(), 0.15, normal="20 deg", point=(0.0, -0.5), friction=0.4
+    ),
+}
+# Every system of units for some of them.
+UNITS = dict(zip(IMPACTS, itertools.cycle(SYSTEMS), strict=False))
+DRAWN = {
+    "scene": plot.scene,
+    "momentum": plot.momentum,
+    "impulse_plane": plot.impulse_plane,
+    "force_time": lambda impact, **options: plot.force_time(impact, 0.1, **options),
+    "energy": plot.energy,
+}
+
+
+def squared(speed, mass):
+    """Energy and momentum of what is uncertain."""
+    return {"energy": 0.5 * mass * UREG.Quantity(speed, "m/s") ** 2 * UREG.kg, "momentum": mass * speed}
+
+
+INPUTS = {"speed": uncertainty.Normal(20.0, 0.5), "mass": uncertainty.Normal(1200.0, 60.0)}
+RESULT = uncertainty.propagate(squared, INPUTS, method="quasi_random", samples=2048, seed=1)
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    plt.close("all")
+
+
+@functools.cache
+def drawn(picture, case):
+    """Each picture once, in the units of the case."""
+    return DRAWN[picture](IMPACTS[case], units=UNITS[case], axes=Figure(layout="constrained").subplots())
+
+
+def factor(system, kind):
+    """What an SI number is multiplied by."""
+    return float(UREG.Quantity(1.0, SHOWN["si"][kind]).m_as(SHOWN[system][kind]))
+
+
+def arrows(axes):
+    """Tail and tip of every arrow by its name."""
+    return {
+        text.get_gid(): (np.array(text.xyann), np.array(text.xy))
+        for text in axes.texts
+        if text.get_gid() is not None and text.arrow_patch is not None
+    }
+
+
+def vectors(axes):
+    return {name: tip - tail for name, (tail, tip) in arrows(axes).items()}
+
+
+def named(axes, gid):
+    """The artist of this name."""
+    (found,) = [artist for artist in axes.get_children() if artist.get_gid() == gid]
+    return found
+
+
+def names(axes):
+    return {artist.get_gid() for artist in axes.get_children() if artist.get_gid() is not None}
+
+
+def area(polygon):
+    """By the shoelace formula, from the corners drawn."""
+    x, y = (polygon.get_xy() - polygon.get_xy().min(axis=0)).T
+    return 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+def scale(axes, what):
+    """How much one unit of length stands for, as it is printed."""
+    found = re.search(rf"{what}: 1 \w+ = ([\d.\u2009e+-]+) ", axes.get_xlabel())
+    return float(found.group(1).replace("\u2009", ""))
+
+
+# What they have in common
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+@pytest.mark.parametrize("picture", DRAWN)
+def test_every_picture_of_every_impact_has_its_units_on_its_axes(picture, case):
+    axes, system = drawn(picture, case), UNITS[case]
+    kinds = {"scene": "length", "momentum": "impulse", "impulse_plane": "impulse", "force_time": "time", "energy": "energy"}
+    unit = SHOWN[system][kinds[picture]].replace("*", " ")
+    if (picture, system) == ("momentum", "si"):
+        unit = "kg m/s"
+    assert f"[{unit}]" in axes.get_xlabel()
+    if picture == "force_time":
+        assert axes.get_ylabel() == f"normal force [{SHOWN[system]['force']}]"
+    elif picture != "energy":
+        assert f"[{unit}]" in axes.get_ylabel()
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+def test_axes_given_are_drawn_on_and_returned(picture):
+    _, (one, other) = plt.subplots(1, 2)
+    assert DRAWN[picture](IMPACTS["sticking"], axes=other) is other
+    assert other.has_data()
+    assert not one.has_data()
+    assert len(plt.get_fignums()) == 1
+
+
+def test_axes_given_are_drawn_on_by_pictures_of_an_uncertainty():
+    for draw in (plot.contributions, plot.distribution):
+        _, axes = plt.subplots()
+        assert draw(RESULT["energy"], axes=axes) is axes
+        assert axes.has_data()
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+def test_a_batch_is_refused_with_advice(picture):
+    batch = col.linear_central(col.Vehicle(mass=1000.0, vx=np.array([10.0, 20.0])), col.Vehicle(mass=900.0), 0.1)
+    with pytest.raises(col.ShapeError, match=rf"batch of shape \(2,\), and plot.{picture} draws one case") as caught:
+        DRAWN[picture](batch)
+    assert caught.value.code == "bad_shape"
+    assert "plot.distribution" in str(caught.value)
+    assert not plt.get_fignums()
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+def test_a_refused_impact_is_refused_with_its_reason(picture):
+    refused = col.linear_central(col.Vehicle(mass=1000.0, vx=-10.0), col.Vehicle(mass=900.0), 0.1, on_failure="nan")
+    with pytest.raises(col.InputError, match="move apart along the normal") as caught:
+        DRAWN[picture](refused)
+    assert caught.value.code == "refused_cases"
+    assert caught.value.fields["status"] == "separating"
+    assert not plt.get_fignums()
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+def test_what_is_no_impact_is_refused(picture):
+    with pytest.raises(col.InputError, match=rf"plot.{picture}\(") as caught:
+        DRAWN[picture](A)
+    assert caught.value.code == "not_an_impact"
+
+
+@pytest.mark.parametrize("picture", [*DRAWN, "contributions", "distribution"])
+@pytest.mark.parametrize("given", ["SI", "imperial", None, ["si"]])
+def test_units_that_are_not_known_are_refused(picture, given):
+    draw = DRAWN.get(picture) or getattr(plot, picture)
+    with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us'") as caught:
+        draw(IMPACTS["sticking"], units=given)
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "units")
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: plt.subplots(), lambda: plt.subplots(1, 2)[1], lambda: plt.subplot(projection="polar")]
+)
+def test_what_is_not_one_axes_is_refused(make):
+    with pytest.raises(col.InputError, match=r"axes must be one Axes.*subplots\(\)") as caught:
+        plot.energy(IMPACTS["sticking"], axes=make())
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "axes")
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+def test_without_matplotlib_the_error_says_what_to_install(picture, monkeypatch):
+    for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(col.MissingInputError, match=re.escape("pip install 'collisions[plot]'")) as caught:
+        DRAWN[picture](IMPACTS["sticking"])
+    assert caught.value.code == "missing_matplotlib"
+    assert isinstance(caught.value.__cause__, ImportError)
+
+
+def test_matplotlib_is_imported_when_something_is_drawn_and_not_before():
+    code = "import sys, collisions.plot; assert 'matplotlib' not in sys.modules; assert 'pint' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
+
+
+def test_only_where_it_is_needed_matplotlib_is_named():
+    """No import of it outside functions and TYPE_CHECKING, in any module of the package."""
+    for path in (ROOT / "src/collisions/plot").glob("*.py"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                modules = [alias.name for alias in node.names] + [getattr(node, "module", "") or ""]
+                assert not any("matplotlib" in name for name in modules), path
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_units_of_labels_are_those_of_pint(system):
+    labels = Units(system)
+    for kind, unit in SHOWN["si"].items():
+        assert labels.factor(unit) == pytest.approx(factor(system, kind), rel=ROUNDING)
+        assert labels.name(unit) == SHOWN[system][kind].replace("*", " ")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (5.473, "5.473"),
+        (16.66666, "16.67"),
+        (-12.0, "\u221212.00"),
+        (414691.0, "414\u2009700"),
+        (999.99, "1\u2009000"),
+        (0.01234567, "0.01235"),
+        (3e-9, "3.000e\u221209"),
+        (math.inf, "inf"),
+    ],
+)
+def test_numbers_have_four_digits_and_no_exponent_if_it_can_be_helped(value, text):
+    assert number(value) == text
+
+
+@pytest.mark.parametrize(
+    ("system", "value", "unit", "text"),
+    [
+        ("metric", 60.04 / 3.6, "m/s", "60.0 km/h"),
+        ("metric", 0.001 / 3.6, "m/s", "0.001000 km/h"),
+        ("metric", math.radians(157.4), "rad", "157°"),
+        ("us", math.radians(157.4), "rad/s", "157°/s"),
+        ("us", 1.0, "kg", "2.205 lb"),
+        ("si", 13356.0, "N*s", "13\u2009360 N s"),
+    ],
+)
+def test_numbers_are_shown_with_units_as_well_as_they_can_be_known(system, value, unit, text):
+    """0.1 km/h and 1 degree, but never 0 for what is not."""
+    assert Units(system).text(value, unit) == text
+
+
+# Scene
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+def test_velocities_and_impulses_of_the_scene_are_those_of_the_result(case):
+    """Read back with the scale that is printed below the picture."""
+    impact, system = IMPACTS[case], UNITS[case]
+    axes = drawn("scene", case)
+    found = vectors(axes)
+    per_speed = scale(axes, "velocities") / factor(system, "speed")
+    per_impulse = scale(axes, "impulses") / factor(system, "impulse")
+    # Positions are a few metres, and taken from the ends of an arrow.
+    near = 1e-11
+    for letter in "ab":
+        side = getattr(impact, letter)
+        for when in ("before", "after"):
+            state = getattr(side, when)
+            if state.speed == 0.0:
+                assert f"{letter}.{when}" not in found
+            else:
+                assert found[f"{letter}.{when}"] * per_speed == pytest.approx(
+                    (state.vx, state.vy), abs=near * state.speed * 1e3
+                )
+        size = math.hypot(impact.normal_impulse, impact.tangential_impulse)
+        shown = found[f"impulse.{letter}"] * per_impulse
+        assert shown == pytest.approx((side.impulse_x, side.impulse_y), abs=near * size * 1e3)
+    n = found["normal"] / np.hypot(*found["normal"])
+    t = found["tangent"] / np.hypot(*found["tangent"])
+    assert n == pytest.approx(impact.normal, abs=1e-9)
+    assert t == pytest.approx((-impact.normal[1], impact.normal[0]), abs=1e-9)
+    assert axes.get_aspect() == 1.0
+
+
+def test_the_scene_is_to_scale():
+    """Velocities before end at the centre of mass, those after start there, impulses at the contact; all in feet."""
+    axes = plot.scene(IMPACTS["sticking"], units="us")
+    feet = factor("us", "length")
+    ends = arrows(axes)
+    for letter, place in (("a", (-2.2, 0.0)), ("b", (0.9, -0.8))):
+        place = np.array(place) * feet
+        assert ends[f"{letter}.before"][1] == pytest.approx(place, abs=1e-12)
+        assert ends[f"{letter}.after"][0] == pytest.approx(place, abs=1e-12)
+        assert np.ravel(named(axes, f"{letter}.centre").get_xydata()) == pytest.approx(place)
+        assert ends[f"impulse.{letter}"][0] == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert np.ravel(named(axes, "contact").get_xydata()) == pytest.approx((0.0, 0.0))
+
+
+def test_a_central_impulse_acts_at_the_centres_and_has_no_contact_point():
+    axes = plot.scene(IMPACTS["oblique"])
+    ends = arrows(axes)
+    assert ends["impulse.a"][0] == pytest.approx((-2.0, -0.3))
+    assert ends["impulse.b"][0] == pytest.approx((2.0, 0.8))
+    assert "contact" not in names(axes)
+
+
+@pytest.mark.parametrize(
+    ("moment", "drawn"),
+    [
+        ("before", {"a.before", "b.before"}),
+        ("after", {"a.after", "b.after", "impulse.a", "impulse.b"}),
+        ("both", {"a.before", "b.before", "a.after", "b.after", "impulse.a", "impulse.b"}),
+    ],
+)
+def test_the_moment_chooses_what_is_drawn(moment, drawn):
+    axes = plot.scene(IMPACTS["sticking"], moment=moment)
+    assert set(arrows(axes)) == drawn | {"normal", "tangent"}
+    assert moment in axes.get_title().lower() or moment == "both"
+    assert ("impulses" in axes.get_xlabel()) == (moment != "before")
+
+
+def test_outlines_lie_along_the_heading():
+    """Length and width, and how far ahead of the middle the centre of mass is; with units."""
+    turned = B.replace(heading="30 deg")
+    axes = plot.scene(
+        col.eccentric(A, turned, 0.1, friction=0.5, **T_BONE), outline_a=(4.4, 1.8), outline_b=("440 cm", "1.75 m", 0.2)
+    )
+    corners = named(axes, "a.outline").get_xy()[:4] - (-2.2, 0.0)
+    assert corners == pytest.approx(np.array([(2.2, -0.9), (2.2, 0.9), (-2.2, 0.9), (-2.2, -0.9)]))
+    c, s = math.cos(math.pi / 6), math.sin(math.pi / 6)
+    own = (named(axes, "b.outline").get_xy()[:4] - (0.9, -0.8)) @ np.array([[c, -s], [s, c]])
+    assert own == pytest.approx(np.array([(2.0, -0.875), (2.0, 0.875), (-2.4, 0.875), (-2.4, -0.875)]))
+    assert area(named(axes, "b.outline")) == pytest.approx(4.4 * 1.75)
+    # The heavy edge is the front.
+    assert named(axes, "a.front").get_xdata() == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["outline_a", "outline_b"])
+def test_an_outline_needs_position_and_heading(name):
+    with pytest.raises(col.MissingInputError, match="has no x") as caught:
+        plot.scene(IMPACTS["example 2"], **{name: (4.0, 1.8)})
+    assert caught.value.code == "missing_position"
+    with pytest.raises(col.MissingInputError, match=rf"has no heading, which {name} needs") as caught:
+        plot.scene(IMPACTS["oblique"], **{name: (4.0, 1.8)})
+    assert caught.value.code == "missing_heading"
+
+
+def test_an_outline_is_not_drawn_into_a_sketch():
+    """One vehicle has its place, the other has none: together they have no scale."""
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=9.0, x=0.0, y=0.0, heading=0.0), col.Vehicle(mass=900.0), 0.1)
+    with pytest.raises(col.MissingInputError, match="b has no x") as caught:
+        plot.scene(impact, outline_a=(4.0, 1.8))
+    assert caught.value.code == "missing_position"
+
+
+@pytest.mark.parametrize("given", [4.4, (4.4,), (1.0, 2.0, 3.0, 4.0), "4.4 m", {}])
+def test_an_outline_of_another_form_is_refused(given):
+    with pytest.raises(col.ShapeError, match=r"outline_b must be \(length, width\).*corners \(forward, left\)") as caught:
+        plot.scene(IMPACTS["sticking"], outline_b=given)
+    assert caught.value.code == "bad_shape"
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        ((0.0, 1.8), "not_positive"),
+        ((4.4, math.inf), "bad_outline"),
+        ((4.4, "1.8 kg"), "bad_units"),
+        ((4.4, [1.0]), "bad_shape"),
+    ],
+)
+def test_sizes_that_cannot_be_are_refused(given, code):
+    with pytest.raises(col.InputError, match="outline_a") as caught:
+        plot.scene(IMPACTS["sticking"], outline_a=given)
+    assert caught.value.code == code
+
+
+def test_a_moment_that_is_not_known_is_refused():
+    with pytest.raises(col.InputError, match="moment must be 'before', 'after' or 'both', got 'during'") as caught:
+        plot.scene(IMPACTS["sticking"], moment="during")
+    assert caught.value.code == "bad_option"
+
+
+def test_places_that_were_not_given_are_a_sketch_and_said_to_be():
+    """No numbers on the axes, which would be made up."""
+    for case in ("example 2", "wall in line"):
+        axes = drawn("scene", case)
+        assert "not all positions given: a sketch" in axes.get_xlabel()
+        assert len(axes.get_xticks()) == len(axes.get_yticks()) == 0
+    for case in ("oblique", "sticking", "wall aslant"):
+        axes = drawn("scene", case)
+        assert "sketch" not in axes.get_xlabel()
+        assert len(axes.get_xticks()) > 2
+
+
+def test_what_is_met_at_the_contact_alone_is_a_wall_behind_it():
+    axes = plot.scene(IMPACTS["wall aslant"])
+    assert {"b.wall", "a.centre"} <= names(axes)
+    assert "b.centre" not in names(axes)
+    n = np.array(IMPACTS["wall aslant"].normal)
+    depths = (named(axes, "b.wall").get_xy() - (0.0, -0.5)) @ n
+    assert depths.min() == pytest.approx(0.0, abs=1e-9)
+    assert depths.max() > 0.1
+
+
+def test_the_pivot_is_marked():
+    axes = drawn("scene", "example 3")
+    assert np.ravel(named(axes, "b.pivot").get_xydata()) == pytest.approx((0.0, 0.0))
+    assert "pivot of B" in [text.get_text() for text in axes.texts]
+
+
+def test_yaw_rates_say_which_way_round():
+    """A turns counter-clockwise after this impact, B clockwise."""
+    texts = "\n".join(text.get_text() for text in plot.scene(IMPACTS["sticking"], units="metric").texts)
+    impact = IMPACTS["sticking"]
+    for letter, sign in (("A", "↺"), ("B", "↻")):
+        rate = getattr(impact, letter.lower()).after.yaw_rate
+        assert (rate > 0.0) == (sign == "↺")
+        assert f"yaw {abs(math.degrees(rate)):.0f}°/s {sign}" in texts
+
+
+def test_names_are_text_and_no_formula():
+    axes = drawn("scene", "oblique")
+    (text,) = [text for text in axes.texts if "van $1" in text.get_text()]
+    assert text.get_text() == "A (van $1)"
+    assert not text.get_parse_math()
+
+
+@pytest.mark.parametrize(
+    ("picture", "case"),
+    [
+        *(("scene", case) for case in ("example 2", "oblique", "sticking", "elastic", "head-on", "example 3", "wall aslant")),
+        ("momentum", "sticking"),
+    ],
+)
+def test_labels_do_not_hide_each_other(picture, case):
+    """As drawn: letters of two labels overlap by a point at most."""
+    axes = drawn(picture, case)
+    figure = axes.figure
+    figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in axes.texts if text.get_text()]
+    point = figure.dpi / 72.0
+    for i, one in enumerate(boxes):
+        for other in boxes[i + 1 :]:
+            wide = min(one.x1, other.x1) - max(one.x0, other.x0)
+            high = min(one.y1, other.y1) - max(one.y0, other.y0)
+            assert min(wide, high) <= 1.0 * point, (axes.texts[i].get_text(), wide, high)
+
+
+# Momentum
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+def test_arrows_of_the_momentum_diagram_are_the_momenta(case):
+    impact, system = IMPACTS[case], UNITS[case]
+    found = vectors(drawn("momentum", case))
+    per_unit = 1.0 / factor(system, "impulse")
+    size = max(math.hypot(*vector) for vector in found.values()) * per_unit
+    for letter in "ab":
+        for when in ("before", "after"):
+            state = getattr(getattr(impact, letter), when)
+            if math.isinf(state.mass) or state.speed == 0.0:
+                assert f"{when}.{letter}" not in found
+            else:
+                shown = found[f"{when}.{letter}"] * per_unit
+                assert shown == pytest.approx((state.mass * state.vx, state.mass * state.vy), abs=ROUNDING * size)
+
+
+@pytest.mark.parametrize("case", ["example 2", "oblique", "sticking", "sliding", "ratio", "elastic", "head-on"])
+def test_free_vehicles_keep_their_total_momentum(case):
+    """The two chains end where the total ends: equation 2 of the paper."""
+    found = vectors(drawn("momentum", case))
+    zero = np.zeros(2)
+    for when in ("before", "after"):
+        chain = found.get(f"{when}.a", zero) + found.get(f"{when}.b", zero)
+        assert chain == pytest.approx(found["total"], rel=1e-10, abs=1e-9)
+    assert "outside" not in found
+
+
+def test_momenta_are_head_to_tail():
+    """Where none lies on another they start at the origin, and B where A ends."""
+    ends = arrows(drawn("momentum", "sticking"))
+    for when in ("before", "after"):
+        assert ends[f"{when}.a"][0] == pytest.approx((0.0, 0.0))
+        assert ends[f"{when}.b"][0] == pytest.approx(ends[f"{when}.a"][1])
+        assert ends[f"{when}.b"][1] == pytest.approx(ends["total"][1])
+
+
+@pytest.mark.parametrize("case", ["example 2", "wall in line", "head-on", "example 3", "sliding"])
+def test_momenta_along_one_line_do_not_hide_each_other(case):
+    """Two that are parallel are apart, or follow each other."""
+    axes = drawn("momentum", case)
+    ends = list(arrows(axes).values())
+    size = max(np.hypot(*(tip - tail)) for tail, tip in ends)
+    for i, (tail, tip) in enumerate(ends):
+        along = (tip - tail) / np.hypot(*(tip - tail))
+        for other_tail, other_tip in ends[i + 1 :]:
+            gaps = [along[0] * (p - tail)[1] - along[1] * (p - tail)[0] for p in (other_tail, other_tip)]
+            reach = sorted(float(along @ (p - tail)) for p in (other_tail, other_tip))
+            overlap = min(reach[1], np.hypot(*(tip - tail))) - max(reach[0], 0.0)
+            assert max(map(abs, gaps)) > 0.01 * size or overlap < 0.021 * size
+    assert "side by side" in axes.get_title()
+
+
+def test_what_a_pivot_gives_closes_the_diagram():
+    """The impulse of the pivot on B is 3.65 kN s in Example 3."""
+    impact = IMPACTS["example 3"]
+    found = vectors(plot.momentum(impact, units="metric"))
+    assert found["outside"] == pytest.approx((impact.b.pivot_impulse_x / 1e3, impact.b.pivot_impulse_y / 1e3), abs=1e-12)
+    assert math.hypot(*found["outside"]) == pytest.approx(3.65, abs=0.005)
+    assert found["total.before"] + found["outside"] == pytest.approx(found["total.after"])
+
+
+def test_what_a_wall_gives_closes_the_diagram():
+    impact = IMPACTS["wall aslant"]
+    axes = plot.momentum(impact)
+    found = vectors(axes)
+    assert found["outside"] == pytest.approx((impact.a.impulse_x, impact.a.impulse_y))
+    assert "given by B, of infinite mass" in [text.get_text() for text in axes.get_legend().get_texts()][-1]
+
+
+def test_two_infinite_masses_have_no_momentum_to_draw():
+    """A can turn: the impact has an answer, but no momentum."""
+    a = col.Vehicle(mass=math.inf, yaw_inertia=2000.0, yaw_rate=1.0, x=0.0, y=-2.0)
+    impact = col.eccentric(a, col.Vehicle.barrier(), 0.2, normal="180 deg", point=(0.0, 0.0), friction=0.0)
+    with pytest.raises(col.InputError, match="both vehicles have an infinite mass") as caught:
+        plot.momentum(impact)
+    assert caught.value.code == "infinite_mass"
+
+
+# Impulse plane
+
+
+def on_line(line, x, y):
+    """How far a place is from a drawn line, in parts of the impulse."""
+    (x0, x1), (y0, y1) = line.get_data()
+    length = math.hypot(x1 - x0, y1 - y0)
+    return abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) / length / math.hypot(x, y)
+
+
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
+@pytest.mark.parametrize("family", ["traffic", "barrier", "A pinned", "B pinned", "both pinned"])
+def test_lines_of_the_impulse_plane_are_those_of_the_reference(family, law):
+    """K and no-slip impulse from 60 digits: on each line the closing speed or the slip is what the line says."""
+    for scene, answer in cases(family, law, "friction", 2):
+        if answer.regime not in ("sliding", "sticking"):
+            continue
+        axes = plot.impulse_plane(solved("eccentric", scene))
+        k_nn, k_nt, k_tt = (float(part) for part in (answer.k_nn, answer.k_nt, answer.k_tt))
+        c, slip, e = float(answer.closing), float(answer.slip), scene.restitution
+        wanted = {
+            "end of compression": (k_nn, k_nt, c),
+            "end of restitution": (k_nn, k_nt, (1.0 + e) * c),
+            "no slip": (k_nt, k_tt, -slip),
+        }
+        if law == "kudlich-slibar" and e > 0.0:
+            wanted["no slip at separation"] = (k_nt, k_tt, -(1.0 + e) * slip)
+        assert ("no slip at separation" in names(axes)) == (len(wanted) == 4)
+        for name, (along_n, along_t, total) in wanted.items():
+            for x, y in named(axes, name).get_xydata():
+                # Rounding of the kernel, of the difference the yield is read from, and of the ends of the line.
+                size = abs(along_n * x) + abs(along_t * y) + abs(total)
+                assert along_n * x + along_t * y == pytest.approx(total, abs=1e-9 * size), (name, scene)
+        plt.close(axes.figure)
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+def test_the_answer_is_where_the_lines_put_it(case):
+    impact, system = IMPACTS[case], UNITS[case]
+    axes = drawn("impulse_plane", case)
+    (x,), (y,) = named(axes, "answer").get_data()
+    per_unit = 1.0 / factor(system, "impulse")
+    assert (x * per_unit, y * per_unit) == pytest.approx((impact.normal_impulse, impact.tangential_impulse), rel=ROUNDING)
+    assert on_line(named(axes, "end of restitution"), x, y) < 1e-10
+    (x1,), (y1,) = named(axes, "at compression").get_data()
+    assert on_line(named(axes, "end of compression"), x1, y1) < 1e-10
+    assert x1 * per_unit == pytest.approx(impact.compression_impulse)
+    if impact.regime == "sticking":
+        last = "no slip" if impact.law == "brach" else "no slip at separation"
+        assert on_line(named(axes, last), x, y) < 1e-10
+        assert on_line(named(axes, "no slip"), x1, y1) < 1e-10 or impact.law == "brach"
+    if impact.regime == "sliding":
+        edge = "friction +" if y > 0.0 else "friction -"
+        assert on_line(named(axes, edge), x, y) < 1e-10
+    low, high = axes.get_ylim()
+    assert axes.get_xlim()[0] == 0.0
+    assert x < axes.get_xlim()[1]
+    assert low < y < high
+
+
+def test_the_friction_cone_has_the_slope_of_the_friction():
+    axes = drawn("impulse_plane", "sticking")
+    for name, slope in (("friction +", 0.5), ("friction -", -0.5)):
+        (x0, x1), (y0, y1) = named(axes, name).get_data()
+        assert (y1 - y0) / (x1 - x0) == pytest.approx(slope)
+    assert any("friction 0.5" in text.get_text() for text in axes.get_legend().get_texts())
+
+
+@pytest.mark.parametrize(("case", "lines"), [("no slip", 0), ("elastic", 0), ("example 2", 0), ("ratio", 0), ("sliding", 2)])
+def test_there_is_a_cone_only_where_friction_bounds_the_impulse(case, lines):
+    axes = drawn("impulse_plane", case)
+    assert len([name for name in names(axes) if name.startswith("friction")]) == lines
+    assert ("ratio" in names(axes)) == (case == "ratio")
+    assert ("no slip" in names(axes)) == (case != "example 2")
+
+
+def test_the_plane_of_a_model_that_solve_chose_is_that_of_the_model():
+    """Re-asked for another ratio, the choice itself might be another."""
+    chosen = col.solve(A, B, 0.1, friction=0.5, tolerance=1e9, **T_BONE)
+    assert chosen.model != "eccentric"
+    plot.impulse_plane(chosen)
+    whole = col.solve(A, B, 0.1, friction=0.5, **T_BONE)
+    one, other = (named(plot.impulse_plane(impact), "no slip").get_xydata() for impact in (whole, IMPACTS["sticking"]))
+    assert one == pytest.approx(other)
+
+
+def test_an_energy_gain_is_not_warned_of_again():
+    with pytest.warns(col.EnergyGainWarning):
+        gaining = col.eccentric(A, B, 1.0, impulse_ratio=0.5, **T_BONE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        plot.impulse_plane(gaining)
+        axes = plot.energy(gaining, units="metric")
+    assert axes.get_title().startswith(f"Energy gained: {-gaining.energy_loss / 1e3:.1f} kJ")
+    assert any(text.get_text().endswith("gained") for text in axes.texts)
+
+
+# Force against time
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+def test_areas_are_the_impulses(case):
+    """To rounding, from the corners that were drawn; their ratio is the restitution."""
+    impact, system = IMPACTS[case], UNITS[case]
+    axes = drawn("force_time", case)
+    per_area = 1.0 / (factor(system, "force") * factor(system, "time"))
+    assert area(named(axes, "A1")) * per_area == pytest.approx(impact.compression_impulse, rel=ROUNDING)
+    if impact.restitution == 0.0:
+        assert "A2" not in names(axes)
+    else:
+        second = area(named(axes, "A2")) * per_area
+        assert second == pytest.approx(impact.restitution_impulse, rel=ROUNDING)
+        assert second / (area(named(axes, "A1")) * per_area) == pytest.approx(impact.restitution, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(("restitution", "turn"), [(0.0, 0.1), (0.25, 0.08), (1.0, 0.05)])
+def test_restitution_takes_its_part_of_the_time(restitution, turn):
+    """Figure 3: as long as compression if elastic, shorter if elastoplastic, no time if plastic."""
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=10.0), col.Vehicle(mass=1000.0), restitution)
+    axes = plot.force_time(impact, 0.1)
+    first = named(axes, "A1").get_xy()
+    assert (first[:, 0].min(), first[:, 0].max()) == pytest.approx((0.0, turn))
+    assert named(axes, "end of compression").get_xdata()[0] == pytest.approx(turn)
+    if restitution:
+        second = named(axes, "A2").get_xy()
+        assert (second[:, 0].min(), second[:, 0].max()) == pytest.approx((turn, 0.1))
+        # One peak for both.
+        assert second[:, 1].max() == pytest.approx(first[:, 1].max(), rel=1e-12)
+    assert impact.kind in axes.get_title()
+    # A quarter of a sine has the mean 2/pi of its height; the polygon differs by (pi/2/399)**2 / 12 = 1.3e-6.
+    assert first[:, 1].max() == pytest.approx(0.5 * math.pi * impact.compression_impulse / turn, rel=2e-6)
+
+
+def test_the_mean_force_is_the_impulse_over_the_duration():
+    impact = IMPACTS["example 2"]
+    axes = plot.force_time(impact, 0.12)
+    assert named(axes, "mean force").get_ydata()[0] == pytest.approx(impact.normal_impulse / 0.12)
+    assert "assumed" in axes.get_title()
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        (0.0, "not_positive"),
+        (-0.1, "not_positive"),
+        (math.inf, "bad_shape"),
+        (math.nan, "not_finite"),
+        (np.array([0.1, 0.2]), "bad_shape"),
+        ([0.1], "bad_shape"),
+        ("0.1 m", "bad_units"),
+        (True, "not_a_number"),
+    ],
+)
+def test_a_duration_that_cannot_be_is_refused(given, code):
+    with pytest.raises(col.InputError, match="duration") as caught:
+        plot.force_time(IMPACTS["example 2"], given)
+    assert caught.value.code == code
+    assert not plt.get_fignums()
+
+
+def test_a_duration_in_milliseconds_is_suspected():
+    with pytest.warns(col.SuspectUnitsWarning, match="'100 ms'"):
+        plot.force_time(IMPACTS["example 2"], 100.0)
+    plot.force_time(IMPACTS["example 2"], "2 s")
+
+
+# Energy
+
+
+@pytest.mark.parametrize("case", IMPACTS)
+def test_bars_are_the_energies_and_what_came_in_went_out(case):
+    impact, system = IMPACTS[case], UNITS[case]
+    axes = drawn("energy", case)
+    per_unit = 1.0 / factor(system, "energy")
+    bars = {bar.get_gid(): bar for bar in axes.patches if bar.get_gid()}
+
+    def energy(state):
+        """By hand."""
+        if math.isinf(state.mass):
+            return 0.0
+        turning = 0.0 if state.yaw_rate == 0.0 else 0.5 * state.yaw_inertia * state.yaw_rate**2
+        return 0.5 * state.mass * (state.vx**2 + state.vy**2) + turning
+
+    total = energy(impact.a.before) + energy(impact.b.before)
+    for name, wanted in {
+        "a.before": energy(impact.a.before),
+        "b.before": energy(impact.b.before),
+        "lost.normal": -impact.energy_loss_normal,
+        "lost.tangential": -impact.energy_loss_tangential,
+        "a.after": -energy(impact.a.after),
+        "b.after": -energy(impact.b.after),
+    }.items():
+        assert bars[name].get_width() * per_unit == pytest.approx(wanted, rel=1e-12, abs=1e-12 * total)
+    ordered = list(bars.values())
+    for one, other in itertools.pairwise(ordered):
+        assert other.get_x() == pytest.approx(one.get_x() + one.get_width(), abs=1e-9 * total / per_unit)
+    # Kinetic energies and losses are worked out apart from each other: what is left over is rounding.
+    assert (ordered[-1].get_x() + ordered[-1].get_width()) * per_unit == pytest.approx(0.0, abs=1e-12 * total)
+
+
+def test_a_moving_wall_has_no_finite_energy_and_the_refusal_says_what_to_do():
+    wall = col.Vehicle.barrier(vx=-2.0)
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=10.0), wall, 0.1)
+    with pytest.raises(
+        col.InputError, match=r"b has an infinite mass or yaw inertia and moves.*frame in which it rests"
+    ) as caught:
+        plot.energy(impact)
+    assert caught.value.code == "infinite_mass"
+    assert not plt.get_fignums()
+    # The other pictures need no energy.
+    plot.momentum(impact)
+    plot.scene(impact)
+
+
+def test_bars_differ_in_more_than_colour():
+    bars = {bar.get_gid(): bar.get_hatch() for bar in drawn("energy", "sticking").patches if bar.get_gid()}
+    assert bars["lost.normal"] != bars["lost.tangential"]
+    assert not bars["a.before"]
+    assert bars["a.after"] not in (bars["lost.normal"], bars["lost.tangential"], "")
+
+
+def test_lines_differ_in_more_than_colour():
+    for draw in (plot.impulse_plane, plot.momentum):
+        axes = draw(IMPACTS["returning slip"])
+        handles = [line for line in axes.get_lines() if not line.get_label().startswith("_") and line.get_linestyle() != "None"]
+        if draw is plot.impulse_plane:
+            styles = [(str(line._unscaled_dash_pattern), line.get_linewidth()) for line in handles]
+            assert len(set(styles)) == len(styles)
+        else:
+            tags = [line.get_label().partition(":")[0] for line in handles]
+            assert set(tags) <= {text.get_text() for text in axes.texts}
+
+
+# Uncertainty
+
+
+def test_bars_are_the_contributions():
+    found = RESULT["energy"]
+    axes = plot.contributions(RESULT, "energy")
+    bars = {bar.get_gid(): bar.get_width() for bar in axes.patches if bar.get_gid()}
+    assert bars == pytest.approx({f"share of {name}": 100.0 * share for name, share in found.contributions.items()})
+    assert [text.get_text() for text in axes.get_yticklabels()] == list(found.contributions)
+    wanted = [100.0 * found.total_contributions[name] for name in found.contributions]
+    assert named(axes, "total").get_xdata() == pytest.approx(wanted)
+    segments = [np.diff(segment[:, 0])[0] / 2 for group in axes.collections for segment in group.get_segments()]
+    errors = [100.0 * found.contribution_standard_errors[name][which] for which in (0, 1) for name in found.contributions]
+    assert segments == pytest.approx(errors)
+    assert axes.get_xlabel() == "share of the variance [%]"
+
+
+@pytest.mark.parametrize(("system", "unit"), [("si", "J"), ("metric", "kJ"), ("us", "ft lbf")])
+def test_pictures_of_an_output_have_its_unit(system, unit):
+    spread = RESULT["energy"].std * factor(system, "energy")
+    title = plot.contributions(RESULT, "energy", units=system).get_title()
+    assert title.startswith(f"energy: standard deviation {number(spread)} {unit}")
+    assert plot.distribution(RESULT["energy"], units=system).get_xlabel() == f"energy [{unit}]"
+
+
+def test_an_output_without_a_unit_is_not_given_one():
+    assert plot.distribution(RESULT["momentum"], units="us").get_xlabel() == "momentum"
+    assert plot.contributions(RESULT["momentum"], units="us").get_title().startswith("momentum: standard deviation 13")
+
+
+def test_a_local_method_has_no_standard_errors_and_none_are_drawn():
+    local = uncertainty.propagate(squared, INPUTS, method="first_order")
+    axes = plot.contributions(local, "energy")
+    assert not axes.collections
+    assert "standard error" not in [text.get_text() for text in axes.get_legend().get_texts()]
+    with pytest.raises(col.InputError, match="nothing was sampled") as caught:
+        plot.distribution(local["energy"])
+    assert caught.value.code == "not_sampled"
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_histogram_and_its_lines_are_those_of_the_output(system):
+    found = RESULT["energy"]
+    axes = plot.distribution(found, coverage=0.9, bins=25, units=system)
+    kilo = factor(system, "energy")
+    values, edges, _ = named(axes, "histogram").get_data()
+    assert values.sum() == pytest.approx(100.0)
+    counts = np.histogram(found.values * kilo, edges)[0]
+    assert len(values) == 25
+    # An edge may fall on the other side of a value when both are multiplied.
+    assert values == pytest.approx(100.0 * counts / counts.sum(), abs=100.0 * 1.5 / counts.sum())
+    low, high = np.quantile(found.values, (0.05, 0.95)) * kilo
+    for name, wanted in {
+        "low": low,
+        "high": high,
+        "mean": found.values.mean() * kilo,
+        "median": np.median(found.values) * kilo,
+    }.items():
+        assert named(axes, name).get_xdata()[0] == pytest.approx(wanted, rel=1e-9)
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert any(text.startswith("90 % interval") for text in texts)
+
+
+def test_which_output_must_be_said_if_there_are_several():
+    with pytest.raises(col.InputError, match="'energy', 'momentum'; say which one") as caught:
+        plot.contributions(RESULT)
+    assert caught.value.code == "no_output"
+    with pytest.raises(col.InputError, match="there is no output 'speed'") as caught:
+        plot.contributions(RESULT, "speed")
+    assert caught.value.code == "no_output"
+    single = uncertainty.propagate(lambda speed: {"double": 2.0 * speed}, {"speed": INPUTS["speed"]}, method="first_order")
+    assert plot.contributions(single).get_title().startswith("double")
+
+
+@pytest.mark.parametrize("given", [None, IMPACTS["sticking"], {"speed": 1.0}, 3.0])
+def test_what_is_no_result_of_a_propagation_is_refused(given):
+    with pytest.raises(col.InputError, match=r"uncertainty\.propagate returned"):
+        plot.contributions(given)
+    with pytest.raises(col.InputError, match=r"plot.distribution\(result\['delta_v'\]\)"):
+        plot.distribution(given)
+    with pytest.raises(col.InputError, match="without a name"):
+        plot.contributions(RESULT["energy"], "energy")
+    with pytest.raises(col.InputError, match="output must be a name"):
+        plot.contributions(RESULT, 3)
+
+
+def test_an_interval_has_neither_shares_nor_one_distribution():
+    mixed = uncertainty.propagate(
+        squared, INPUTS | {"mass": uncertainty.Interval(1100.0, 1300.0)}, method="quasi_random", samples=256, seed=1
+    )
+    for draw in (plot.contributions, plot.distribution):
+        with pytest.raises(col.InputError, match="says nothing of likelihood") as caught:
+            draw(mixed["energy"])
+        assert caught.value.code == "no_variance"
+
+
+def test_what_does_not_vary_has_no_variance_to_share():
+    fixed = uncertainty.propagate(lambda speed: {"one": 0.0 * speed + 1.0}, {"speed": INPUTS["speed"]}, method="first_order")
+    with pytest.raises(col.InputError, match="'one' has no variance to share") as caught:
+        plot.contributions(fixed)
+    assert caught.value.code == "no_variance"
