@@ -734,7 +734,7 @@ def test_shown(stated, text):
 
 
 def test_read_input():
-    vehicle, distribution, interval, pair = col.Vehicle(mass=900), Normal(1, 2), Interval(1, 2), ("1 m", 2.0)
+    vehicle, distribution, interval, pair = col.Vehicle(mass=900), Normal(1, 2), Interval(1, 2), (1.0, 2.0)
     for other in (vehicle, distribution, interval, pair, None, [1.0, 2.0], len, Samples(VALUES)):
         assert read_input("x", other) is other
     for given, expected in (

@@ -194,20 +194,56 @@ def test_directions_across_pi():
 
 
 def test_an_interval_is_never_drawn_from():
-    """Between the bounds the model is asked at a few places only, both bounds among them, and at each of them with the same draws."""
-    asked = []
+    """The model is asked at places between the bounds, both bounds among them, and at each of them with the same draws."""
+    searched, ran = [], []
 
     def model(x, k):
-        asked.append((k, x.tobytes()))
+        (searched if isinstance(k, np.ndarray) else ran).append((k, x))
         return {"y": x + k}
 
-    propagate(model, {"x": Normal(0.0, 1.0), "k": Interval(2.0, 3.0)}, method="quasi_random", seed=1, samples=64)
-    places = [k for k, _ in asked]
-    assert places[0] == 2.0
-    assert places[-1] == 3.0
-    assert len(set(places)) == len(places) == 9
-    assert all(type(k) is float for k in places)
-    assert len({x for _, x in asked}) == 1
+    found = propagate(model, {"x": Normal(0.0, 1.0), "k": Interval(2.0, 3.0)}, method="quasi_random", seed=1, samples=64)
+    common = searched[0][1][:256].tobytes()
+    for k, x in searched:
+        for places, draws in zip(k.reshape(-1, 256), x.reshape(-1, 256), strict=True):
+            assert np.ptp(places) == 0.0
+            assert 2.0 <= places[0] <= 3.0
+            assert draws.tobytes() == common
+    assert {2.0, 3.0} <= {k for k, _ in ran}
+    assert len({x.tobytes() for _, x in ran}) == 1
+    assert found.samples == sum(x.size for _, x in searched + ran)
+
+
+def test_extremes_between_the_places_of_a_grid():
+    """Delta-V is greatest where the impulse passes through the centre of mass: away from any place that a grid would take."""
+
+    def model(speed, aside):
+        a = col.Vehicle(mass=1500.0, vx=speed, yaw_inertia=2500.0, x=-2.1, y=0.0)
+        b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.0)
+        impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, aside), friction=0.4, on_failure="nan")
+        return {"delta_v": impact.b.delta_v}
+
+    inputs = {"speed": Normal(15.0, 0.1), "aside": Interval(-0.55, 1.2)}
+    found = propagate(model, inputs, method="quasi_random", seed=3)["delta_v"]
+    truth = propagate(model, inputs | {"aside": 0.0}, method="quasi_random", seed=3)["delta_v"]
+    # Central, so (1 + e) m_a / (m_a + m_b) of the speed; the search ends within 2**-24 of the interval, where nothing is left.
+    assert found.mean[1] == pytest.approx(1.1 * 15.0 * 1500.0 / 2750.0, rel=1e-6)
+    low, high = found.interval()
+    assert low <= truth.interval()[0]
+    assert high >= truth.interval()[1] * (1.0 - 1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
+def test_an_extreme_inside_of_several_intervals(count):
+    """Found to what its curvature leaves, however many there are and however the corners look."""
+
+    def model(speed, **aside):
+        return {"y": speed * np.exp(-sum((value - 0.3) ** 2 for value in aside.values()))}
+
+    inputs = {"speed": Normal(15.0, 0.1)} | {f"k{i}": Interval(-0.5, 0.8) for i in range(count)}
+    found = propagate(model, inputs, method="monte_carlo", seed=3, samples=1024)["y"]
+    truth = propagate(model, inputs | {f"k{i}": 0.3 for i in range(count)}, method="monte_carlo", seed=3, samples=1024)["y"]
+    assert found.mean[1] == pytest.approx(truth.mean, rel=1e-9)
+    assert found.interval()[1] == pytest.approx(truth.interval()[1], rel=1e-9)
 
 
 @pytest.mark.parametrize("count", range(1, 8))
@@ -216,19 +252,18 @@ def test_every_corner_is_a_place(count):
     asked = set()
 
     def model(x, **rest):
-        asked.add(tuple(rest.values()))
+        asked.update(zip(*(np.broadcast_to(value, x.shape).tolist() for value in rest.values()), strict=True))
         return {"y": x}
 
     inputs = {"x": Normal(0.0, 1.0)} | {f"k{i}": Interval(0.0, 1.0) for i in range(count)}
     propagate(model, inputs, method="monte_carlo", samples=64, seed=1)
     assert {place for place in asked if set(place) <= {0.0, 1.0}} == set(np.ndindex((2,) * count))
-    assert len(asked) <= 260
 
 
 def test_too_many_intervals_beside_distributions():
     """Refused with what to do."""
     inputs = {"x": Normal(0.0, 1.0)} | {f"k{i}": Interval(0.0, 1.0) for i in range(11)}
-    with pytest.raises(col.InputError, match="11 intervals beside distributions are 2048 corners; give at most 10") as caught:
+    with pytest.raises(col.InputError, match="11 intervals are 2048 corners; give at most 10 beside distributions") as caught:
         propagate(lambda **x: {"y": x["x"]}, inputs, method="monte_carlo", samples=64)
     assert caught.value.code == "too_many_intervals"
 
@@ -280,7 +315,7 @@ def test_figures_of_bounds():
     assert energy.mean_standard_error == each[1].mean_standard_error
     assert energy.std_standard_error == each[1].std_standard_error
     assert energy.quantile_standard_error(0.9) == each[1].quantile_standard_error(0.9)
-    assert found.samples == 9 * 1024
+    assert found.samples > len(energy.cases) * 1024
     for name in ("contributions", "total_contributions", "contribution_standard_errors"):
         with pytest.raises(col.InputError, match="Interval among the inputs says nothing of likelihood") as caught:
             getattr(energy, name)
@@ -299,7 +334,7 @@ def test_figures_of_bounds():
 
 
 def test_failures_over_an_interval_are_told_once():
-    """In all, not once for each place: of the square root of x in one case of six none."""
+    """In all, not once for each place: of the square root of x in one case of six none, of 256 draws to a binomial deviation."""
     with pytest.warns(col.OutOfRangeWarning) as caught:
         found = propagate(
             lambda x, k: {"y": np.sqrt(x) + k},
@@ -309,9 +344,8 @@ def test_failures_over_an_interval_are_told_once():
             seed=2,
         )
     assert [record.message.code for record in caught] == ["failed_cases"]
-    assert found.samples == 9 * 1024
     assert found.failed == caught[0].message.fields["failed"]
-    assert found.failed / found.samples == pytest.approx(0.5 * math.erfc(math.sqrt(0.5)), abs=0.005)
+    assert found.failed / found.samples == pytest.approx(0.5 * math.erfc(math.sqrt(0.5)), abs=0.02)
 
 
 def test_progress_over_an_interval():
@@ -325,7 +359,9 @@ def test_progress_over_an_interval():
         seed=1,
         progress=lambda done, total: seen.append((done, total)),
     )
-    assert seen == [(100 * i, 900) for i in range(1, 10)]
+    total = seen[-1][1]
+    assert total >= 200
+    assert seen == [(done, total) for done in range(100, total + 1, 100)]
 
 
 def test_an_interrupt_over_an_interval():
@@ -336,7 +372,7 @@ def test_an_interrupt_over_an_interval():
             raise KeyboardInterrupt
 
     with pytest.warns(
-        col.CollisionsWarning, match="at 2 of 9 places between the bounds: they say nothing of the rest"
+        col.CollisionsWarning, match=r"at 2 of \d+ places between the bounds: they say nothing of the rest"
     ) as caught:
         found = propagate(
             lambda x, k: {"y": x + k},
@@ -348,15 +384,15 @@ def test_an_interrupt_over_an_interval():
         )
     assert [record.message.code for record in caught] == ["interrupted"]
     assert found.interrupted
-    assert found["y"].mean[1] - found["y"].mean[0] == pytest.approx(2.0)
+    assert 1 < len(found["y"].cases) < 4
 
     def model(x, k):
-        if k > 0.0:
+        if np.ndim(k) == 0 and k > 0.0:
             raise KeyboardInterrupt
         return {"y": x + k}
 
     inputs = {"x": Normal(0.0, 1.0), "k": Interval(0.0, 8.0)}
-    with pytest.warns(col.CollisionsWarning, match="at 1 of 9 places") as caught:
+    with pytest.warns(col.CollisionsWarning, match=r"at 1 of \d+ places") as caught:
         assert propagate(model, inputs, method="first_order").interrupted
     with pytest.raises(KeyboardInterrupt):
         propagate(lambda x, k: stop(300, 0), inputs, method="first_order")

@@ -10,6 +10,7 @@ import numpy as np
 _TURN = 2.0 * math.pi
 _EMPTY = 0.25 * _TURN  # less than this is no gap to cut in
 _ROUNDING = 1e-9
+_NEAR_PI = 2.0
 
 
 def are_directions(angles: Any) -> bool:
@@ -39,6 +40,15 @@ def folded(angles: Any, where: float | None) -> Any:
 def beside(angles: Any, middle: float) -> Any:
     """Directions within half a turn of one of them."""
     return folded(angles, middle + math.pi) if are_directions(angles) else angles
+
+
+def jump(values: Any) -> bool:
+    """Whether numbers without a unit look like directions around pi: within half a turn, at both of its ends, few between."""
+    found = values[~np.isnan(values)]
+    if not found.size or not are_directions(found) or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI):
+        return False
+    # Of directions to all sides a third lies there, of a quantity about 0 more.
+    return bool(np.mean(np.abs(found) < 1.0) < 0.16)
 
 
 def point_everywhere(angles: Any) -> bool:

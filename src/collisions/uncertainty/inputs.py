@@ -179,6 +179,15 @@ def read_input(name: str, value: Any) -> Any:
     >>> read_input("speed", "36 km/h"), read_input("restitution", 0.4), read_input("point", (2.1, 0.3))
     (10.0, 0.4, (2.1, 0.3))
     """
+    if isinstance(value, (tuple, list)) and any(
+        isinstance(part, (str, Distribution, Interval)) or is_quantity(part) for part in value
+    ):
+        raise InputError(
+            f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
+            f"and put them together in the model",
+            code="bad_inputs",
+            argument=name,
+        )
     if not (isinstance(value, (str, Number, np.generic)) or is_quantity(value) or hasattr(value, "__array__")):
         return value
     try:

@@ -1,8 +1,9 @@
 """First and second order: derivatives at the mean of the inputs, and a test of whether they tell enough.
 
 First order is the law of propagation of uncertainty of the "Guide to the expression of uncertainty in measurement" (JCGM
-100:2008, eq 13); second order adds the curvature, exactly so where the model is a quadratic. Neither knows of a friction limit
-or a refusal beside the mean, which is why the model is asked at points drawn from the inputs as well and both are compared.
+100:2008, eq 13); second order adds the curvature, exactly so where the model is a quadratic of independent or of normal inputs.
+Neither knows of a friction limit or a refusal beside the mean, which is why the model is asked at points drawn from the inputs
+as well and both are compared.
 """
 
 from __future__ import annotations

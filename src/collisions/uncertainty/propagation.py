@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from typing import Any, Literal, TypeAlias
 
@@ -18,7 +18,7 @@ from .local import differences, local_output, slopes
 from .model import Function, Model, check_names
 from .points import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .question import LOCAL, check_options, read_inputs, read_tolerances
-from .ranges import extremes, places
+from .ranges import extremes
 from .result import Propagation
 from .sampled import Sampled
 from .sampling import MOST_SAMPLES, Sample, enough
@@ -77,8 +77,8 @@ def propagate(
     threads : int, optional
         Blocks of cases worked on at once. The model must then be safe to call from several threads.
     progress : function or bool, optional
-        Called with cases done and cases in all (as far as is known with ``tolerance``); True shows a bar. An interrupt returns
-        what was done until then.
+        Of methods that draw: called with cases done and cases in all (as far as is known with ``tolerance``); True shows a
+        bar. An interrupt returns what was done until then.
 
     Returns
     -------
@@ -138,11 +138,14 @@ def propagate(
     count = None if samples is None else int(samples)
     seed = secrets.randbits(64) if seed is None else int(seed)
     report = reporter(progress)
+    asked = failed = 0
     if not intervals:
         runs = [_run(method, joint, count, tolerance, seed, int(threads), report, whole)]
         number, outputs = 1, dict(runs[0].outputs)
+        _check_answered(runs)
     else:
-        spots = list(places(intervals))
+        searched = extremes(whole, intervals, joint, DESIGNS["quasi_random"](joint.dimensions, seed, 0))
+        spots, asked, failed = searched.places, searched.asked, searched.failed
         runs, number = [], len(spots)
         try:
             for spot in spots:
@@ -154,9 +157,13 @@ def propagate(
         except KeyboardInterrupt:
             if not runs:
                 raise
-        outputs = {name: Bounds(name, one.unit, [run.outputs[name] for run in runs]) for name, one in runs[0].outputs.items()}
-    tell(method, runs, number, method in LOCAL)
-    asked, failed = sum(run.asked for run in runs), sum(run.failed for run in runs)
+        _check_answered(runs)
+        outputs = {
+            name: Bounds(name, one.unit, [run.outputs[name] for run in runs if name not in run.unanswered])
+            for name, one in runs[0].outputs.items()
+        }
+    asked, failed = asked + sum(run.asked for run in runs), failed + sum(run.failed for run in runs)
+    tell(method, runs, number, method in LOCAL, asked, failed)
     interrupted = len(runs) < number or runs[-1].interrupted
     return Propagation(method, stated, outputs, asked, failed, None if method in LOCAL else seed, interrupted)
 
@@ -208,27 +215,30 @@ def _sampled(
 
     sample = Sample(model, joint, design(joint.dimensions), threads)
     sample.extend(count, report)
-    _check_answered(sample)
     unreached = False
-    if tolerance is not None:
+    if tolerance is not None and not any(np.isnan(values).all() for values in sample.outputs().values()):
         wanted = read_tolerances(tolerance, model.units)
-        while not sample.interrupted and not unreached and not enough(sample, model.units, wanted):
-            unreached = sample.done >= MOST_SAMPLES
-            if not unreached:
-                sample.extend(min(2 * sample.done, MOST_SAMPLES), report)
+        try:
+            while not sample.interrupted and not unreached and not enough(sample, model.units, wanted):
+                unreached = sample.done >= MOST_SAMPLES
+                if not unreached:
+                    sample.extend(min(2 * sample.done, MOST_SAMPLES), report)
+        except KeyboardInterrupt:
+            sample.interrupted = True
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
     outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs().items()}
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
-    return Run(outputs, sample.done, sample.failed(), sample.interrupted, unreached, wrapped)
+    unanswered = frozenset(name for name, output in outputs.items() if output.failed == sample.done)
+    return Run(outputs, sample.done, sample.failed(), sample.interrupted, unreached, wrapped, unanswered=unanswered)
 
 
-def _check_answered(sample: Sample) -> None:
-    """Refuses to go on with an output that has no answer at all."""
-    for name, values in sample.outputs().items():
-        if np.isnan(values).all():
+def _check_answered(runs: Sequence[Run]) -> None:
+    """Refuses an output that has no answer at all."""
+    for name in runs[0].outputs:
+        if all(name in run.unanswered for run in runs):
             raise NoSolutionError(
-                f"the model has no answer for {name!r} in any of {len(values)} cases; call it with the mean of the inputs to "
-                f"see why",
+                f"the model has no answer for {name!r} in any of {sum(run.asked for run in runs)} cases; call it with the mean "
+                f"of the inputs to see why",
                 code="all_failed",
                 output=name,
             )
@@ -263,10 +273,11 @@ def _by_interval(
             code="nothing_uncertain",
             argument="inputs",
         )
-    found, asked, failed = extremes(model, {name: bounds[name] for name in stated if name in bounds})
+    found = extremes(model, {name: bounds[name] for name in stated if name in bounds})
     outputs = {
         name: Bounds(name, model.units[name], [Known(name, model.units[name], end) for end in ends])
-        for name, ends in found.items()
+        for name, ends in found.values.items()
     }
-    tell("interval", [Run(outputs, asked, failed)], 1, local=False)
-    return Propagation("interval", stated, outputs, asked, failed)
+    run = Run(outputs, found.asked, found.failed, wrapped=found.wrapped)
+    tell("interval", [run], 1, local=False, asked=found.asked, failed=found.failed)
+    return Propagation("interval", stated, outputs, found.asked, found.failed)

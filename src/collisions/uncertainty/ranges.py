@@ -1,107 +1,181 @@
-"""Intervals, of which nothing is known but the bounds: where the truth may lie, and the extremes of what follows.
+"""Intervals, of which nothing is known but the bounds: where between them a figure is least and greatest.
 
-An interval is never drawn from. Mixed with distributions, the same drawn cases are worked out at place after place of it, and
-the range of each figure over the places is what is known of that figure.
+An interval is never drawn from. Alone, the values of the outputs are searched for their extremes. Mixed with distributions, the
+mean, the standard deviation and both ends of the 95 percent interval are, over the same few drawn cases at every place; at the
+places found the run is then made in full.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import InputError, NoSolutionError
 from . import angles
+from .draw import Joint
 from .model import Model
+from .points import REPLICATES, Design
 
-_PLACES = {1: 9, 2: 7, 3: 5, 4: 4, 5: 3}  # on each of so many intervals, ends included
-_MOST_MIXED = 10
-_MOST_GRID = 20000
-_ROUNDS = 60  # halvings of the search box: from the whole interval to rounding
+_MOST = {True: 10, False: 14}  # intervals, beside distributions and alone: each doubles the corners
+_GRID = {True: 400, False: 20000}  # places to begin with, corners always among them
+_FINEST = {True: 21, False: 41}  # of them along one interval
+_ROUNDS = {True: 24, False: 60}  # halvings of the search box: to a millionth of the interval, and to rounding
+_PATIENCE = 10  # steps for each halving, at most
+_DIAGONAL = {True: 3, False: 6}  # intervals up to which steps along diagonals are affordable
+_COMMON = 16 * REPLICATES  # cases that every place is judged by
+_LANES = 2**16
 
 
-def places(bounds: Mapping[str, tuple[float, float]]) -> Iterator[dict[str, float]]:
-    """Where to look: a grid over few intervals, over more of them the corners and the middle."""
-    if len(bounds) > _MOST_MIXED:
+class Extremes(NamedTuple):
+    """Least and greatest value by output, the places of all extremes, and what it took to find them."""
+
+    values: dict[str, tuple[float, float]]
+    places: list[dict[str, float]]
+    asked: int
+    failed: int
+    wrapped: tuple[str, ...]
+
+
+class _Places:
+    """The model at places between bounds, given as shares of the way from the lower to the upper bound."""
+
+    def __init__(self, model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> None:
+        self.model = model
+        self.names = tuple(bounds)
+        self.low, self.high = (np.array([bounds[name][end] for name in bounds]) for end in (0, 1))
+        self.common = common
+        self.cases = max((len(values) for values in common.values()), default=1)
+        self.asked = self.failed = 0
+        self.cuts: dict[str, float | None] = {}
+
+    def at(self, shares: Any) -> Any:
+        """The upper bound from above, so that a share of 1 is that bound to the bit."""
+        with np.errstate(all="ignore"):
+            width = self.high - self.low
+            return np.where(shares < 0.5, self.low + shares * width, self.high - (1.0 - shares) * width)
+
+    def answers(self, shares: Any) -> dict[str, Any]:
+        """By output the values at every place, one row a place."""
+        step = max(1, _LANES // self.cases)
+        parts = [self._answers(shares[i : i + step]) for i in range(0, len(shares), step)]
+        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+    def _answers(self, shares: Any) -> dict[str, Any]:
+        at = self.at(shares)
+        values = {name: np.repeat(at[:, i], self.cases) for i, name in enumerate(self.names)}
+        values |= {name: np.tile(drawn, len(at)) for name, drawn in self.common.items()}
+        count = len(at) * self.cases
+        found = self.model(values, count)
+        self.asked += count
+        self.failed += int(np.count_nonzero(np.any([np.isnan(one) for one in found.values()], axis=0)))
+        return {name: angles.folded(one, self.cuts.get(name)).reshape(len(at), -1) for name, one in found.items()}
+
+
+def extremes(
+    model: Model, bounds: Mapping[str, tuple[float, float]], joint: Joint | None = None, design: Design | None = None
+) -> Extremes:
+    """Where the outputs, or with ``joint`` their figures, are least and greatest.
+
+    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where there is a single one
+    between the bounds or the figure is monotone, as those of solver outputs are but for friction limits.
+    """
+    mixed = joint is not None
+    if len(bounds) > _MOST[mixed]:
         raise InputError(
-            f"{len(bounds)} intervals beside distributions are {2 ** len(bounds)} corners; give at most {_MOST_MIXED}, the "
-            f"others as distributions, or method='interval' with nothing but intervals",
+            f"{len(bounds)} intervals are {2 ** len(bounds)} corners; give at most {_MOST[mixed]}"
+            f"{' beside distributions' if mixed else ''}, the others as {'distributions' if mixed else 'numbers'}",
             code="too_many_intervals",
             argument="inputs",
         )
-    count = _PLACES.get(len(bounds), 2)
-    for place in itertools.product(*(np.linspace(low, high, count) for low, high in bounds.values())):
-        yield dict(zip(bounds, map(float, place), strict=True))
-    if count == 2:
-        yield {name: 0.5 * (low + high) for name, (low, high) in bounds.items()}
-
-
-def extremes(model: Model, bounds: Mapping[str, tuple[float, float]]) -> tuple[dict[str, tuple[float, float]], int, int]:
-    """Least and greatest value of every output; how many cases that took, and how many had no answer.
-
-    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where the output has a
-    single one between the bounds or is monotone, as solver outputs are but for friction limits.
-    """
-    names = tuple(bounds)
-    low, high = (np.array([bounds[name][end] for name in names]) for end in (0, 1))
-    count = len(names)
-    asked = failed = 0
-    cuts: dict[str, float | None] = {}
-
-    def ask(shares: Any) -> dict[str, Any]:
-        nonlocal asked, failed
-        # The upper bound from above, so that a share of 1 is that bound to the bit.
+    common: dict[str, Any] = {}
+    if joint is not None and design is not None:
         with np.errstate(all="ignore"):
-            at = np.where(shares < 0.5, low + shares * (high - low), high - (1.0 - shares) * (high - low))
-        answers = model({name: np.ascontiguousarray(at[:, i]) for i, name in enumerate(names)}, len(at))
-        answers = {name: angles.folded(values, cuts.get(name)) for name, values in answers.items()}
-        asked += len(at)
-        failed += int(np.count_nonzero(np.any([np.isnan(values) for values in answers.values()], axis=0)))
-        return answers
-
-    grid = _grid(count)
-    first = ask(grid)
-    cuts |= {name: angles.cut(values) for name, values in first.items() if model.units[name] == "rad"}
-    first = {name: angles.folded(values, cuts.get(name)) for name, values in first.items()}
+            common = joint.values(design(0, _COMMON // REPLICATES).reshape(joint.dimensions, -1))
+    places = _Places(model, bounds, common)
+    grid = _grid(len(bounds), _GRID[mixed], _FINEST[mixed])
+    first = places.answers(grid)
+    places.cuts = {name: angles.cut(values.ravel()) for name, values in first.items() if model.units[name] == "rad"}
+    first = {name: angles.folded(values, places.cuts.get(name)) for name, values in first.items()}
+    star = _star(len(bounds), _DIAGONAL[mixed])
     found: dict[str, tuple[float, float]] = {}
-    for output, values in first.items():
+    spots = []
+    for name, values in first.items():
         if np.isnan(values).all():
             raise NoSolutionError(
-                f"the model has no answer for {output!r} anywhere between the bounds", code="all_failed", output=output
+                f"the model has no answer for {name!r} anywhere between the bounds", code="all_failed", output=name
             )
-        ends = []
-        for sign in (1.0, -1.0):
-            best = int(np.nanargmin(sign * values))
-            place, value, size = grid[best], sign * values[best], 0.5
-            for _ in range(_ROUNDS):
-                around = np.clip(place + size * _star(count), 0.0, 1.0)
-                beside = sign * ask(around)[output]
-                if not np.isnan(beside).all() and np.nanmin(beside) < value:
-                    place, value = around[int(np.nanargmin(beside))], float(np.nanmin(beside))
-                else:
-                    size *= 0.5
-            ends.append(sign * float(value))
-        found[output] = ends[0], ends[1]
-    return found, asked, failed
+        for figure in _FIGURES if mixed else (_only,):
+            judged = figure(values)
+            if np.isnan(judged).all():
+                continue
+            judge = partial(_judged, places, name, figure)
+            ends = [_search(judge, grid, judged, sign, star, _ROUNDS[mixed]) for sign in (1.0, -1.0)]
+            spots += [place for place, _ in ends]
+            found.setdefault(name, (ends[0][1], ends[1][1]))
+    unique = np.unique(np.round(spots, 12), axis=0)
+    listed = [dict(zip(places.names, map(float, places.at(spot)), strict=True)) for spot in unique]
+    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
+    return Extremes(found, listed, places.asked, places.failed, wrapped)
 
 
-def _grid(count: int) -> Any:
+def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, star: Any, rounds: int) -> tuple[Any, float]:
+    """The place of the least figure (of the greatest for a sign of -1) and the figure there, from the best of the grid."""
+    best = int(np.nanargmin(sign * judged))
+    place, value, size = grid[best], sign * float(judged[best]), 0.5
+    halvings = 0
+    for _ in range(_PATIENCE * rounds):
+        around = np.clip(place + size * star, 0.0, 1.0)
+        beside = sign * judge(around)
+        if not np.isnan(beside).all() and np.nanmin(beside) < value:
+            place, value = around[int(np.nanargmin(beside))], float(np.nanmin(beside))
+        else:
+            size, halvings = 0.5 * size, halvings + 1
+            if halvings == rounds:
+                break
+    return place, sign * value
+
+
+def _judged(places: _Places, name: str, figure: Callable[[Any], Any], shares: Any) -> Any:
+    return figure(places.answers(shares)[name])
+
+
+def _only(values: Any) -> Any:
+    return values[:, 0]
+
+
+def _figure(work_out: Callable[[Any], float]) -> Callable[[Any], Any]:
+    """A figure of the answered cases of every row; NaN for a row of which less than two are."""
+
+    def figure(values: Any) -> Any:
+        rows = (row[~np.isnan(row)] for row in values)
+        with np.errstate(all="ignore"):
+            return np.array([work_out(row) if row.size > 1 else np.nan for row in rows])
+
+    return figure
+
+
+_FIGURES = (
+    _figure(lambda row: float(np.mean(row))),
+    _figure(lambda row: float(np.std(row))),
+    _figure(lambda row: float(np.quantile(row, 0.025))),
+    _figure(lambda row: float(np.quantile(row, 0.975))),
+)
+
+
+def _grid(count: int, most: int, finest: int) -> Any:
     """Shares of the way from lower to upper bound: as fine a grid as is cheap, corners included."""
-    if count > 14:
-        raise InputError(
-            f"{count} intervals are {2**count} corners; give at most 14, the others as numbers", code="too_many_intervals",
-            argument="inputs",
-        )  # fmt: skip
-    fineness = max(2, min(41, int(_MOST_GRID ** (1.0 / count))))
+    fineness = max(2, min(finest, int(most ** (1.0 / count) + 1e-9)))
     return np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, fineness)] * count, indexing="ij"), axis=-1).reshape(-1, count)
 
 
-def _star(count: int) -> Any:
+def _star(count: int, diagonal: int) -> Any:
     """One step along each input both ways, and along each diagonal of few."""
     unit = np.eye(count)
     steps = np.concatenate((unit, -unit))
-    if count <= 6:
+    if count <= diagonal:
         steps = np.concatenate((steps, np.array(list(itertools.product((-1.0, 1.0), repeat=count)))))
     return steps

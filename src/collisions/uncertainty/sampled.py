@@ -36,14 +36,15 @@ class Sampled(Output):
         found = self._answered()
         if self.unit == "rad":
             return angles.point_everywhere(found)
-        if self.unit is not None or not found.size or not -math.pi <= found[0] <= -2.0 or not 2.0 <= found[-1] <= math.pi:
-            return False
-        return not np.any(np.abs(found) < 1.0)
+        return self.unit is None and angles.jump(found)
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
-        """Standard error of the mean from sampling."""
-        return self._error(average)
+        """Standard error of the mean from sampling; of a probability at least one case in all, which nobody may have seen."""
+        error = self._error(average)
+        found = self._answered()
+        seldom = found.size and found[0] >= 0.0 and found[-1] <= 1.0 and not np.any((found > 0.0) & (found < 1.0))
+        return max(error, 1.0 / found.size) if seldom else error
 
     @derived(OWN)
     def std_standard_error(self) -> Any:

@@ -15,6 +15,7 @@ from .points import REPLICATES, Design
 from .sampled import Sampled
 
 BLOCK = 16384
+FIRST_BLOCK = 1024
 MOST_SAMPLES = 2**24
 
 
@@ -33,7 +34,7 @@ class Sample:
 
     def extend(self, samples: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first that is missing."""
-        blocks = [(start, min(start + BLOCK, samples)) for start in range(self.done, samples, BLOCK)]
+        blocks = _blocks(self.done, samples)
         self._grow(samples)
         try:
             for stop in self._each(blocks):
@@ -91,6 +92,15 @@ class Sample:
             larger = np.full(samples, math.nan)
             larger[: self.done] = values[: self.done]
             self._outputs[name] = larger
+
+
+def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
+    """From start to stop, the first ones smaller, so that a slow model soon tells how far it is and can be stopped."""
+    found, size = [], BLOCK if start else min(FIRST_BLOCK, BLOCK)
+    while start < stop:
+        found.append((start, min(start + size, stop)))
+        start, size = found[-1][1], min(2 * size, BLOCK)
+    return found
 
 
 def enough(sample: Sample, units: Mapping[str, str | None], tolerance: Mapping[str, float]) -> bool:

@@ -16,7 +16,7 @@ import numpy as np
 from . import angles
 from .draw import Joint
 from .model import Model
-from .output import Shares
+from .output import Shares, average, deviation
 from .points import REPLICATES, Design
 
 
@@ -58,6 +58,11 @@ def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
         if len(a) < 2:
             return math.nan, math.nan
         both = np.concatenate((a, b))
+        # In its own deviations, whose squares leave no range of floats.
+        middle, scale = average(both), deviation(both)
+        if not scale > 0.0:
+            return math.nan, math.nan
+        a, b, c, both = ((part - middle) / scale for part in (a, b, c, both))
         variance = float(np.var(both))
         # The mean taken away first: the estimator is free of it, its scatter is not.
         first = float(np.mean((b - both.mean()) * (c - a)))

@@ -23,11 +23,11 @@ class Run:
     unreached: bool = False
     wrapped: tuple[str, ...] = ()
     differing: Mapping[str, float] = field(default_factory=dict)
+    unanswered: frozenset[str] = frozenset()
 
 
-def tell(method: str, runs: Sequence[Run], places: int, local: bool) -> None:
-    """Warns of what was left out, what was not reached, and what a local method does not know."""
-    asked, failed = sum(run.asked for run in runs), sum(run.failed for run in runs)
+def tell(method: str, runs: Sequence[Run], places: int, local: bool, asked: int, failed: int) -> None:
+    """Warns of what was left out of all cases asked for, what was not reached, and what a local method does not know."""
     told: list[CollisionsWarning] = []
     if local:
         told += _not_local(method, runs, failed)
