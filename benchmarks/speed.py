@@ -537,6 +537,7 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
     of_batch = costs(batch, batch_times, UNIT)
     del batch, compiled
     mebibytes = memory(effort.cases)
+    taken = speed_errors.memory(effort.cases)
     shares = parts(effort)
     say("imports")
     imported = imports(effort.imports, MODULES if effort is FULL else MODULES[:2])
@@ -554,6 +555,7 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
         "single": [*costs(single, single_times, UNIT), costs(long, long_times, UNIT)[-1]],
         "batch": of_batch,
         "budgets": budgets(single_times, batch_times, imported, mebibytes),
+        "memory": taken,
         "parts": shares,
         "imports": imported,
         "rivals": versions,

@@ -1,21 +1,31 @@
 """What each choice errs by: the cheaper models over lever and approach angle, and every choice over mixed traffic.
 
 An error is hypot of the error of the delta-V vector and of radius of gyration times the error of the change of yaw rate, for
-the worse of both vehicles, against ``eccentric``; a share is of that vehicle's own delta-V. Nothing here is timed.
+the worse of both vehicles, against ``eccentric``, or of formulas in 64 bits against the evaluation of the tests in 60 digits; a
+share is of that vehicle's own delta-V. Nothing here is timed.
 """
 
 from __future__ import annotations
 
+import gc
 import math
+import sys
+import tracemalloc
+from collections.abc import Callable
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import batch_speed
 import numpy as np
 import speed_rivals
-import stability_tables
 
-import collisions as col
+TESTS = Path(__file__).resolve().parent.parent / "tests"
+if str(TESTS) not in sys.path:
+    sys.path.insert(0, str(TESTS))
+
+import collisions as col  # noqa: E402
+import reference  # noqa: E402
 
 MASS, INERTIA, REACH, CLOSING, RESTITUTION = 1500.0, 2400.0, 1.9, 15.0, 0.1
 GYRATION = math.sqrt(INERTIA / MASS)
@@ -186,24 +196,52 @@ def choices(count: int, contacts: dict[str, Any], pymunk: ModuleType | None) -> 
         "tolerance": TOLERANCE,
         "chosen": {str(model): rounded(number / count) for model, number in zip(models, counts, strict=True)},
     }
-    found["law"] = _summary(off(full, col.eccentric(a, b, scene["restitution"], **contact, law="kudlich-slibar"))[1])
+    other = col.eccentric(a, b, scene["restitution"], **contact, law="kudlich-slibar")
+    sticks = (full.regime == "sticking") | (other.regime == "sticking")
+    found["law"] = _summary(off(full, other)[1][sticks]) | {"sticking": rounded(float(sticks.mean()))}
     single = batch_speed._cast(scene, np.float32)
     exact = batch_speed._cast(single, np.float64)
     one, other = (col.eccentric(**batch_speed.states(numbers)) for numbers in (exact, single))
     found["float32"] = _summary(off(one, other)[1])
-    stability = stability_tables.load()
-    seen = next(row["seen"] for row in stability["promises"] if row["key"] == "delta-V")
-    found["float64"] = dict.fromkeys(("mean", "p95"), rounded(seen * stability["eps"]))
-    found["textbook"] = _summary(of_textbook(scene, full))
+    found |= of_rounding(scene, full)
     found |= of_contacts(contacts)
     found["pymunk"] = None if pymunk is None else of_pymunk(pymunk, scene, full)
     return found
 
 
-def of_textbook(scene: dict[str, Any], full: col.Impact) -> Any:
-    """How far the textbook formula in float64 is from ours."""
-    vx1, vy1, w1, vx2, vy2, w2, *_ = batch_speed.textbook(**scene)
-    return _away(full, {"a": (vx1, vy1, w1), "b": (vx2, vy2, w2)}, slice(None))
+DIGITS, EVALUATED = 60, 600
+
+
+def of_rounding(scene: dict[str, Any], full: col.Impact) -> dict[str, Any]:
+    """What ``eccentric`` and the textbook formula in float64 err by, against the same scenes evaluated in 60 digits."""
+    textbook = batch_speed.textbook(**scene)
+    ours = tuple(getattr(getattr(full, label).after, name) for label in "ab" for name in ("vx", "vy", "yaw_rate"))
+    count = full.status.size
+    found: dict[str, list[float]] = {"float64": [], "textbook": []}
+    for lane in np.linspace(0, count - 1, min(EVALUATED, count), dtype=int):
+        answer = evaluated(scene, lane)
+        for key, values in (("float64", ours), ("textbook", textbook)):
+            shares = []
+            for half, label, at in ((answer.a, "a", 0), (answer.b, "b", 3)):
+                body = scene[label]
+                gyration = math.sqrt(body["yaw_inertia"][lane] / body["mass"][lane])
+                vx, vy, yaw_rate = (
+                    exact - float(value[lane])
+                    for exact, value in zip((half.vx, half.vy, half.w), values[at : at + 3], strict=True)
+                )
+                away = math.hypot(float(vx), float(vy), gyration * float(yaw_rate))
+                shares.append(away / math.hypot(float(half.dvx), float(half.dvy)))
+            found[key].append(max(shares))
+    return {key: _summary(np.array(shares)) for key, shares in found.items()}
+
+
+def evaluated(scene: dict[str, Any], lane: int) -> Any:
+    """A scene of many in 60 digits."""
+    names = {"mass": "mass", "yaw_inertia": "inertia", "yaw_rate": "spin", "vx": "vx", "vy": "vy", "x": "x", "y": "y"}
+    a, b = (reference.Body(**{to: float(scene[label][name][lane]) for name, to in names.items()}) for label in "ab")
+    e, normal, friction = (float(scene[name][lane]) for name in ("restitution", "normal", "friction"))
+    point = float(scene["point"][0][lane]), float(scene["point"][1][lane])
+    return reference.evaluate(reference.Scene(a, b, e, normal, point, "friction", friction, "brach"), DIGITS)
 
 
 def _away(full: col.Impact, found: dict[str, Any], lanes: Any) -> Any:
@@ -218,19 +256,22 @@ def _away(full: col.Impact, found: dict[str, Any], lanes: Any) -> Any:
 
 
 def of_contacts(contacts: dict[str, Any]) -> dict[str, Any]:
-    """What an impulse leaves out, of time_resolved.py: all of it, and what remains of it once ``left_out`` has told it."""
+    """What an impulse leaves out, of time_resolved.py; and how far off ``left_out`` is that tells how much it is.
+
+    Its two numbers, of tyres and of geometry, are magnitudes; the worse one counts, against the integration with just that.
+    """
     rows = contacts["rows"]
-    untold = [
-        math.hypot(
-            row["left_out"]["tyre_delta_v"] - row["tyres"]["delta_v"],
-            row["left_out"]["geometry_delta_v"] - row["moving"]["delta_v"],
+    off_by = [
+        max(
+            abs(row["left_out"]["tyre_delta_v"] - row["tyres"]["delta_v"]),
+            abs(row["left_out"]["geometry_delta_v"] - row["moving"]["delta_v"]),
         )
         / row["delta_v"]
         for row in rows
     ]
     return {
         "impulse": _summary(np.array([row["all"]["share"] for row in rows])),
-        "left_out": _summary(np.array(untold)),
+        "left_out": _summary(np.array(off_by)),
         "integrated": _summary(np.array([row["fixed"]["share"] for row in rows])),
     }
 
@@ -241,6 +282,34 @@ def of_pymunk(pymunk: ModuleType, scene: dict[str, Any], full: col.Impact) -> di
     lanes = np.linspace(0, len(cases) - 1, 300, dtype=int)
     found = np.array([speed_rivals.stepped(pymunk, tuple(map(float, cases[lane]))) for lane in lanes])
     return _summary(_away(full, {"a": found[:, :3].T, "b": found[:, 3:].T}, lanes))
+
+
+# --- Memory ----------------------------------------------------------------------------------------------------------------
+
+
+def memory(count: int) -> dict[str, float]:
+    """MiB that a batch takes at most, beyond its inputs and what is kept of it."""
+    mixed = batch_speed.states(traffic(count))
+    impact = col.eccentric(**mixed, on_failure="nan")
+    works: dict[str, Callable[[], Any]] = {
+        "eccentric": lambda: col.eccentric(**mixed, on_failure="nan"),
+        "solve": lambda: col.solve(**mixed, tolerance=TOLERANCE, on_failure="nan"),
+        "left_out": lambda: col.left_out(impact),
+    }
+    return {name: rounded(_beyond_what_is_kept(work)) for name, work in works.items()}
+
+
+def _beyond_what_is_kept(work: Callable[[], Any]) -> float:
+    work()
+    gc.collect()
+    tracemalloc.start()
+    try:
+        kept = work()
+        held, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    del kept
+    return (most - held) / 2**20
 
 
 def _summary(shares: Any) -> dict[str, float]:

@@ -68,3 +68,22 @@ def test_a_bar_where_tqdm_is_installed(monkeypatch):
     monkeypatch.setitem(sys.modules, "tqdm.auto", types.SimpleNamespace(tqdm=Bar))
     solve(True)
     assert seen == [V.size, BLOCK, 2 * BLOCK, 3 * BLOCK, "closed"]
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_solve_counts_all_cases_once_whatever_their_models(threads):
+    """One run from nothing to all, though three models answer."""
+    size = 13 * BLOCK
+    rng = np.random.default_rng(1)
+    y, vy = rng.choice([0.0, 0.0, 0.6], size), rng.choice([0.0, 0.2], size)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=10.0, vy=vy, x=-0.1, y=y)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.1, y=-y)
+    seen = []
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "tolerance": 0.1}
+    impact = col.solve(a, b, 0.2, **contact, threads=threads, progress=lambda *told: seen.append(told))
+    assert len(set(impact.model)) == 3
+    done = [one for one, _ in seen]
+    assert {total for _, total in seen} == {size}
+    assert done == sorted(set(done))
+    assert len(done) > 1
+    assert done.index(size) == len(done) - 1

@@ -6,6 +6,7 @@ import pickle
 import random
 import subprocess
 import sys
+import tracemalloc
 
 import numpy as np
 import pint
@@ -201,6 +202,152 @@ def test_what_nobody_has_is_not_needed_where_it_does_not_matter():
     assert wall.model == "linear_central"
 
 
+def square_from_behind(angle, dtype=None, **changes):
+    """Along the line of both centres, in a scene turned by an angle, and nobody knows a yaw inertia."""
+    c, s = (np.cos(angle), np.sin(angle)) if isinstance(angle, np.ndarray) else (math.cos(angle), math.sin(angle))
+    numbers = [{"vx": 10.0 * c, "vy": 10.0 * s, "x": -2.0 * c, "y": -2.0 * s}, {"x": 2.0 * c, "y": 2.0 * s}]
+    if dtype is not None:
+        numbers = [{name: value.astype(dtype) for name, value in body.items()} for body in numbers]
+        angle = angle.astype(dtype)
+    a, b = (col.Vehicle(mass=mass, **body) for mass, body in zip((1500.0, 1200.0), numbers, strict=True))
+    scene = {"restitution": 0.2, "normal": angle, "point": (0.0, 0.0), "tolerance": "1 km/h", **changes}
+    return col.solve(a, b, **scene)
+
+
+TURNED = np.radians(np.arange(0.0, 360.0, 5.0))
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("friction", [0.0, 0.5, math.inf])
+def test_rounding_of_a_turned_scene_asks_for_no_yaw_inertia(friction, law):
+    """72 headings; delta-V is (1 + 0.2) x 10 x 1500/2700 in all, to a few eps of it."""
+    for angle in TURNED.tolist():
+        impact = square_from_behind(angle, friction=friction, law=law)
+        assert impact.model == "linear_central"
+        assert impact.b.delta_v == pytest.approx(20.0 / 3.0, rel=1e-14)
+    for dtype, rel in ((np.float64, 1e-14), (np.float32, 1e-5)):
+        many = square_from_behind(TURNED, dtype, friction=friction, law=law)
+        assert set(many.model) == {"linear_central"}
+        np.testing.assert_allclose(many.b.delta_v, 20.0 / 3.0, rtol=rel)
+
+
+def test_rounding_of_degrees_asks_for_no_yaw_inertia():
+    """At 30 and 45 degrees, as texts; a lever of a millimetre is none of rounding."""
+    for angle, x, y in (("45 deg", 1.0, 1.0), ("30 deg", math.sqrt(3.0), 1.0)):
+        a = col.Vehicle.from_speed(mass=1500.0, speed=10.0, course=angle, x=-x, y=-y)
+        b = col.Vehicle(mass=1200.0, x=x, y=y)
+        scene = {"restitution": 0.2, "normal": angle, "point": (0.0, 0.0), "friction": 0.5, "tolerance": "1 km/h"}
+        assert col.solve(a, b, **scene).model == "linear_central"
+        with pytest.raises(col.MissingInputError, match=r"a has no yaw_inertia, which eccentric needs"):
+            col.solve(a.replace(y=-y + 0.001), b, **scene)
+
+
+def test_a_wall_of_unknown_inertia_and_place_is_not_taken_as_fixed():
+    """An infinite mass alone does not say that a body cannot turn."""
+    a = col.Vehicle(mass=1500.0, vx=10.0, x=-2.0, y=0.0, yaw_inertia=2400.0)
+    scene = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "tolerance": 0.1}
+    assert col.solve(a, col.Vehicle.barrier(), **scene).model == "linear_central"
+    with pytest.raises(col.MissingInputError, match="b has no yaw_inertia"):
+        col.solve(a, col.Vehicle(mass=math.inf), **scene)
+
+
+ONE, OTHER = {"mass": 1500.0, "vx": 10.0, "x": -2.0, "y": 0.0}, {"mass": 1200.0, "x": 2.0, "y": 0.0}
+IN_LINE = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "tolerance": 0.1}
+
+
+def in_line(a=None, b=None, **changes):
+    """Solve, without yaw inertias unless they are given."""
+    return col.solve(col.Vehicle(**{**ONE, **(a or {})}), col.Vehicle(**{**OTHER, **(b or {})}), **{**IN_LINE, **changes})
+
+
+@pytest.mark.parametrize(
+    ("a", "changes", "codes"),
+    [
+        ({"vx": np.array([10.0, -1.0, 5.0])}, {}, ["ok", "separating", "ok"]),
+        ({"vx": np.array([10.0, 0.0, 5.0])}, {}, ["ok", "grazing", "ok"]),
+        ({"vx": np.array([10.0, -1.0, 5.0]), "y": np.array([0.0, 0.5, 0.0])}, {}, ["ok", "separating", "ok"]),
+        ({"mass": np.array([1500.0, -1.0, math.nan])}, {}, ["ok", "not_positive", "not_finite"]),
+        ({}, {"restitution": np.array([0.2, 2.0, 0.1])}, ["ok", "bad_restitution", "ok"]),
+        ({"y": np.array([0.0, math.nan, 0.0])}, {}, ["ok", "not_finite", "ok"]),
+        ({"vx": np.array([-10.0, -1.0, -2.0])}, {"point": None}, ["separating"] * 3),
+    ],
+)
+def test_a_case_that_is_refused_anyway_asks_for_nothing(a, changes, codes):
+    """Its neighbours are answered as if it were not there, and it says what is wrong with it."""
+    impact = in_line(a, on_failure="nan", **changes)
+    assert [col.Status(int(code)).label for code in impact.status] == codes
+    fine = np.array(codes) == "ok"
+    assert np.isnan(impact.b.delta_v).tolist() == (~fine).tolist()
+    for errors in impact.choice.errors.values():
+        assert np.isnan(errors).tolist() == (~fine).tolist()
+    for i in np.flatnonzero(fine):
+        alone = in_line(
+            {name: float(value[i]) for name, value in a.items()},
+            **{name: float(value[i]) for name, value in changes.items()},
+        )
+        assert impact.b.delta_v[i] == pytest.approx(alone.b.delta_v, rel=1e-15)
+    first = codes.index(next(code for code in codes if code != "ok"))
+    with pytest.raises(col.CollisionsError, match=f"^case {first}: ") as caught:
+        in_line(a, on_failure="raise", **changes)
+    assert caught.value.code == codes[first]
+
+
+def test_bodies_that_part_are_refused_whatever_is_missing():
+    """Alone as by linear_central; where a spin leaves open how fast the contact closes, what is missing is named."""
+    with pytest.raises(col.NoImpactError, match="closing speed -1 m/s") as caught:
+        in_line({"vx": -1.0})
+    assert caught.value.code == "separating"
+    assert (
+        "there is no answer" in col.required_model(col.Vehicle(**{**ONE, "vx": -1.0}), col.Vehicle(**OTHER), **IN_LINE).reason
+    )
+    with pytest.raises(col.MissingInputError, match=r"point is None"):
+        in_line({"vx": -1.0, "yaw_rate": 1.0}, point=None)
+
+
+def test_an_input_that_a_case_needs_is_asked_for_by_its_number():
+    """The first case that needs it, and not one that is refused or one that a central model answers."""
+    with pytest.raises(col.MissingInputError, match=r"(?m)^- case 2: a has no yaw_inertia.*\n- case 2: b has no"):
+        in_line({"vx": np.array([10.0, -1.0, 10.0, 10.0]), "y": np.array([0.0, 0.5, 0.5, 0.5])})
+    with pytest.raises(col.MissingInputError, match=r"case \(1, 0\): a has no yaw_inertia"):
+        in_line({"y": np.array([[0.0, 0.0], [0.5, 0.0]])}, b={"yaw_inertia": 1700.0})
+
+
+def test_the_answer_of_the_linear_model_is_frictionless():
+    """Whatever friction was given, alone and in a batch; and it slips as it did before."""
+    full = {"yaw_inertia": 2400.0}
+    for tangential in (
+        {"friction": 0.5},
+        {"friction": None, "impulse_ratio": 0.0},
+        {"friction": None, "critical_fraction": 1.0},
+    ):
+        assert in_line(**tangential).regime == "frictionless"
+    many = in_line({**full, "vy": np.array([0.0, 3.0, 0.0]), "vx": np.array([10.0, 10.0, -1.0])}, b=full, on_failure="nan")
+    assert many.model.tolist() == ["linear_central", "eccentric", "eccentric"]
+    assert many.regime.tolist() == ["frictionless", "sticking", ""]
+    for impact in (in_line({"vy": 3.0}, friction=0.0), in_line({"vy": np.array([3.0])}, friction=0.0)):
+        assert np.all(impact.model == "linear_central")
+        assert (
+            impact.slip_before
+            == impact.slip_after
+            == col.eccentric(
+                col.Vehicle(**{**ONE, **full, "vy": 3.0}),
+                col.Vehicle(**OTHER, **full),
+                0.2,
+                normal=0.0,
+                point=(0.0, 0.0),
+                friction=0.0,
+            ).slip_before
+            == -3.0
+        )
+
+
+def test_slip_beyond_all_numbers_is_refused():
+    """Also where the linear model does not need it."""
+    with pytest.raises(col.InputError) as caught:
+        in_line({"vy": 1e308}, b={"vy": -1e308}, friction=0.0)
+    assert caught.value.code == "out_of_range"
+
+
 def test_a_pivot_is_beyond_the_central_models():
     """However large the tolerance."""
     a = col.Vehicle(mass=1500.0, vx=10.0, yaw_inertia=2400.0, x=-2.0, y=0.0)
@@ -294,6 +441,50 @@ def test_units_and_refusals_at_the_door():
         col.required_model(a, b, 0.2, normal=0.0, point=(0.0, 0.0), tolerance=0.1)
 
 
+@pytest.mark.parametrize(("wrong", "code"), [(-1.0, "negative_speed"), (math.nan, "not_finite"), (math.inf, "not_finite")])
+def test_a_bad_tolerance_of_one_case_is_refused(wrong, code):
+    """As of a single case; the first one is named."""
+    with pytest.raises(
+        col.InputError, match=rf"tolerance must be finite and >= 0 in every case, got {wrong:g} in case 1"
+    ) as caught:
+        in_line(tolerance=np.array([0.1, wrong, -7.0]))
+    assert caught.value.code == code
+    with pytest.raises(col.InputError, match=r"in case \(1, 0\).*\n?.*"):
+        in_line(tolerance=np.array([[0.1, 0.2], [wrong, 0.3]]))
+    assert in_line(tolerance=np.empty(0)).status.shape == (0,)
+
+
+def test_a_choice_is_compared_shown_read_with_units_and_not_changed():
+    """Alone and in a batch, as the other answers are."""
+    for angle in (0.3, np.array([0.3, 0.4])):
+        choice, twin = (square_from_behind(angle, friction=0.5).choice for _ in range(2))
+        assert choice == twin
+        assert choice != square_from_behind(angle, friction=0.5, tolerance=0.3).choice
+        assert pickle.loads(pickle.dumps(choice)) == choice
+        assert choice.q.tolerance.m_as("km/h") == pytest.approx(1.0)
+        assert np.all(choice.q.errors["linear_central"].m_as("m/s") == choice.errors["linear_central"])
+        assert choice.q.model is not None
+        assert "errors.oblique_central=" in repr(choice)
+        assert "missing.eccentric</th>" in choice._repr_html_()
+        for mapping in (choice.errors, choice.missing, pickle.loads(pickle.dumps(choice)).errors):
+            with pytest.raises(TypeError):
+                mapping["linear_central"] = 0.0
+        with pytest.raises(AttributeError):
+            choice.reason = "none"
+    assert not choice.errors["linear_central"].flags.writeable
+    assert not pickle.loads(pickle.dumps(choice)).errors["linear_central"].flags.writeable
+    assert not choice.model.flags.writeable
+    assert choice != 3
+    assert choice.errors != 3
+
+
+def test_an_answer_without_a_point_is_asked_again_from_its_record():
+    """The point is not needed where nothing can turn."""
+    stiff = col.Vehicle(mass=1500.0, vx=10.0, yaw_inertia=math.inf)
+    impact = col.solve(stiff, col.Vehicle.barrier(), **{**IN_LINE, "point": None})
+    assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
+
+
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
     """More cases than a block holds, worked out in blocks by model: the same bits, also of what is asked for later."""
@@ -329,6 +520,44 @@ def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
     assert pickle.loads(pickle.dumps(whole)) == whole
 
 
+def large(size):
+    """Cases of all models, and yaw inertias for all."""
+    rng = np.random.default_rng(8)
+    turned, inertia = rng.choice([0.0, 0.02, 0.6], size), rng.uniform(1500.0, 3000.0, size)
+    a = col.Vehicle(
+        mass=rng.uniform(900.0, 2000.0, size), vx=rng.uniform(8.0, 20.0, size), x=-2.0, y=turned, yaw_inertia=inertia
+    )
+    b = col.Vehicle(mass=1200.0, vy=rng.choice([0.0, 3.0], size), x=2.0, y=-turned, yaw_inertia=inertia)
+    contact = {"restitution": rng.uniform(0.0, 0.4, size), "normal": 0.0, "point": (0.0, 0.0)}
+    return a, b, {**contact, "friction": rng.choice([0.0, 0.3], size), "tolerance": 0.5}
+
+
+def test_threads_change_nothing():
+    """To the bit, and the choice is the same."""
+    a, b, contact = large(7 * BLOCK + 11)
+    one, two = (col.solve(a, b, **contact, threads=threads) for threads in (1, 2))
+    assert set(one.model) == set(MODELS)
+    assert one == two
+    assert one.choice == two.choice
+
+
+def test_a_large_batch_takes_no_copies_of_its_arrays():
+    """30 arrays of 30 blocks go in and come out; beyond what is kept, scratch of a few blocks, and no array of all cases is made.
+
+    2 MiB are an array of all cases; three models have scratch for 8 MiB at most, whatever the number of cases.
+    """
+    a, b, contact = large(30 * BLOCK)
+    col.solve(a, b, **contact)
+    tracemalloc.start()
+    try:
+        impact = col.solve(a, b, **contact)
+        kept, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert impact.status.size == 30 * BLOCK
+    assert most - kept < 8 * 2**20
+
+
 def test_what_solve_wrote_is_read_before_solve_is_imported():
     """A record and a pickle of it in a new process, which has imported no more than the package."""
     a, b = col.Vehicle(mass=1.0, vx=1.0, x=-1.0, y=0.0), col.Vehicle(mass=1.0, x=1.0, y=0.0)
@@ -342,3 +571,24 @@ def test_what_solve_wrote_is_read_before_solve_is_imported():
     given = json.dumps(impact.to_dict()), pickle.dumps(impact).hex()
     told = subprocess.run([sys.executable, "-c", program, *given], capture_output=True, text=True)
     assert told.stdout.strip() == f"{impact.model} {impact.choice.reason}", told.stderr
+
+
+def test_the_common_velocity_is_that_of_the_model_taken():
+    """Momentum over mass for a central model, of both centres, as the closing speed is; at the contact for the full one."""
+    a = col.Vehicle(mass=1500.0, vx=14.0, yaw_rate=0.05, x=-2.2, y=0.6, yaw_inertia=2500.0)
+    b = col.Vehicle(mass=1200.0, vx=3.0, yaw_rate=-0.04, x=2.0, y=-0.1, yaw_inertia=1900.0)
+    contact = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.1), "friction": 0.0}
+    shared = (1500.0 * 14.0 + 1200.0 * 3.0) / 2700.0
+    linear = col.solve(a, b, **contact, tolerance=9.0)
+    assert linear.model == "linear_central"
+    # A few roundings of numbers of that size.
+    assert linear.common_velocity == pytest.approx(shared, rel=1e-15)
+    assert linear.closing_speed == 11.0
+    full = col.solve(a, b, **contact, tolerance=0.0)
+    assert full.model == "eccentric"
+    for side in (full.a, full.b):
+        assert full.common_velocity == pytest.approx(side.at_compression.velocity_at((0.0, 0.1))[0], rel=1e-14)
+    assert abs(full.common_velocity - shared) > 0.1
+    many = col.solve(a, b, **contact, tolerance=np.array([9.0, 0.0]))
+    assert list(many.model) == ["linear_central", "eccentric"]
+    assert many.common_velocity == pytest.approx([linear.common_velocity, full.common_velocity], rel=1e-15)

@@ -200,9 +200,8 @@ def solved(
     shape: tuple[int, ...],
     threads: int,
     progress: Any,
-    lanes: Any = None,
 ) -> Any:
-    """The outputs of the cases of a batch, or in a row those of the cases at ``lanes``, counted through the shape."""
+    """The outputs of the cases of a batch."""
     # Adds a twentieth to the import of the package, and single cases never come here.
     from .kernels.batch import Scoped, precision, solve_lanes
 
@@ -211,22 +210,19 @@ def solved(
     if scope is not None:
         kernel = Scoped(kernel, scope[0], len(inputs), len(scope[1]))
         inputs = (*inputs, *scope[1])
-    found = _value_checks(asked, eps)
-    if lanes is not None:
-        every = {id(v): v for v in (*inputs, *(v for check in found for v in check.values))}
-        part = {key: np.broadcast_to(v, shape).flat[lanes] if np.shape(v) else v for key, v in every.items()}
-        inputs = tuple(part[id(v)] for v in inputs)
-        found = [check._replace(values=tuple(part[id(v)] for v in check.values)) for check in found]
-        shape = lanes.shape
-    return solve_lanes(kernel, (*settings, eps), inputs, found, shape, dtype, threads, reporter(progress))
+    checked = value_checks(asked, eps)
+    return solve_lanes(kernel, (*settings, eps), inputs, checked, shape, dtype, threads, reporter(progress))
 
 
-def concluded(asked: Asked, raw: Any, on_failure: Any) -> Impact:
-    """The Impact of a batch, after what is to be said of its refused and its gaining cases."""
+def concluded(asked: Asked, raw: Any, on_failure: Any, **options: Any) -> Impact:
+    """The Impact of a batch, after what is to be said of its refused and its gaining cases.
+
+    ``options`` are what else a case is asked with alone.
+    """
     status = raw[0]
     if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
-            raise _first_refusal(asked, status)
+            raise _first_refusal(asked, status, options)
         if on_failure is None:
             warn_of_refusals(status)
     gaining = status == codes.ENERGY_GAIN
@@ -249,7 +245,7 @@ def numbers_of(asked: Asked) -> list[tuple[str, Any]]:
     return found
 
 
-def _value_checks(asked: Asked, eps: float) -> list[Check]:
+def value_checks(asked: Asked, eps: float) -> list[Check]:
     """What the door checks of scalars, for the arrays of the question."""
     from .kernels.batch import Check
 
@@ -277,7 +273,7 @@ def _value_checks(asked: Asked, eps: float) -> list[Check]:
     return found
 
 
-def _first_refusal(asked: Asked, status: Any) -> CollisionsError:
+def _first_refusal(asked: Asked, status: Any, options: dict[str, Any]) -> CollisionsError:
     """The error of the first refused case, found by asking for it alone."""
     index, place = first_refused(status)
 
@@ -298,7 +294,7 @@ def _first_refusal(asked: Asked, status: Any) -> CollisionsError:
             bound=lane(asked.bound),
             point=lane(asked.point),
         )
-        one.ask()
+        one.ask(**{name: lane(value) for name, value in options.items()})
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
     outcome = Status(status[index])

@@ -43,7 +43,8 @@ class Asked(NamedTuple):
         arguments: dict[str, Any] = {"normal": self.normal, **options}
         if self.law is not None:
             arguments |= {self.rule: self.bound, "law": self.law}
-        if self.point is not None:
+        # ``solve`` is also asked without a point, where none is needed.
+        if self.point is not None or self.model == "solve":
             arguments["point"] = self.point
         return SOLVERS[self.model](self.a, self.b, self.restitution, **arguments)
 
@@ -86,7 +87,9 @@ class Impact:
 
     @derived()
     def law(self) -> str | None:
-        """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model."""
+        """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model, of ``solve`` as
+        asked.
+        """
         return self._asked.law
 
     @derived("")
@@ -96,12 +99,12 @@ class Impact:
 
     @derived("")
     def friction(self) -> Value | None:
-        """Coulomb friction bound as used; None when an impulse ratio or a critical fraction was given."""
+        """Coulomb friction bound as used, of ``solve`` as asked; None when a ratio or a critical fraction was given."""
         return self._asked.bound if self._asked.rule == codes.FRICTION else None
 
     @derived("m")
     def point(self) -> tuple[Value, Value] | None:
-        """Contact point (x, y) [m]; None for the central models."""
+        """Contact point (x, y) [m]; None for the central models, of ``solve`` as asked."""
         return self._asked.point
 
     @derived()
@@ -188,13 +191,21 @@ class Impact:
 
     @derived("m/s")
     def common_velocity(self) -> Value:
-        """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3)."""
+        """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3).
+
+        Of a central model that of the centres of mass, as for ``closing_speed``.
+        """
         (nx, ny), place = self.normal, self.point
+        # ``solve`` keeps the point it was given, also where it took a central model.
+        turns = self.model == "eccentric"
         found = []
         for side in (self.a, self.b):
             before = side.before
-            ux, uy = (before.vx, before.vy) if place is None else before.velocity_at(place)
-            dux, duy = (side.delta_vx, side.delta_vy) if place is None else side.delta_v_at(place)
+            ux, uy, dux, duy = before.vx, before.vy, side.delta_vx, side.delta_vy
+            if place is not None and np.any(turns):
+                there, change = before.velocity_at(place), side.delta_v_at(place)
+                ux, uy = select(turns, there[0], ux), select(turns, there[1], uy)
+                dux, duy = select(turns, change[0], dux), select(turns, change[1], duy)
             found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
         # Built on the body that changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
@@ -278,7 +289,10 @@ class Impact:
 
     @derived()
     def regime(self) -> Any:
-        """How the tangential impulse came about: "frictionless", "sliding", "sticking", or "given" with a ratio."""
+        """How the tangential impulse came about: "frictionless", "sliding", "sticking", or "given" with a ratio.
+
+        The linear model has none: also where ``solve`` took it, the answer is "frictionless".
+        """
         rule, bound, sticks = self._asked.rule, self._asked.bound, self._raw[codes.AT["sticks"]]
         if isinstance(sticks, np.ndarray):
             if rule != codes.FRICTION:
@@ -286,9 +300,15 @@ class Impact:
             else:
                 moving = np.where(np.equal(bound, 0.0), "frictionless", "sliding")
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
+            if self.choice is not None:
+                found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
             return np.where(self.refused, "", found)
-        if self.refused or rule != codes.FRICTION:
-            return "" if self.refused else "given"
+        if self.refused:
+            return ""
+        if self.choice is not None and self.model == "linear_central":
+            return "frictionless"
+        if rule != codes.FRICTION:
+            return "given"
         return "sticking" if sticks else "frictionless" if bound == 0.0 else "sliding"
 
     @derived()
@@ -317,8 +337,8 @@ class Impact:
         return answered
 
     def _again(self, **changes: Any) -> Impact:
-        """The answer to the same question with some of it changed, NaN where it is refused."""
-        options = {} if self.choice is None else {"tolerance": self.choice.tolerance}
+        """The answer of the same model to the same question with some of it changed, NaN where it is refused."""
+        options = {} if self.choice is None else {"tolerance": self.choice}
         return self._asked._replace(**changes).ask(on_failure="nan", **options)
 
     def to_dict(self) -> dict[str, Any]:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
-from .units import Value
+import numpy as np
+
+from .fields import Shown, lock, same, show
+from .units import Value, to_quantity
 
 # From the least to the full one.
 MODELS = ("linear_central", "oblique_central", "eccentric")
@@ -33,27 +37,95 @@ class Reconstruction:
     condition: Value
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModelChoice:
+class ByModel(Mapping[str, Any]):
+    """What is known of each model, by its name: like a dict that cannot be changed. ``.q`` has the numbers as Quantities."""
+
+    __slots__ = ("_unit", "_values")
+
+    def __init__(self, values: Mapping[str, Any], unit: str | None = None) -> None:
+        self._values = lock(dict(values))
+        self._unit = unit
+
+    @property
+    def q(self) -> Any:
+        """The same with units."""
+        return self if self._unit is None else {name: to_quantity(value, self._unit) for name, value in self.items()}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mapping):
+            return NotImplemented
+        return self.keys() == other.keys() and all(same(value, other[name]) for name, value in self.items())
+
+    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ByModel, (self._values, self._unit)
+
+    def __repr__(self) -> str:
+        return repr(self._values)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class ModelChoice(Shown):
     """Which model a scene requires, and why.
 
-    Parameters
+    Attributes
     ----------
     model : str or array of str
-        "linear_central", "oblique_central" or "eccentric".
+        "linear_central", "oblique_central" or "eccentric"; the last also where the case is refused.
     reason : str
         Why, in a sentence.
-    errors : dict of float or array [m/s]
+    errors : mapping of float or array [m/s]
         By cheaper model, what it is predicted to err by: hypot of the delta-V vector and of radius of gyration times yaw rate,
-        for the worse of both vehicles. NaN where it cannot be told, infinite where that model has no answer.
-    missing : dict of tuple of str
+        for the worse of both vehicles. NaN where it cannot be told or the case is refused, infinite where only that model has
+        no answer.
+    missing : mapping of tuple of str
         By model, what it still needs, such as "a.yaw_inertia" or "point".
     tolerance : float or array [m/s]
         What was accepted.
     """
 
-    model: Any
+    _title = "Model required"
+
     reason: str
-    errors: dict[str, Value]
-    missing: dict[str, tuple[str, ...]]
-    tolerance: Value
+    errors: Mapping[str, Value]
+    missing: Mapping[str, tuple[str, ...]]
+    tolerance: Value = field(metadata={"unit": "m/s"})
+    # Which of MODELS, by number.
+    _which: Any
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "errors", ByModel(self.errors, "m/s"))
+        object.__setattr__(self, "missing", ByModel(self.missing))
+        lock(self._which)
+
+    @property
+    def model(self) -> Any:
+        """The name, or the names of a batch, which take fifty times the room of the numbers that are kept."""
+        return lock(np.array(MODELS).take(self._which)) if isinstance(self._which, np.ndarray) else MODELS[self._which]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ModelChoice):
+            return NotImplemented
+        return all(same(getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
+
+    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
+
+    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        yield prefix + "model", show(self.model)
+        yield prefix + "reason", self.reason
+        for name, error in self.errors.items():
+            yield f"{prefix}errors.{name}", show(error, "m/s")
+        for name, needed in self.missing.items():
+            if needed:
+                yield f"{prefix}missing.{name}", ", ".join(needed)
+        yield prefix + "tolerance", show(self.tolerance, "m/s")

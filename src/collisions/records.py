@@ -22,6 +22,7 @@ _NOTHING = dict.fromkeys(NAMES)
 _NUMBERS = ("restitution", "normal", "bound", "point")
 _MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
+_CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
@@ -137,9 +138,11 @@ def _strict(value: Any) -> Any:
         return [_strict(part) for part in value]
     if isinstance(value, Status):
         return int(value)
-    if isinstance(value, (Reconstruction, ModelChoice)):
+    if isinstance(value, ModelChoice):
+        return {name: _strict(getattr(value, name)) for name in _CHOICE}
+    if isinstance(value, Reconstruction):
         return {f.name: _strict(getattr(value, f.name)) for f in fields(value)}
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return {name: _strict(part) for name, part in value.items()}
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"

@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .amounts import amount
-from .arguments import Law, OnFailure, answer, concluded, numbers_of, read, solved
+from .arguments import Law, OnFailure, answer, check_options, concluded, numbers_of, read, solved, value_checks
 from .eccentric import body_numbers, lacking, missing_numbers
-from .fields import lock, numeric
+from .errors import InputError
 from .impact import SOLVERS, Asked, Impact
 from .kernels import codes
 from .kernels.eccentric import eccentric as eccentric_kernel
-from .kernels.linear import linear_central as linear_kernel
 from .kernels.oblique import oblique_central as oblique_kernel
-from .kernels.select import select
-from .kernels.shortfall import shortfalls_of
-from .progress import Progress
+from .kernels.shortfall import ECCENTRIC, LACKING, LINEAR, Known, least_model, linear_carried
+from .progress import Progress, reporter
 from .provenance import MODELS, ModelChoice
 from .units import Door, Input, Pair, broadcast
 from .vehicle import Vehicle
 
 _LINEAR, _OBLIQUE, _ECCENTRIC = MODELS
-# What a predicted error counts for, so that an answer stays within the tolerance where a prediction falls short.
-_MARGIN = 1.15
 
 
 def required_model(
@@ -48,7 +43,8 @@ def required_model(
     the eccentric one. The error of a candidate is, for the worse of both vehicles, hypot of the error of its delta-V vector and
     of radius of gyration times the error of its change of yaw rate. It is worked out from the impulse at the contact, without
     the rest of the eccentric answer, and a candidate is taken if 1.15 times its error is within the tolerance. What a lever
-    does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error.
+    does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error. A lever
+    of 16 eps of the coordinates is rounding, and does not matter.
 
     Parameters
     ----------
@@ -79,7 +75,7 @@ def required_model(
     ('eccentric', 2.14)
     """
     question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
-    return _chosen(question)[0]
+    return _chosen(question, 1)[0]
 
 
 def solve(
@@ -100,7 +96,9 @@ def solve(
 ) -> Impact:
     """Solve an impact with the least model that stays within a tolerance of the eccentric one.
 
-    The model is chosen by ``required_model``, in a batch for every case by itself, and each case is solved by its model.
+    The model is chosen by ``required_model``, in a batch for every case by itself, and each case is solved by its model. What
+    that model cannot hold, such as spin or motion across the normal, is carried through. Bodies that are known not to approach
+    are refused whatever else is missing.
 
     Parameters
     ----------
@@ -117,7 +115,7 @@ def solve(
     Raises
     ------
     InputError, NoImpactError, NoSolutionError
-        As for ``eccentric``; MissingInputError if a required model lacks something.
+        As for ``eccentric``; MissingInputError if a required model lacks something, in a batch for the first such case.
 
     Examples
     --------
@@ -129,18 +127,20 @@ def solve(
     >>> impact.model, round(impact.b.delta_v, 3)
     ('linear_central', 6.667)
     """
+    check_options(on_failure, threads, progress)
     question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
-    choice, which = _chosen(question)
-    if question.missing and np.any(np.equal(which, MODELS.index(_ECCENTRIC))):
-        door = Door()
-        door.problems.extend(missing_numbers(a, b, point))
-        door.close()
-    asked = question.asked
-    if isinstance(choice.model, str):
-        kernel, inputs, settings = _kernel(choice.model, asked)
-        impact = answer(kernel, inputs, settings, tuple(asked), question.plain, None, on_failure, threads, progress)
+    asked, choice = question.asked, question.given
+    if choice is None:
+        choice, which, lacks = _chosen(question, threads)
+        if np.any(lacks):
+            _refuse_without(a, b, point, lacks)
     else:
-        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure)
+        which = choice._which
+    if isinstance(which, np.ndarray):
+        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure, tolerance=choice.tolerance)
+    else:
+        model = _model(which, asked)
+        impact = answer(*model, tuple(asked), question.plain, None, on_failure, threads, progress)
     impact._cache["choice"] = choice
     return impact
 
@@ -149,10 +149,11 @@ SOLVERS["solve"] = solve
 
 
 class _Question(NamedTuple):
-    """What was asked, what is accepted, and what the eccentric model would lack."""
+    """What was asked, what is accepted (or which choice is to be taken again), and what the eccentric model would lack."""
 
     asked: Asked
     tolerance: Any
+    given: ModelChoice | None
     missing: tuple[str, ...]
     plain: bool
 
@@ -170,131 +171,147 @@ def _read(
     tolerance: Any,
 ) -> _Question:
     door = Door()
-    limit = amount(door, tolerance, "m/s", "tolerance")
+    given = tolerance if isinstance(tolerance, ModelChoice) else None
+    limit = amount(door, tolerance, "m/s", "tolerance") if given is None else given.tolerance
+    if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
+        _refuse_first(door, limit)
     e, n, rule, bound, contact, plain = read(
         a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, door.problems
     )
     missing = [f"{label}.{name}" for label, name in lacking(a, b)] + (["point"] if contact is None else [])
-    return _Question(Asked("solve", a, b, e, n, rule, bound, law, contact), limit, tuple(missing), plain)
+    return _Question(Asked("solve", a, b, e, n, rule, bound, law, contact), limit, given, tuple(missing), plain)
 
 
-def _kernel(model: str, asked: Asked) -> tuple[Any, tuple[Any, ...], tuple[Any, ...]]:
+def _refuse_first(door: Door, tolerances: Any) -> None:
+    """Refuses the first of these that would be refused alone."""
+    at = tuple(int(i) for i in np.argwhere(~np.isfinite(tolerances) | (tolerances < 0.0))[0])
+    value, place = float(tolerances[at]), at[0] if len(at) == 1 else at
+    code = "negative_speed" if math.isfinite(value) else "not_finite"
+    text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
+    door.refuse(InputError(text, code=code, argument="tolerance"))
+
+
+def _refuse_without(a: Vehicle, b: Vehicle, point: Any, lacks: Any) -> None:
+    """Names all that is missing, in a batch for the first case that needs it."""
+    place = ""
+    if isinstance(lacks, np.ndarray):
+        at = tuple(int(i) for i in np.unravel_index(int(np.argmax(lacks)), lacks.shape))
+        place = f"case {at if len(at) != 1 else at[0]}: "
+    door = Door()
+    for error in missing_numbers(a, b, point):
+        door.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
+    door.close()
+
+
+def _model(which: int, asked: Asked) -> tuple[Any, tuple[Any, ...], tuple[Any, ...]]:
     """The kernel of a model, its inputs and its settings; motion that a central model cannot hold is carried through."""
     a, b, e, n, bound = asked.a, asked.b, asked.restitution, asked.normal, asked.bound
-    if model == _ECCENTRIC:
-        bodies = (*body_numbers(a, asked.point), *body_numbers(b, asked.point))
+    if which == ECCENTRIC:
         pinned = a.pivot is not None, b.pivot is not None
-        return eccentric_kernel, (e, *n, bound, *(asked.point or ()), *bodies), (asked.rule, asked.law, *pinned)
+        return eccentric_kernel, (e, *n, bound, *_contact_numbers(asked)), (asked.rule, asked.law, *pinned)
     velocities = (a.mass, a.vx, a.vy, b.mass, b.vx, b.vy)
-    if model == _OBLIQUE:
-        return oblique_kernel, (e, *n, bound, *velocities), (asked.rule, asked.law)
-    return linear_kernel, (e, *n, *velocities), ()
+    if which == LINEAR:
+        return linear_carried, (e, *n, *velocities), ()
+    return oblique_kernel, (e, *n, bound, *velocities), (asked.rule, asked.law)
 
 
-def _chosen(question: _Question) -> tuple[ModelChoice, Any]:
-    """The choice, and which of ``MODELS`` it is, by number."""
+def _contact_numbers(asked: Asked) -> tuple[Any, ...]:
+    """Point and bodies; what is not known is filled in so that it makes no torque."""
+    contact = asked.point or (0.0, 0.0)
+    numbers: list[Any] = [*contact]
+    for body in (asked.a, asked.b):
+        mass, inertia, vx, vy, spin, x, y, *pivot = body_numbers(body, contact)
+        if asked.point is None:
+            x, y = contact
+        numbers += [mass, math.inf if inertia is None else inertia, vx, vy, spin, x, y, *pivot]
+    return tuple(numbers)
+
+
+def _chosen(question: _Question, threads: int) -> tuple[ModelChoice, Any, Any]:
+    """The choice, which of ``MODELS`` it is, by number, and whether that lacks something."""
     asked, tolerance = question.asked, question.tolerance
     shape = broadcast({"tolerance": tolerance, **dict(numbers_of(asked))})
-    with np.errstate(all="ignore"):
-        errors = _errors(asked)
-        which: Any = MODELS.index(_ECCENTRIC)
-        for name in (_OBLIQUE, _LINEAR):
-            which = select((_MARGIN * errors[name] <= tolerance) & (tolerance > 0.0), MODELS.index(name), which)
-    if shape is not None:
-        which = np.broadcast_to(np.asarray(which, dtype=np.uint8), shape)
-        errors = {name: lock(np.array(np.broadcast_to(error, shape))) for name, error in errors.items()}
+    which, linear, oblique = _predicted(question, shape, threads)
+    lacks = which == LACKING
+    if shape is None:
+        which = min(which, ECCENTRIC)
+    else:
+        np.minimum(which, ECCENTRIC, out=which)
     choice = ModelChoice(
-        model=MODELS[which] if shape is None else lock(np.array(MODELS).take(which)),
-        reason=_reason(which, errors, question),
-        errors=errors,
+        reason=_reason(which, linear, oblique, lacks, question),
+        errors={_LINEAR: linear, _OBLIQUE: oblique},
         missing={_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: question.missing},
         tolerance=tolerance,
+        _which=which,
     )
-    return choice, which
+    return choice, which, lacks
 
 
-def _errors(asked: Asked) -> dict[str, Any]:
-    """What the central models err by; NaN where a lever or a yaw inertia that is not known would tell."""
+def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int) -> tuple[Any, Any, Any]:
+    """Which model by number, and the errors of the central ones; infinite beside a pivot, which they cannot hold."""
+    asked = question.asked
     bodies = (asked.a, asked.b)
     if any(body.pivot is not None for body in bodies):
-        return {_LINEAR: math.inf, _OBLIQUE: math.inf}
-    contact = asked.point or (0.0, 0.0)
-    numbers: list[Any] = [asked.restitution, *asked.normal, asked.bound, *contact]
-    for body in bodies:
-        placed = asked.point is not None and body.x is not None and body.y is not None
-        place = (body.x, body.y) if placed else contact
-        inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-        numbers += [body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, 0.0, 0.0]
-    linear, oblique, *torques = _shortfalls(asked, numbers)
-    unknown: Any = False
-    for body, torque in zip(bodies, torques, strict=True):
-        if asked.point is None or body.x is None or body.y is None:
-            # Without a place the lever is open; it does not matter to a body that cannot turn.
-            inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-            turns: Any = True if body.yaw_inertia is None else np.isfinite(inertia)
-            fixed = np.isinf(body.mass) & np.isinf(inertia)
-            moves = np.not_equal(body.yaw_rate, 0.0)
-            unknown = unknown | ((turns | moves) & np.logical_not(fixed & np.logical_not(moves)))
-        elif body.yaw_inertia is None:
-            # No torque on a body that could not turn: none on one that can.
-            unknown = unknown | np.not_equal(torque, 0.0)
-    if isinstance(linear, float) and isinstance(oblique, float) and np.ndim(unknown) == 0:
-        return {_LINEAR: math.nan, _OBLIQUE: math.nan} if unknown else {_LINEAR: linear, _OBLIQUE: oblique}
-    return {name: select(unknown, np.nan, error) for name, error in ((_LINEAR, linear), (_OBLIQUE, oblique))}
+        which, error = LACKING if question.missing else ECCENTRIC, math.inf
+        if shape is None:
+            return which, error, error
+        return np.full(shape, which, dtype=np.uint8), np.full(shape, error), np.full(shape, error)
+    known = Known(
+        places=(
+            asked.point is not None and asked.a.x is not None and asked.a.y is not None,
+            asked.point is not None and asked.b.x is not None and asked.b.y is not None,
+        ),
+        inertias=(asked.a.yaw_inertia is not None, asked.b.yaw_inertia is not None),
+        all=not question.missing,
+    )
+    inputs = (asked.restitution, *asked.normal, asked.bound, *_contact_numbers(asked), question.tolerance)
+    if shape is None:
+        return least_model(*inputs, asked.rule, asked.law, known, codes.EPS)
+    # As for batches of one model: single cases never come here.
+    from .kernels.batch import precision
+    from .kernels.mixed import least_models
+
+    dtype = precision(value for _, value in numbers_of(asked))
+    eps = float(np.finfo(dtype).eps)
+    return least_models((asked.rule, asked.law, known, eps), inputs, value_checks(asked, eps), shape, dtype, threads)
 
 
-def _shortfalls(asked: Asked, numbers: list[Any]) -> Any:
-    """What the kernel says of one case, or of many in blocks; torques only where something follows from them."""
-    settings = asked.rule, asked.law or ""
-    if numeric(*numbers) is math:
-        return shortfalls_of(*numbers, *settings)
-    from .kernels.batch import precision, work_out
-
-    wanted = True, True, asked.a.yaw_inertia is None, asked.b.yaw_inertia is None
-    shape = np.broadcast_shapes(*map(np.shape, numbers))
-    return work_out(shortfalls_of, settings, numbers, wanted, shape, precision(numbers))
-
-
-def _reason(which: Any, errors: dict[str, Any], question: _Question) -> str:
+def _reason(which: Any, linear: Any, oblique: Any, lacks: Any, question: _Question) -> str:
     """Why, in a sentence."""
     tolerance = question.tolerance
     if not isinstance(which, int):
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(MODELS))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
-    model, cheaper = MODELS[which], MODELS[:which]
-    told = [f"{name} would err by {errors[name]:.3g} m/s" for name in cheaper]
-    if model != _ECCENTRIC:
+    model, errors = MODELS[which], (linear, oblique)
+    told = [f"{name} would err by {error:.3g} m/s" for name, error in zip(MODELS[:which], errors, strict=False)]
+    if which != ECCENTRIC:
         others = f"; {told[0]}" if told else ""
-        return f"{model}: it errs by {errors[model]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
+        return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
     if tolerance == 0.0:
         return f"{model}: a tolerance of 0 asks for the full model"
     if question.asked.a.pivot is not None or question.asked.b.pivot is not None:
         return f"{model}: a body that turns about a pivot is beyond the central models"
-    if math.isnan(errors[_OBLIQUE]) and question.missing:
+    if math.isnan(oblique) and lacks:
         return f"{model}: without {', '.join(question.missing)} nothing tells what a central model would err by"
-    if math.isnan(errors[_OBLIQUE]):
+    if math.isnan(oblique):
         return f"{model}: there is no answer that a cheaper one could come near to"
     return f"{model}: {told[1]}, and {tolerance:.3g} m/s are accepted"
 
 
 def _solved_by_model(asked: Asked, which: Any, threads: int, progress: Any) -> Any:
     """The outputs of a batch, every case worked out by its own model."""
-    places = [np.flatnonzero(which == at) for at in range(len(MODELS))]
-    for name, lanes in zip(MODELS, places, strict=True):
-        if lanes.size == which.size and (lanes.size or name == _ECCENTRIC):
-            return solved(*_kernel(name, asked), asked, None, which.shape, threads, progress)
-    from .kernels.batch import FIRST, Answers
+    shape = broadcast({"which": which, **dict(numbers_of(asked))}) or ()
+    for at in range(len(MODELS)):
+        if np.all(which == at):
+            return solved(*_model(at, asked), asked, None, shape, threads, progress)
+    from .kernels.batch import precision
+    from .kernels.mixed import Model, solve_mixed
 
-    def joined(names: Sequence[str], progress: Any = None) -> dict[str, Any]:
-        found: dict[str, Any] = {}
-        for name, lanes in zip(MODELS, places, strict=True):
-            if lanes.size:
-                part = solved(*_kernel(name, asked), asked, None, which.shape, threads, progress, lanes)
-                for output in names:
-                    answers = part[codes.AT[output]]
-                    found.setdefault(output, np.empty(which.shape, dtype=answers.dtype)).flat[lanes] = answers
-        lock(found)
-        return found
-
-    return Answers(joined, joined(FIRST, progress))
+    dtype = precision(value for _, value in numbers_of(asked))
+    eps = float(np.finfo(dtype).eps)
+    models = []
+    for at in range(len(MODELS)):
+        kernel, inputs, settings = _model(at, asked)
+        models.append(Model(kernel, (*settings, eps), inputs))
+    return solve_mixed(models, which, value_checks(asked, eps), shape, dtype, threads, reporter(progress))

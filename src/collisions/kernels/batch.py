@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
@@ -146,8 +146,8 @@ def _solved(
     outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
     # An array that is looked at more than once is cut once.
     given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
-    lanes = {key: value if isinstance(value, float) else _flat(value, shape) for key, value in given.items()}
-    work: Callable[[], Callable[[Sequence[Any], Sequence[Any]], None]] = partial(_Straight, kernel, settings)
+    lanes = {key: value if isinstance(value, float) else flat(value, shape) for key, value in given.items()}
+    work: Callable[[], Callable[[Sequence[Any], Sequence[Any]], None]] = partial(Straight, kernel, settings)
     length = BLOCK
     if size > BLOCK:
         texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
@@ -160,62 +160,63 @@ def _solved(
         block = slice(start, min(start + length, size))
         if not hasattr(mine, "run"):
             mine.run = work()
-        cut = {key: _part(lane, block, dtype) for key, lane in lanes.items()}
+        cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
         answers = [None if output is None else output[block] for output in outputs]
-        status: Any = answers[0]
         with np.errstate(all="ignore"):
-            faults = [_faults(check, [cut[id(value)] for value in check.values]) for check in checks]
+            faults = faults_of(checks, cut)
             mine.run([cut[id(value)] for value in inputs], answers)
-        for fault in reversed(faults):
-            if fault is not None:
-                np.copyto(status, fault, where=np.not_equal(fault, OK), casting="unsafe")
-        if status.max() > ENERGY_GAIN:
-            refused = status > ENERGY_GAIN
-            for name, answer in zip(OUTPUTS[1:], answers[1:], strict=True):
-                if answer is not None:
-                    answer[refused] = False if name == "sticks" else np.nan
+        blank(faults, answers)
         return block.stop - block.start
 
-    starts = range(0, size, length)
-    if threads == 1 or len(starts) < 2:
-        _report(map(solve, starts), size, progress)
-    else:
-        # Costs a tenth of importing numpy, and most calls need no second thread.
-        from concurrent.futures import ThreadPoolExecutor
-
-        with ThreadPoolExecutor(threads) as pool:
-            try:
-                _report(pool.map(solve, starts), size, progress)
-            except BaseException:
-                pool.shutdown(cancel_futures=True)
-                raise
+    each_block(solve, range(0, size, length), size, threads, progress)
     found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
     for output in found.values():
         output.setflags(write=False)
     return found
 
 
-def work_out(
-    kernel: Callable[..., tuple[Any, ...]],
-    settings: tuple[Any, ...],
-    inputs: Sequence[Any],
-    wanted: Sequence[bool],
-    shape: tuple[int, ...],
-    dtype: Any,
-) -> list[Any]:
-    """The outputs of a kernel that has no status, None for those that are not wanted; the first one is."""
-    size, kinds = math.prod(shape), tuple(np.dtype(dtype) if want else None for want in wanted)
-    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
-    lanes = [value if isinstance(value, float) else _flat(value, shape) for value in inputs]
-    run: Callable[[Sequence[Any], Sequence[Any]], None] = _Straight(kernel, settings)
-    if size > BLOCK:
-        texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
-        run = Replay(record(kernel, settings, texts, np.dtype(dtype), kinds), BLOCK)
-    with np.errstate(all="ignore"):
-        for start in range(0, size, BLOCK):
-            block = slice(start, min(start + BLOCK, size))
-            run([_part(lane, block, dtype) for lane in lanes], [None if one is None else one[block] for one in outputs])
-    return [None if one is None else one.reshape(shape) for one in outputs]
+def each_block(
+    solve: Callable[[int], int],
+    starts: Sequence[int],
+    size: int,
+    threads: int,
+    progress: Callable[[int, int], None] | None,
+) -> None:
+    """Calls ``solve`` with the start of every block, on so many threads; it gives back how many cases it has worked out."""
+    if threads == 1 or len(starts) < 2:
+        _report(map(solve, starts), size, progress)
+        return
+    # Costs a tenth of importing numpy, and most calls need no second thread.
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            _report(pool.map(solve, starts), size, progress)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def faults_of(checks: Sequence[Check], values: Mapping[int, Any]) -> list[Any]:
+    """The statuses that the checks give the cases of a block, values found by their ids; checks that all pass give none."""
+    found = []
+    for check in checks:
+        block = [values[id(value)] for value in check.values]
+        if check.passes is None or not check.passes(*block):
+            found.append(check.fault(*block))
+    return found
+
+
+def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
+    """The first fault that applies decides the status of a case; where it is refused, no answer is left."""
+    status = answers[0]
+    for fault in reversed(faults):
+        np.copyto(status, fault, where=np.not_equal(fault, OK), casting="unsafe")
+    if status.max() > ENERGY_GAIN:
+        refused = status > ENERGY_GAIN
+        for name, answer in zip(OUTPUTS[1:], answers[1:], strict=True):
+            if answer is not None:
+                answer[refused] = False if name == "sticks" else np.nan
 
 
 def block_length(size: int, threads: int, scratch: int) -> int:
@@ -231,7 +232,7 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     return max(BLOCK, math.ceil(even / 64) * 64)
 
 
-class _Straight:
+class Straight:
     """A kernel called on a block as it is: for so few cases that recording it would cost more."""
 
     def __init__(self, kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...]) -> None:
@@ -252,12 +253,7 @@ def _report(counts: Any, size: int, progress: Callable[[int, int], None] | None)
             progress(done, size)
 
 
-def _faults(check: Check, values: Sequence[Any]) -> Any:
-    """The status a check gives each case of a block, None if all of them pass."""
-    return None if check.passes is not None and check.passes(*values) else check.fault(*values)
-
-
-def _part(lane: Any, block: slice, dtype: Any) -> Any:
+def part(lane: Any, block: slice, dtype: Any) -> Any:
     """The cases of a block, in the precision of the batch; a plain number as it is."""
     if isinstance(lane, float):
         return lane
@@ -265,7 +261,7 @@ def _part(lane: Any, block: slice, dtype: Any) -> Any:
     return part if part.dtype == dtype else part.astype(dtype)
 
 
-def _flat(value: Any, shape: tuple[int, ...]) -> Any:
+def flat(value: Any, shape: tuple[int, ...]) -> Any:
     """Something whose slices are the cases in order, without a copy of the whole: a view, or an iterator over one."""
     if value.shape == shape and value.flags.c_contiguous:
         return value.reshape(-1)

@@ -5,22 +5,73 @@ An error is that of the delta-V vector and, times the radius of gyration, of the
 
 from collections.abc import Callable
 from math import inf, nan
-from typing import Any
+from typing import Any, NamedTuple
 
-from .codes import AT, ENERGY_GAIN, EPS
+from .codes import AT, ENERGY_GAIN, EPS, OUT_OF_RANGE
 from .eccentric import eccentric, recoil
 from .linear import linear_central
 from .oblique import oblique_central
 from .select import select
 
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
+# What a predicted error counts for, so that an answer stays within the tolerance where a prediction falls short.
+_MARGIN = 1.15
+# A lever of so many eps of the coordinates may be rounding: of angles up to a turn, of what they were made from, and of slip.
+_ROUNDING = 16.0
+LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
-def shortfalls_of(*given: Any) -> tuple[Any, ...]:
-    """``shortfalls`` of free bodies, its arguments in a row: six of the contact, nine of each body, rule and law."""
+class Known(NamedTuple):
+    """Whether the places of both bodies beside the contact are known, their yaw inertias, and all that is needed."""
+
+    places: tuple[bool, bool]
+    inertias: tuple[bool, bool]
+    all: bool
+
+
+def least_model(*given: Any) -> tuple[Any, Any, Any]:
+    """Which model is the least within the tolerance, by number, and what the linear and the oblique one err by.
+
+    Given are six numbers of the contact, nine of each free body (those that are not known filled in so that they make no
+    torque), the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless
+    it is known that the bodies do not approach.
+    """
     restitution, nx, ny, tangential, px, py = given[:6]
-    rule, law = given[24:]
-    return shortfalls(restitution, nx, ny, tangential, px, py, given[6:15], given[15:24], rule, law, False, False)
+    bodies, tolerance = (given[6:15], given[15:24]), given[24]
+    rule, law, known, eps = given[25:]
+    linear, oblique, torques, impulse = shortfalls(
+        restitution, nx, ny, tangential, px, py, *bodies, rule, law, False, False, eps
+    )
+    lacking: Any = False
+    approach: Any = True
+    if not known.all:
+        # Without a place the lever is open, which matters to what can turn or does.
+        for body, torque, placed, weighed in zip(bodies, torques, known.places, known.inertias, strict=True):
+            _, inertia, _, _, spin, x, y, *_ = body
+            if not placed:
+                approach = approach & (spin == 0.0)
+                lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
+            elif not weighed:
+                # No torque on a body that could not turn: none on one that can.
+                size = (abs(x) + abs(y) + abs(px) + abs(py)) * impulse
+                lacking = lacking | ((abs(torque) <= _ROUNDING * eps * size) ^ True)
+        closing = closing_speed(nx, ny, px, py, *bodies)
+        apart = approach & ((closing > 0.0) ^ True)
+        lacking = lacking & (apart ^ True)
+        linear, oblique = select(lacking, nan, linear), select(lacking, nan, oblique)
+        lacking = apart ^ True
+    within = tolerance > 0.0
+    which = select(lacking, LACKING, ECCENTRIC)
+    which = select(within & (_MARGIN * oblique <= tolerance), OBLIQUE, which)
+    return select(within & (_MARGIN * linear <= tolerance), LINEAR, which), linear, oblique
+
+
+def closing_speed(nx: Any, ny: Any, px: Any, py: Any, body_a: tuple[Any, ...], body_b: tuple[Any, ...]) -> Any:
+    """Speed at which the contact points of free bodies approach along the normal."""
+    (_, _, vx_a, vy_a, spin_a, x_a, y_a, *_), (_, _, vx_b, vy_b, spin_b, x_b, y_b, *_) = body_a, body_b
+    ux = (vx_a - vx_b) + (spin_b * (py - y_b) - spin_a * (py - y_a))
+    uy = (vy_a - vy_b) + (spin_a * (px - x_a) - spin_b * (px - x_b))
+    return nx * ux + ny * uy
 
 
 def shortfalls(
@@ -37,8 +88,8 @@ def shortfalls(
     pinned_a: bool,
     pinned_b: bool,
     eps: float = EPS,
-) -> tuple[Any, Any, Any, Any]:
-    """Error of the linear and of the oblique model, each for the worse of both bodies, and the torques on A and B.
+) -> tuple[Any, Any, tuple[Any, Any], Any]:
+    """Error of the linear and of the oblique model, each for the worse of both bodies; the torques on A and B; the impulse.
 
     NaN where the eccentric model has no answer, infinite where the cheaper one has none.
     """
@@ -68,4 +119,13 @@ def shortfalls(
     linear, oblique = (
         select(answered, select(model[0] > ENERGY_GAIN, inf, error), nan) for model, error in zip(models, worst, strict=True)
     )
-    return linear, oblique, for_a[0], for_b[0]
+    return linear, oblique, (for_a[0], for_b[0]), abs(normal) + abs(tangential_impulse)
+
+
+def linear_carried(restitution: Any, nx: Any, ny: Any, *rest: Any) -> tuple[Any, ...]:
+    """Answers of the linear model in the order of ``codes.OUTPUTS``, with the slip of what it carries through."""
+    status, closing, _, _, *others = linear_central(restitution, nx, ny, *rest)
+    _, vx_a, vy_a, _, vx_b, vy_b, *_ = rest
+    slip = ny * (vx_a - vx_b) - nx * (vy_a - vy_b)
+    finite = slip - slip == 0.0
+    return select((status > ENERGY_GAIN) | finite, status, OUT_OF_RANGE), closing, slip, slip, *others

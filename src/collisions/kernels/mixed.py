@@ -1,0 +1,169 @@
+"""Many cases, each worked out by a model of its own: which one is found in blocks, then every block is parted by model.
+
+The cases of a block that one kernel answers are gathered, worked out, and put back in their places, all within the cache.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import chain
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .batch import (
+    BLOCK,
+    FIRST,
+    Answers,
+    Check,
+    Straight,
+    blank,
+    block_length,
+    each_block,
+    faults_of,
+    flat,
+    part,
+)
+from .codes import OK, OUTPUTS
+from .replay import Replay, aligned, record
+from .shortfall import ECCENTRIC, least_model
+
+
+class Model(NamedTuple):
+    """A kernel, its settings and its inputs."""
+
+    kernel: Callable[..., tuple[Any, ...]]
+    settings: tuple[Any, ...]
+    inputs: tuple[Any, ...]
+
+
+def least_models(
+    settings: tuple[Any, ...],
+    inputs: Sequence[Any],
+    checks: Sequence[Check],
+    shape: tuple[int, ...],
+    dtype: Any,
+    threads: int = 1,
+) -> tuple[Any, Any, Any]:
+    """What ``least_model`` answers for many cases; where a check applies, the eccentric model, and no error is known."""
+    size, kinds = math.prod(shape), (np.dtype(np.uint8), np.dtype(dtype), np.dtype(dtype))
+    outputs = [aligned(size, kind) for kind in kinds]
+    lanes = _lanes(inputs, checks, shape)
+    length, work = BLOCK, _work(Model(least_model, settings, tuple(inputs)), size, kinds, dtype)
+    mine = threading.local()
+
+    def choose(start: int) -> int:
+        block = slice(start, min(start + length, size))
+        if not hasattr(mine, "run"):
+            mine.run = work(length)
+        cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
+        which, *errors = answers = [output[block] for output in outputs]
+        with np.errstate(all="ignore"):
+            mine.run([cut[id(value)] for value in inputs], answers)
+            for fault in faults_of(checks, cut):
+                wrong = np.not_equal(fault, OK)
+                which[wrong] = ECCENTRIC
+                for error in errors:
+                    error[wrong] = np.nan
+        return block.stop - block.start
+
+    each_block(choose, range(0, size, length), size, threads, None)
+    which, linear, oblique = (output.reshape(shape) for output in outputs)
+    return which, linear, oblique
+
+
+def solve_mixed(
+    models: Sequence[Model],
+    which: Any,
+    checks: Sequence[Check],
+    shape: tuple[int, ...],
+    dtype: Any,
+    threads: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Any:
+    """The outputs of many cases, each by the model of its number, as ``solve_lanes`` gives them for one model."""
+    solve = partial(_solved, models, which, checks, shape, np.dtype(dtype), threads)
+    if math.prod(shape) > BLOCK:
+        return Answers(solve, solve(FIRST, progress))
+    return tuple(solve(OUTPUTS, progress).values())
+
+
+def _solved(
+    models: Sequence[Model],
+    which: Any,
+    checks: Sequence[Check],
+    shape: tuple[int, ...],
+    dtype: Any,
+    threads: int,
+    names: Sequence[str],
+    progress: Callable[[int, int], None] | None = None,
+) -> dict[str, Any]:
+    size = math.prod(shape)
+    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
+    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
+    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
+    lanes = _lanes(chain.from_iterable(model.inputs for model in models), checks, shape)
+    numbers = flat(which, shape)
+    works = [_work(model, size, kinds, dtype) for model in models]
+    length = BLOCK if size <= BLOCK else block_length(size, threads, max(work.scratch for work in works))
+    stretch = length * len(models)
+    mine = threading.local()
+
+    def solve(start: int) -> int:
+        block = slice(start, min(start + stretch, size))
+        if not hasattr(mine, "runs"):
+            mine.runs = [work(length) for work in works]
+        cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
+        there = [None if output is None else output[block] for output in outputs]
+        for number, (model, run) in enumerate(zip(models, mine.runs, strict=True)):
+            chosen = np.flatnonzero(numbers[block] == number)
+            for some in np.array_split(chosen, math.ceil(chosen.size / length) or 1):
+                if some.size:
+                    _answer(model, run, some, cut, there)
+        return block.stop - block.start
+
+    def _answer(model: Model, run: Any, some: Any, cut: dict[int, Any], there: list[Any]) -> None:
+        wanted = chain(model.inputs, *(check.values for check in checks))
+        taken = {id(value): cut[id(value)] for value in wanted}
+        taken = {key: value if isinstance(value, float) else value.take(some) for key, value in taken.items()}
+        answers = [None if kind is None else np.empty(some.size, kind) for kind in kinds]
+        with np.errstate(all="ignore"):
+            found = faults_of(checks, taken)
+            run([taken[id(value)] for value in model.inputs], answers)
+        blank(found, answers)
+        for output, answer in zip(there, answers, strict=True):
+            if output is not None:
+                output[some] = answer
+
+    each_block(solve, range(0, size, stretch), size, threads, progress)
+    found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
+    for output in found.values():
+        output.setflags(write=False)
+    return found
+
+
+class _Work(NamedTuple):
+    """How a kernel is run on blocks: as it is, or where they are many, recorded."""
+
+    make: Callable[[int], Callable[[Sequence[Any], Sequence[Any]], None]]
+    scratch: int
+
+    def __call__(self, length: int) -> Callable[[Sequence[Any], Sequence[Any]], None]:
+        return self.make(length)
+
+
+def _work(model: Model, size: int, kinds: tuple[Any, ...], dtype: Any) -> _Work:
+    if size <= BLOCK:
+        return _Work(lambda length: Straight(model.kernel, model.settings), 0)
+    texts = tuple(value.hex() if isinstance(value, float) else None for value in model.inputs)
+    program = record(model.kernel, model.settings, texts, np.dtype(dtype), kinds)
+    return _Work(partial(Replay, program), sum(program.buffers))
+
+
+def _lanes(inputs: Any, checks: Sequence[Check], shape: tuple[int, ...]) -> dict[int, Any]:
+    """By the id of a value what its cases are cut from; a plain number as it is."""
+    given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
+    return {key: value if isinstance(value, float) else flat(value, shape) for key, value in given.items()}
