@@ -295,11 +295,11 @@ def test_published_oblique_crash_tests(test):
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
-    """80 simulated scenes: 95 and 68.27 percent intervals, chi-squared and its chances, within binomial error.
+    """64 simulated scenes: 95 and 68.27 percent intervals, chi-squared and its chances, within binomial error.
 
     Three binomial standard deviations. The restitution is in the middle, so that bounds, which make intervals surer, do not act.
     """
-    true, rng, count = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.35}, np.random.default_rng(20), 80
+    true, rng, count = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.35}, np.random.default_rng(20), 64
     exact = truth_of(crossing, **true)
     inside = {0.95: dict.fromkeys(true, 0), 0.6827: dict.fromkeys(true, 0)}
     misfits, chances = [], []
@@ -520,6 +520,208 @@ def test_a_model_that_refuses_within_its_errors_warns():
     found, codes = asked(lambda x: {"x": np.where(x > 0.9, x, np.nan)}, {"x": Interval(0.0, 3)}, {"x": (1.0, 0.1)})
     assert codes == ["not_linear"]
     assert math.isnan(found.nonlinearity)
+
+
+# --- bounds within the errors, and turning points on them
+
+
+def square(a):
+    return {"o": a**2}
+
+
+def test_a_bound_within_two_errors_is_looked_at_too():
+    """The square of 0.1 known to 0.1: an error of 0.5, so 0.2 errors to 0 and 1.8 to 1.
+
+    Chi-squared rises there by 0.1^2 and 9.9^2, so the errors are off by |0.2/0.1 - 1| = 1 and |1.8/9.9 - 1| = 0.82.
+    """
+    found, codes = asked(square, {"a": Interval(0, 1)}, {"o": (0.01, 0.1)})
+    assert codes == ["not_linear"]
+    assert found.nonlinearity == pytest.approx(1.0, abs=1e-6)
+    assert found["a"].standard_error == pytest.approx(0.5, rel=1e-6)
+
+
+def test_an_error_wider_than_the_bounds_is_said():
+    """A straight model that tells 0.4 to 5 within 0 and 1: nothing bends, but the bounds tell more than the evidence."""
+    found, codes = asked(linear([[1.0]], "a"), {"a": Interval(0, 1)}, {"o0": (0.4, 5.0)})
+    assert codes == ["told_by_bounds"]
+    assert found.nonlinearity < 1e-6
+    assert found.told_by_bounds == ("a",)
+    assert any("the standard error of a, 5, exceeds the width of its bounds" in sentence for sentence in found.statements)
+    assert found["a"].interval(0.95) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("unknown", [Interval(-1, 9), 1.0])
+def test_slopes_that_vanish_close_by_are_refused(unknown):
+    """The square of nothing, known to 0.1, off the bounds: the search ends at 2e-5, where slopes would tell an error of 3000."""
+    with pytest.raises(col.NoSolutionError, match=r"the model turns round.*give a prior of it \(a Normal\)") as refused:
+        fit(square, {"a": unknown}, {"o": (0.0, 0.1)})
+    assert refused.value.code == "no_convergence"
+
+
+@pytest.mark.parametrize(
+    ("model", "bounds", "observed", "side", "reach"),
+    [
+        (square, (0.0, 10.0), (0.0, 0.1), "low", math.sqrt(0.2)),
+        (square, (0.0, 10.0), (0.002, 0.1), "low", math.sqrt(0.002 + math.sqrt(0.04 + 0.002**2))),
+        (lambda a: {"o": np.cos(a)}, (-1.0, 0.0), (1.0, 0.1), "high", -math.acos(0.8)),
+        (lambda a: {"o": a**4}, (0.0, 2.0), (0.0, 0.1), "low", 0.2**0.25),
+        (lambda a: {"o": np.where(a < 0.3, a**2, np.nan)}, (0.0, 1.0), (0.0, 0.1), "low", 0.3),
+        (square, (0.0, 1.0), (0.0, 1.0), "low", 1.0),
+    ],
+)
+def test_a_turning_point_on_a_bound_has_a_range(model, bounds, observed, side, reach):
+    """To where chi-squared has risen by 4 from the bound, by hand; to where the model ends, or the other bound, if that is before.
+
+    The range is divided to width/32/16^4. The third is a minimum within 1e-3 of chi-squared of its bound, and is put there.
+    """
+    found, codes = asked(model, {"a": Interval(*bounds)}, {"o": observed})
+    width = bounds[1] - bounds[0]
+    assert found.at_bounds == {"a": side}
+    assert found.values["a"] == bounds[side == "high"]
+    assert found.reaches["a"] == pytest.approx(reach, abs=width / 32 / 16**4)
+    half = 0.5 * abs(found.reaches["a"] - found.values["a"])
+    # Of the last, chi-squared rises by 1 to the other bound, which is then one error away.
+    assert found["a"].standard_error == pytest.approx(2.0 * half if reach == 1.0 else half, rel=1e-9)
+    assert found["a"].interval(0.95) == tuple(sorted((found.values["a"], found.reaches["a"])))
+    assert found["a"].interval(0.99) == bounds
+    assert found["a"].determined
+    assert codes == []
+    assert any("where the model turns round" in sentence for sentence in found.statements)
+    assert found.inputs["a"].truncate == bounds
+    assert not found.undetermined
+    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert record["reaches"] == found.reaches
+    assert record["unknowns"]["a"]["reach"] == found.reaches["a"]
+    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
+
+
+def plastic(v, e):
+    return {"loss": 350.0 * v**2 * (1.0 - e**2), "v": v}
+
+
+def least_misfit(e, observed):
+    """Of chi-squared over v: the roots of its derivative, a cubic."""
+    (loss, loss_error), (speed, speed_error) = observed["loss"], observed["v"]
+    factor = 350.0 * (1.0 - e**2)
+    roots = np.roots(
+        [2 * factor**2 / loss_error**2, 0.0, -2 * factor * loss / loss_error**2 + 1 / speed_error**2, -speed / speed_error**2]
+    )
+    v = roots[abs(roots.imag) < 1e-9].real
+    return np.min(((loss - factor * v**2) / loss_error) ** 2 + ((speed - v) / speed_error) ** 2)
+
+
+def test_nearly_plastic_impacts_are_answered():
+    """Loss of energy and speed observed, true restitution even from 0 to 0.3: on the bound the range is that of chi-squared.
+
+    There each range holds the truth as often as it says, within three binomial standard deviations. What else is fitted ends
+    within 1e-2 standard errors, which makes 1e-4 (1 + chi-squared) of the rise, so 2e-4 of the rise by 4 and of its place.
+    """
+    rng, on_bound, inside = np.random.default_rng(1), 0, 0
+    for _ in range(30):
+        e = rng.uniform(0.0, 0.3)
+        loss, speed = 35000.0 * (1.0 - e**2) + 1500.0 * rng.standard_normal(), 10.0 + 0.3 * rng.standard_normal()
+        observed = {"loss": (loss, 1500.0), "v": (speed, 0.3)}
+        found, codes = asked(plastic, {"v": Interval(0, 40), "e": Interval(0, 1)}, observed)
+        if not found.at_bounds:
+            # Close to the bound the slopes tell little, and the answer says so.
+            assert "not_linear" in codes or found["e"].standard_error < 0.05
+            continue
+        on_bound += 1
+        assert found.at_bounds == {"e": "low"}
+        reach = found.reaches["e"]
+        best = least_misfit(0.0, observed)
+        allowed = 2e-4 * (1.0 + best / 4.0) * reach
+        assert least_misfit(reach - allowed, observed) - best < 4.0 < least_misfit(reach + allowed, observed) - best
+        assert found.chi_squared == pytest.approx(best, rel=1e-6, abs=1e-9)
+        low, high = found["e"].interval(0.95)
+        inside += low <= e <= high
+        assert math.isfinite(found["v"].standard_error)
+        assert found.correlation["v", "e"] == 0.0
+    assert on_bound > 5
+    assert inside >= 0.95 * on_bound - 3.0 * math.sqrt(0.95 * 0.05 * on_bound)
+
+
+def test_a_turning_point_beside_what_stays_open():
+    """One unknown turns on its bound, another changes nothing: the first has a range, the other stays open."""
+    found, codes = asked(
+        lambda a, b, v: {"o": a**2 + v + 0.0 * b},
+        {"a": Interval(0, 3), "b": Interval(0, 3), "v": Normal(5, 0.1)},
+        {"o": (4.9, 0.1)},
+    )
+    assert codes == ["undetermined"]
+    assert [one.unknowns for one in found.undetermined if not one.held_by_prior] == [("b",)]
+    # v is the mean of two equal weights; moving a, chi-squared is (0.1 + a^2)^2/(0.1^2 + 0.1^2), 0.5 at first.
+    assert found.values["v"] == pytest.approx(4.95, abs=1e-8)
+    assert found.reaches["a"] == pytest.approx(math.sqrt(math.sqrt(0.02 * 4.5) - 0.1), rel=2e-4)
+    assert np.isnan(found.covariance[0, 1])
+    assert found.covariance[0, 2] == 0.0
+
+
+# --- many hollows, wide bounds, and starts far off
+
+
+def hollows(a):
+    return {"o": np.sin(30.0 * a) + 0.5 * a, "q": a}
+
+
+def test_the_best_of_many_hollows_is_found():
+    """One of 64 searches over 20 ended at 2.075, chi-squared 2.28; on a grid of 1e-6 the least is at 2.007, 0.02."""
+    grid = np.arange(1.9, 2.1, 1e-6)
+    for error, tells in ((0.05, False), (0.02, True)):
+        misfit = ((hollows(grid)["o"] - 0.5) / 0.01) ** 2 + ((grid - 2.0) / error) ** 2
+        arguments = hollows, {"a": Interval(-10, 10)}, {"o": (0.5, 0.01), "q": (2.0, error)}
+        if tells:
+            found = fit(*arguments)
+            assert found.searches["around"] > 0
+            assert any("few searches ended at this answer" in sentence for sentence in found.statements)
+        else:
+            # The other is within 4 of chi-squared, and so is an answer as well.
+            with pytest.raises(col.AmbiguousSolutionError) as refused:
+                fit(*arguments)
+            found, other = refused.value.solutions
+            assert other.values["a"] == pytest.approx(2.0755, abs=1e-4)
+        assert found.values["a"] == pytest.approx(grid[np.argmin(misfit)], abs=1e-6)
+        # The grid misses the least by at most half a step, of errors of 4e-4.
+        assert found.chi_squared == pytest.approx(np.min(misfit), abs=1e-5)
+    assert fit(linear([[1.0]], "a"), {"a": 1.0}, {"o0": (2.0, 0.1)}).searches["around"] == 0
+
+
+@pytest.mark.parametrize(
+    ("model", "width", "observed", "value", "error"),
+    [
+        (square, 1e8, (400.0, 4.0), 20.0, 0.1),
+        (lambda a: {"o": np.sqrt(a)}, 1e6, (2.0, 0.01), 4.0, 0.04),
+        (lambda a: {"o": np.log(a + 1.0)}, 1e8, (math.log(6.0), 0.05), 5.0, 0.3),
+        (lambda a: {"o": 1.0 / (a + 1.0)}, 1e8, (0.2, 0.002), 4.0, 0.05),
+    ],
+)
+def test_bounds_far_too_wide(model, width, observed, value, error):
+    """Slopes are over steps that fit the answer; 1e-6 of an error covers where the search ends, 1e-7 the slopes (see the head)."""
+    found, codes = asked(model, {"a": Interval(0, width)}, {"o": observed})
+    assert abs(found.values["a"] - value) <= 1e-6 * error
+    assert found["a"].standard_error == pytest.approx(error, rel=1e-7)
+    assert codes == []
+
+
+@pytest.mark.parametrize("start", [1.0, 0.0, 1e12])
+@pytest.mark.parametrize("true", [1e8, 3.0])
+def test_a_start_far_off_tells_the_same_errors(start, true):
+    """An unknown and its square, each telling it to a hundredth: an error of true/100/sqrt(2), wherever the search began."""
+
+    def model(a):
+        return {"itself": a, "square": a**2}
+
+    observed = {"itself": (true, 0.01 * true), "square": (true**2, 0.02 * true**2)}
+    found = fit(model, {"a": start}, observed)
+    assert found["a"].standard_error == pytest.approx(0.01 * true / math.sqrt(2.0), rel=1e-7)
+
+
+def test_errors_are_given_the_stated_errors():
+    """Said wherever errors are printed."""
+    found, _ = simple()
+    assert "given the stated errors" in repr(found)
+    assert "given the stated errors of the observations and priors" in str(found)
+    assert "given the stated errors of the observations and priors" in found._repr_html_()
 
 
 # --- angles

@@ -17,21 +17,23 @@ from ..errors import (
     SuspectUnitsWarning,
 )
 from ..units import callers_level
-from .fit_answer import SAME, answer_at, told_at
+from .fit_answer import answer_at, turns
+from .fit_place import SAME, TWICE, Place, agreed, on_bounds, seen_closely, told_at
 from .fit_question import Question, read_question, refused_everywhere
 from .fit_result import BENT, CONTRADICTION, Fit
 from .least_squares import AT_REFUSAL, CONVERGED, REFUSED, SEARCHING, STALLED, Ends, minimise, spread
 
 _STARTS = 64
 _MORE_STARTS = 4096  # looked at where the model refuses all of the first
-_RIVAL = 4.0  # of chi-squared: two standard errors
-_OPEN = 1e-2  # of the scale of an unknown
+_FEW = 2  # searches that ended at the best: more are begun around it
+_CLOSER, _CLOSEST = 4.0, 6  # how many times closer each time, and how often
+_NARROWER = 10.0  # times
 _BENT = (
     "there the model has a jump or a bend (a contact that begins to stick, an angle without unit that goes round), so that no "
     "error can be given"
 )
 _APART = 1.0  # standard errors
-_AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off
+_AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
 
 
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
@@ -41,7 +43,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     before, is made least within the bounds (Levenberg-Marquardt from 64 starts spread over what was known). The covariance is
     that of the slopes of the model at the answer and of the errors as stated; it is not scaled by the misfit. It holds where
     the errors of the observations are normal and independent and the model bends little within two standard errors, which
-    is tried and warned of. Rivals are looked for between the starts, not proved absent.
+    is tried and warned of. Rivals are looked for between the starts, and closer by where few found the best; they are not
+    proved absent.
 
     Parameters
     ----------
@@ -72,13 +75,15 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all are in ``solutions``.
         So it is with a friction that slides, or sticks whatever its value.
     NoSolutionError
-        The model refuses everywhere (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point of
-        the model, where no error can be given (code "no_convergence").
+        The model refuses everywhere (code "refused"); or the misfit is least at a jump, a bend, an edge or, off the bounds, a
+        turning point of the model, where no error can be given (code "no_convergence"). A turning point on a bound, such as
+        no restitution where only its square matters, has a range to one side, see ``Fit.reaches``.
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown; or the model bends, or refuses, within two standard errors of the answer.
+        Nothing determines an unknown, or less than its bounds do; or the model bends, or refuses, within two standard errors of
+        the answer.
     SuspectUnitsWarning
         A bare observation that differs by more than half a turn from what is computed, both within it: perhaps an angle.
     CollisionsWarning
@@ -103,10 +108,13 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     (63.2, 55.6)
     """
     question = read_question(model, unknowns, observed)
-    ends = _searched(question)
-    best = int(np.argmin(np.where(ends.state == CONVERGED, ends.chi_squared, np.inf)))
-    _check_ended(question, ends, best)
-    fits = [answer_at(question, ends, k) for k in _rivals(question, ends, best)]
+    first = _searched(question)
+    ends = _searched_around(question, first)
+    best = seen_closely(question, ends, _lowest(ends))
+    if best.state == CONVERGED:
+        best = on_bounds(best, ends)
+    _check_ended(best, ends)
+    fits = [answer_at(place, ends, len(ends.state) - len(first.state)) for place in _rivals(question, ends, best)]
     if len(fits) > 1:
         raise _ambiguous(fits)
     _say(question, fits[0])
@@ -129,65 +137,91 @@ def _searched(question: Question) -> Ends:
     return ends
 
 
-def _check_ended(question: Question, ends: Ends, best: int) -> None:
-    """Refuses where the misfit is least at a place that is no minimum of a smooth model."""
+def _searched_around(question: Question, ends: Ends) -> Ends:
+    """The same searches, and where few ended at the best, as among many hollows, more around it, closer and closer."""
+    low, high = (np.array(ends) for ends in zip(*(unknown.box for unknown in question.unknowns), strict=True))
+    best = _lowest(ends)
+    here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME)
+    if ends.state[best] != CONVERGED or np.count_nonzero(here) > _FEW or len(here) <= _FEW:
+        return ends
+    for closer in range(1, _CLOSEST + 1):
+        middle, half = ends.points[_lowest(ends)], 0.5 * (high - low) / _CLOSER**closer
+        more = minimise(question.problem, spread(_STARTS, middle - half, middle + half))
+        ends = Ends(*(np.concatenate(both) for both in zip(ends, more, strict=True)))
+    return ends
+
+
+def _lowest(ends: Ends) -> int:
+    """The search of the least misfit, one that converged if it is as good."""
     lowest = int(np.argmin(ends.chi_squared))
-    if ends.state[best] != CONVERGED or ends.chi_squared[best] > ends.chi_squared[lowest] + SAME:
+    best = int(np.argmin(np.where(ends.state == CONVERGED, ends.chi_squared, np.inf)))
+    return best if ends.state[best] == CONVERGED and ends.chi_squared[best] <= ends.chi_squared[lowest] + SAME else lowest
+
+
+def _check_ended(place: Place, ends: Ends) -> None:
+    """Refuses where the misfit is least at a place that is no minimum of a smooth model."""
+    advice = "Narrow the bounds to one side of it, or give fewer unknowns"
+    if place.state != CONVERGED:
         why = {
             STALLED: _BENT,
             AT_REFUSAL: "beyond it the model refuses (the bodies no longer meet, for one)",
             SEARCHING: "the search was still going down",
-        }[int(ends.state[lowest])]
-    elif question.problem.is_bent(ends.points[best]):
-        lowest, why = best, _BENT
-    elif _turns(question, ends, best):
-        lowest, why = best, "there the model turns round, so that its slopes tell no error"
+        }[place.state]
+    elif place.question.problem.is_bent(place.point):
+        why = _BENT
+    elif _turns(place, ends):
+        why = "there the model turns round, so that its slopes tell no error"
+        advice = (
+            "Narrow the bounds to one side of it (on a bound the rise of chi-squared tells a range), give a prior of it (a "
+            "Normal), or fewer unknowns"
+        )
     else:
         return
-    at = dict(zip(question.names, ends.points[lowest].tolist(), strict=True))
+    at = dict(zip(place.question.names, place.point.tolist(), strict=True))
     where = ", ".join(f"{name} = {value:.6g}" for name, value in at.items())
     raise NoSolutionError(
-        f"no search ended at a minimum: the least misfit found is chi-squared {ends.chi_squared[lowest]:.6g} at {where}, and "
-        f"{why}. Narrow the bounds to one side of it, or give fewer unknowns",
+        f"no search ended at a minimum: the least misfit found is chi-squared {place.chi_squared:.6g} at {where}, and "
+        f"{why}. {advice}",
         code="no_convergence",
-        chi_squared=float(ends.chi_squared[lowest]),
+        chi_squared=place.chi_squared,
         at=at,
     )
 
 
-def _turns(question: Question, ends: Ends, best: int) -> bool:
-    """Whether searches agree in an unknown that the slopes leave open: what is open stays wherever a search began."""
-    here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME)
-    is_open = np.isinf(np.diagonal(told_at(question, ends, best).covariance))
-    spans = np.ptp(ends.points[here], axis=0) / question.problem.scale
-    return bool(np.count_nonzero(here) > 1 and np.any(is_open & (spans < _OPEN)))
+def _turns(place: Place, ends: Ends) -> bool:
+    """Whether searches agree in an unknown that the slopes leave open, or slopes vanish so close by that no error holds."""
+    is_open = np.isinf(np.diagonal(told_at(place).covariance))
+    return bool(np.any(is_open & agreed(place, ends))) or turns(place, _NARROWER)
 
 
-def _rivals(question: Question, ends: Ends, best: int) -> list[int]:
+def _rivals(question: Question, ends: Ends, best: Place) -> list[Place]:
     """The best answer, and others that the evidence does not rule out although the errors of the best do.
 
     Apart are those beyond one standard error in what the better one determines; what it leaves open is open there too.
     """
-    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + _RIVAL))
+    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + TWICE))
     turning = np.array([unknown.unit == "rad" for unknown in question.unknowns])
-    kept = {best: _precision(told_at(question, ends, best).covariance)}
+    kept = [(best, _precision(told_at(best).covariance))]
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
-        for one, precision in kept.items():
-            way = ends.points[k] - ends.points[one]
+        for one, precision in kept:
+            way = ends.points[k] - one.point
             way = np.where(turning, (way + np.pi) % (2.0 * np.pi) - np.pi, way)
             if way @ precision @ way <= _APART**2:
                 break
         else:
-            if _is_minimum(question, ends, k):
-                kept[k] = _precision(told_at(question, ends, k).covariance)
-    return list(kept)
+            place = seen_closely(question, ends, k)
+            if _is_minimum(place):
+                place = on_bounds(place, ends)
+                kept.append((place, _precision(told_at(place).covariance)))
+    return [place for place, _ in kept]
 
 
-def _is_minimum(question: Question, ends: Ends, k: int) -> bool:
+def _is_minimum(place: Place) -> bool:
     """Whether searches from around the place do not leave it: from a ridge that one start met exactly they do."""
-    around = spread(_AROUND, -_NUDGE * question.problem.scale, _NUDGE * question.problem.scale)
-    again = minimise(question.problem, ends.points[k] + around)
-    return bool(np.min(again.chi_squared) >= ends.chi_squared[k] - SAME)
+    problem = place.question.problem
+    away = np.minimum(_NUDGE * problem.scale, np.sqrt(np.diagonal(told_at(place).covariance)))
+    again = minimise(problem, place.point + spread(_AROUND, -away, away))
+    return bool(np.min(again.chi_squared) >= place.chi_squared - SAME)
 
 
 def _precision(covariance: Any) -> Any:
@@ -228,6 +262,9 @@ def _say(question: Question, found: Fit) -> None:
             question.model.function(**{name: np.array([value]) for name, value in found.values.items()})
     if math.isnan(found.nonlinearity) or found.nonlinearity > BENT:
         _warn(IllConditionedWarning, f"{found.bend}; sample the unknowns, or give priors that hold them closer", "not_linear")
+    if found.told_by_bounds:
+        sentences = "; ".join(one for one in found.statements if "exceeds the width of its bounds" in one)
+        _warn(IllConditionedWarning, f"{sentences}; give an observation that tells more, or a prior", "told_by_bounds")
     if found.consistent is False:
         worst = max(found.residuals.items(), key=lambda item: abs(item[1].over_sigma))
         _warn(

@@ -9,29 +9,19 @@ from typing import Any
 import numpy as np
 
 from .chi_squared import survival
-from .determination import Determination, determination
-from .fit_question import Question
-from .fit_result import Direction, Fit, Residual, Values
-from .least_squares import CONVERGED, REFUSED, Ends, minimise
+from .fit_parts import TWO_ERRORS, Direction, Residual, Values
+from .fit_place import SAME, Place, rise_when_moved, told_at
+from .fit_result import Fit
+from .least_squares import CONVERGED, REFUSED, Ends
 
-SAME = 1e-3  # of chi-squared: searches that ended within this met the same misfit
-_FAR, _NEAR = 2.0, 1e-2  # standard errors
+_LEAST = 0.1  # standard errors: what moves less, and less than that in sigma, is not compared
 
 
-def told_at(question: Question, ends: Ends, k: int, chosen: Any = ...) -> Determination:
-    """What is told of the unknowns where a search ended; of the chosen ones if the others stay as they are."""
+def answer_at(place: Place, ends: Ends, around: int) -> Fit:
+    """The Fit of the place where one of the searches ended, the last of them begun around the best."""
+    told = told_at(place)
+    question, point = place.question, place.point
     problem = question.problem
-    is_prior = np.arange(len(problem.target)) >= len(question.observed)
-    steps = problem.steps(ends.points[k : k + 1])[0]
-    unbounded = np.isinf(problem.low) & np.isinf(problem.high) & ~np.isin(np.arange(len(problem.scale)), question.with_prior)
-    scale = np.where(unbounded, np.maximum(problem.scale, abs(ends.points[k])), problem.scale)
-    return determination(ends.slopes[k][:, chosen], is_prior, scale[chosen], ends.outputs[k], steps[chosen])
-
-
-def answer_at(question: Question, ends: Ends, k: int) -> Fit:
-    """The Fit of the place where a search ended."""
-    told = told_at(question, ends, k)
-    problem, point = question.problem, ends.points[k]
     names, n = question.names, len(question.unknowns)
     stated = question.stated
     sigma = np.array([value.given_sd for _, value, _ in stated])
@@ -39,7 +29,7 @@ def answer_at(question: Question, ends: Ends, k: int) -> Fit:
         *question.computed(point[np.newaxis])[0],
         *(point[names.index(name)] for name, _, is_prior in stated if is_prior),
     ]
-    over_sigma = -problem.misfit(ends.outputs[k])
+    over_sigma = -problem.misfit(place.outputs)
     residuals: dict[str, Residual] = {}
     for i, (name, value, is_prior) in enumerate(stated):
         residuals[f"prior of {name}" if is_prior else name] = Residual(
@@ -55,9 +45,7 @@ def answer_at(question: Question, ends: Ends, k: int) -> Fit:
     errors = np.sqrt(np.diagonal(told.covariance))
     sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", ""))
     at_bounds = {names[j]: str(sides[j]) for j in range(n) if sides[j] and np.isfinite(errors[j])}
-    free = np.array([name not in at_bounds for name in names])
-    inner = told_at(question, ends, k, free) if at_bounds else told
-    freedom = len(stated) - inner.rank
+    freedom = len(stated) - told_at(place, _free(place)).rank
     chi_squared = float(over_sigma @ over_sigma)
     values = {name: float(point[j]) if np.isfinite(errors[j]) else math.nan for j, name in enumerate(names)}
     units = {unknown.name: unknown.unit for unknown in question.unknowns}
@@ -83,38 +71,59 @@ def answer_at(question: Question, ends: Ends, k: int) -> Fit:
             for row, held in directions
         ),
         at_bounds=at_bounds,
-        nonlinearity=_nonlinearity(question, point, inner.covariance, free, chi_squared),
-        searches=_counted(ends, k),
+        reaches={names[j]: reach.value for j, reach in place.reaches.items()},
+        nonlinearity=nonlinearity(place),
+        searches=_counted(ends, place.chi_squared) | {"around": around},
     )
 
 
-def _nonlinearity(question: Question, point: Any, covariance: Any, free: Any, chi_squared: float) -> float:
+def nonlinearity(place: Place) -> float:
     """Relative error of the half-width of the 95 percent intervals: each unknown moved by two errors, the others fitted again.
 
-    Chi-squared then rises by 4 in a straight model. NaN if the model refuses there; ends beyond a bound are left out.
+    Chi-squared then rises by 4 in a straight model; where a bound is nearer, by the square of the errors as far as that. NaN if
+    the model refuses there.
     """
-    problem = question.problem
-    which = np.flatnonzero(free)[np.isfinite(np.diagonal(covariance))]
-    known = np.ix_(*[np.isfinite(np.diagonal(covariance))] * 2)
-    ways = np.zeros((len(which), len(point)))
-    ways[:, which] = _FAR * covariance[known] / np.sqrt(np.diagonal(covariance[known]))[:, np.newaxis]
-    starts, moved = point + np.concatenate([ways, -ways]), np.tile(which, 2)
-    rows = np.arange(len(moved))
-    within = (starts[rows, moved] >= problem.low[moved]) & (starts[rows, moved] <= problem.high[moved])
-    if not np.any(within):
+    far, risen = _moved(place)
+    compared = np.fmax(far, risen) > _LEAST
+    if not np.any(compared):
         return 0.0
-    movable = np.ones(starts.shape, dtype=bool)
-    movable[rows, moved] = False
-    ends = minimise(problem, starts[within], movable[within], close=_NEAR)
-    if np.any(ends.state == REFUSED):
-        return math.nan
-    rise = np.maximum(ends.chi_squared - chi_squared, 0.0)
     with np.errstate(divide="ignore"):
-        return float(np.max(abs(_FAR / np.sqrt(rise) - 1.0)))
+        return float(np.max(abs(far / risen - 1.0)[compared | np.isnan(risen)]))
 
 
-def _counted(ends: Ends, k: int) -> dict[str, int]:
-    same = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[k] + SAME)
+def turns(place: Place, narrower: float) -> bool:
+    """Whether the errors of an unknown are so many times too large to both sides: its slope vanishes close by."""
+    far, risen = _moved(place)
+    return bool(np.any(np.all((risen > TWO_ERRORS) & (risen > narrower * far), axis=0)))
+
+
+def _moved(place: Place) -> tuple[Any, Any]:
+    """By how many errors each unknown is moved up and down (2, n), and by how many sigma the misfit rises; NaN if refused."""
+    problem, point = place.question.problem, place.point
+    free = _free(place)
+    covariance = told_at(place, free).covariance
+    known = np.isfinite(np.diagonal(covariance))
+    which, covariance = np.flatnonzero(free)[known], covariance[np.ix_(known, known)]
+    if not which.size:
+        return np.zeros((2, 0)), np.zeros((2, 0))
+    errors = np.sqrt(np.diagonal(covariance))
+    ways = np.zeros((len(which), len(point)))
+    ways[:, which] = covariance / errors[:, np.newaxis]
+    room = np.stack([problem.high[which] - point[which], point[which] - problem.low[which]])
+    far = np.minimum(room / errors, TWO_ERRORS)
+    starts = point + np.concatenate([far[0, :, np.newaxis] * ways, -far[1, :, np.newaxis] * ways])
+    return far, np.sqrt(rise_when_moved(place, starts, np.tile(which, 2))).reshape(2, -1)
+
+
+def _free(place: Place) -> Any:
+    """The unknowns that are not on a bound, as far as they are determined at all."""
+    problem, point = place.question.problem, place.point
+    told = np.isfinite(np.diagonal(told_at(place).covariance))
+    return ~(told & ((point <= problem.low) | (point >= problem.high)))
+
+
+def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
+    same = (ends.state == CONVERGED) & (abs(ends.chi_squared - chi_squared) <= SAME)
     refused = ends.state == REFUSED
     counts = {
         "starts": len(same),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any
 
@@ -12,132 +12,10 @@ import numpy as np
 from ..errors import InputError, NoSolutionError
 from ..fields import Shown, derived, show
 from ..uncertainty.inputs import Normal
-from ..uncertainty.standard_normal import score_of_coverage
-from ..units import shown, to_quantity
+from .fit_parts import Direction, Estimate, Residual, Values
 
 BENT = 0.2  # of the half-width of a 95 percent interval
 CONTRADICTION = 0.01  # chance below which evidence is said to contradict itself
-
-
-class Values(dict[str, float]):
-    """SI numbers by name; with their units through ``.q``, as far as they were given any."""
-
-    __slots__ = ("units",)
-
-    def __init__(self, values: Mapping[str, float], units: Mapping[str, str]) -> None:
-        super().__init__(values)
-        self.units = dict(units)
-
-    @property
-    def q(self) -> dict[str, Any]:
-        """The same as Quantities; a number of an unknown unit stays a number."""
-        return {name: _quantity(value, self.units[name]) for name, value in self.items()}
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (dict(self), self.units)
-
-
-class _WithUnit(Shown):
-    """Numbers that share one unit, which differs from one to the next."""
-
-    __slots__ = ()
-    unit: str
-
-    @property
-    def q(self) -> dict[str, Any]:
-        """The numbers that have the unit as Quantities; those of an unknown unit stay numbers."""
-        return {name: _quantity(getattr(self, name), self.unit) for name in self._in_unit()}
-
-    def _in_unit(self) -> list[str]:
-        return [f.name for f in fields(self) if f.metadata.get("unit") == "own"]
-
-    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if value is not None and f.name != "unit":
-                yield prefix + f.name, show(value, self.unit if f.metadata.get("unit") == "own" else None)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Estimate(_WithUnit):
-    """One unknown: its value and standard error, NaN and inf where nothing determines it; ``at_bound`` is "low" or "high"."""
-
-    name: str
-    unit: str
-    value: float = field(metadata={"unit": "own"})
-    standard_error: float = field(metadata={"unit": "own"})
-    low: float = field(metadata={"unit": "own"})
-    high: float = field(metadata={"unit": "own"})
-    at_bound: str | None
-
-    _title = "Estimate"
-
-    @property
-    def determined(self) -> bool:
-        """Whether evidence or a prior tells it."""
-        return math.isfinite(self.standard_error)
-
-    def interval(self, coverage: float) -> tuple[float, float]:
-        """Central range that holds the truth with this probability given the stated errors, cut off at the bounds.
-
-        Normal theory around the estimate; the bounds themselves where nothing determines the unknown.
-        """
-        if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
-            raise InputError(
-                f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
-                code="bad_fraction",
-                argument="coverage",
-            )
-        if not self.determined:
-            return self.low, self.high
-        half = score_of_coverage(float(coverage)) * self.standard_error
-        return max(self.low, self.value - half), min(self.high, self.value + half)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Residual(_WithUnit):
-    """One observation or prior: what was stated, what the fit makes of it, and by how many sigma they differ.
-
-    ``residual`` is observed less computed; of angles by the short way round, in (-pi, pi].
-    """
-
-    name: str
-    unit: str
-    observed: float = field(metadata={"unit": "own"})
-    computed: float = field(metadata={"unit": "own"})
-    residual: float = field(metadata={"unit": "own"})
-    sigma: float = field(metadata={"unit": "own"})
-    over_sigma: float
-    is_prior: bool
-
-    _title = "Residual"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Direction:
-    """A change of the unknowns that the evidence does not tell: that of each in SI, all moving together.
-
-    ``held_by_prior`` says whether what was stated before settles it; otherwise nothing does.
-    """
-
-    changes: dict[str, float]
-    held_by_prior: bool
-
-    @property
-    def unknowns(self) -> tuple[str, ...]:
-        """Those that take part."""
-        return tuple(self.changes)
-
-    @property
-    def sentence(self) -> str:
-        """The same in words."""
-        if len(self.changes) == 1:
-            what = f"{self.unknowns[0]} is not determined by the evidence"
-        else:
-            first, *rest = self.changes
-            moves = ", ".join(f"{name} by {self.changes[name] / self.changes[first]:+.4g}" for name in rest)
-            what = f"the evidence cannot tell a change of {first} by +1 together with {moves} (SI)"
-        return what + (", which rests on what was stated before" if self.held_by_prior else ", and nothing else tells it")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -151,7 +29,11 @@ class Fit(Shown):
     observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
-    the others are fitted again; NaN if the model refuses there. ``searches`` counts the starts by how they ended.
+    the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there. ``reaches`` has the
+    unknowns that ended on a bound on which the model turns round, so that its slopes tell no error: the value up to which
+    chi-squared rises by no more than 4 while the others are fitted again. The standard error of such an unknown is half of the
+    way there, and the covariance of the others is that with it on its bound. ``searches`` counts the starts by how they ended;
+    ``around`` are those among them that were added around an answer that few found.
     """
 
     values: Values = field()
@@ -166,6 +48,7 @@ class Fit(Shown):
     p_value: float = field(metadata={"unit": ""})
     undetermined: tuple[Direction, ...] = field()
     at_bounds: dict[str, str] = field()
+    reaches: dict[str, float] = field()
     nonlinearity: float = field(metadata={"unit": ""})
     searches: dict[str, int] = field()
 
@@ -185,6 +68,7 @@ class Fit(Shown):
             low=low,
             high=high,
             at_bound=self.at_bounds.get(name),
+            reach=self.reaches.get(name),
         )
 
     @property
@@ -222,6 +106,12 @@ class Fit(Shown):
         return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
 
     @property
+    def told_by_bounds(self) -> tuple[str, ...]:
+        """The unknowns whose standard error exceeds the width of their bounds."""
+        widths = {name: high - low for name, (low, high) in self.bounds.items()}
+        return tuple(name for name in self.names if widths[name] < self.standard_errors[name] < math.inf)
+
+    @property
     def bend(self) -> str:
         """How far the standard errors can be relied on, in words."""
         if math.isnan(self.nonlinearity):
@@ -249,8 +139,9 @@ class Fit(Shown):
             ],
             "statements": list(self.statements),
         }
-        plain = ("contributions", "chi_squared", "degrees_of_freedom", "p_value", "at_bounds", "nonlinearity", "searches")
-        strict: dict[str, Any] = _strict({"names": list(self.names), **found, **{name: getattr(self, name) for name in plain}})
+        counts = ("chi_squared", "degrees_of_freedom", "p_value", "nonlinearity", "searches")
+        plain = {name: getattr(self, name) for name in ("contributions", "at_bounds", "reaches", *counts)}
+        strict: dict[str, Any] = _strict({"names": list(self.names), **found, **plain})
         return strict
 
     def __str__(self) -> str:
@@ -262,13 +153,14 @@ class Fit(Shown):
         estimates = ", ".join(f"{name}={_with_error(self[name])}" for name in self.names)
         return (
             f"Fit({estimates}, chi_squared={self.chi_squared:.4g}, degrees_of_freedom={self.degrees_of_freedom}, "
-            f"p_value={self.p_value:.3g})"
+            f"p_value={self.p_value:.3g}, errors given the stated errors)"
         )
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         for name in self.names:
             bound = f", at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
             yield prefix + name, _with_error(self[name]) + bound
+        yield f"{prefix}errors", "+/- is one standard error, given the stated errors of the observations and priors"
         for name, one in self.residuals.items():
             numbers = f"observed {show(one.observed, one.unit)}, computed {show(one.computed, one.unit)}"
             yield prefix + name, f"{numbers}, residual over sigma {one.over_sigma:+.2f}"
@@ -286,12 +178,31 @@ class Fit(Shown):
             yield direction.sentence
         for name, side in self.at_bounds.items():
             inward = "above" if side == "low" else "below"
+            if name in self.reaches:
+                yield (
+                    f"{name} ended on its {side} bound, where the model turns round: its error reaches {inward} only, and two "
+                    f"errors, at the rise of chi-squared by 4 or the other bound, to {show(*self._reach(name))}"
+                )
+            else:
+                yield (
+                    f"{name} ended on its {side} bound, beyond which the evidence pulls it: its error is not symmetric and "
+                    f"reaches {inward} only"
+                )
+        for name in self.told_by_bounds:
             yield (
-                f"{name} ended on its {side} bound, beyond which the evidence pulls it: its error is not symmetric and reaches "
-                f"{inward} only"
+                f"the standard error of {name}, {self.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell "
+                f"its range, not the evidence"
+            )
+        if self.searches["around"]:
+            yield (
+                f"few searches ended at this answer, so that {self.searches['around']} more were begun around it; a better one "
+                f"may still lie between them, which narrower bounds would show"
             )
         if math.isnan(self.nonlinearity) or self.nonlinearity > BENT:
             yield self.bend
+
+    def _reach(self, name: str) -> tuple[float, str | None]:
+        return self.reaches[name], self.units[name] or None
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
@@ -312,10 +223,6 @@ class Fit(Shown):
                 code="undetermined",
                 unknowns=tuple(left),
             )
-
-
-def _quantity(value: float, unit: str) -> Any:
-    return to_quantity(value, unit) if unit else value
 
 
 def _with_error(one: Estimate) -> str:

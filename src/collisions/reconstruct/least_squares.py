@@ -29,7 +29,8 @@ class Problem(NamedTuple):
     """What is fitted: everything is counted in standard deviations of what was observed.
 
     ``evaluate`` takes points (k, n) and gives what the model makes of them (k, m), NaN where it refuses; ``period`` is NaN for
-    what does not go round a circle; ``scale`` is how far each unknown may be thought to move.
+    what does not go round a circle; ``scale`` is how far each unknown may be thought to move, and ``size`` the length over
+    which the model changes, for the steps of the slopes; without it a guess from the scale.
     """
 
     evaluate: Callable[[Any], Any]
@@ -38,6 +39,7 @@ class Problem(NamedTuple):
     low: Any
     high: Any
     scale: Any
+    size: Any = None
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
@@ -49,9 +51,13 @@ class Problem(NamedTuple):
         """Computed less observed."""
         return self.wrapped(outputs - self.target)
 
+    def sizes(self, points: Any) -> Any:
+        """The length over which the model is taken to change, by unknown."""
+        return np.clip(abs(points), 0.1 * self.scale, 10.0 * self.scale) if self.size is None else self.size
+
     def steps(self, points: Any) -> Any:
         """How far to move each unknown to see what changes, small enough to stay within the bounds on one side."""
-        size = np.clip(abs(points), 0.1 * self.scale, 10.0 * self.scale)
+        size = self.sizes(points)
         step = np.maximum(_EPS ** (1 / 3) * size, np.sqrt(_EPS * abs(points) * size))
         return np.minimum(step, 0.25 * (self.high - self.low))
 

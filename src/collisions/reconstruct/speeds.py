@@ -13,6 +13,7 @@ from ..arguments import read, warn_of_refusals
 from ..directions import course
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
+from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
@@ -220,6 +221,8 @@ def _answers(
     faults += [(of_wall, codes.INFINITE_MASS) for of_wall in told_nothing]
     faults.append((scene.open, codes.UNDETERMINED))
     nothing = Root(*(np.full((), np.nan) for _ in range(4))), np.zeros(cases.shape or (), dtype=bool)
+    count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
+    answers = int(count) if cases.shape is None else lock(np.array(np.broadcast_to(count, cases.shape)))
     impacts: list[Impact] = []
     backward = 0.0
     for root, there in found or [nothing]:
@@ -238,7 +241,7 @@ def _answers(
         impact = asked.ask(on_failure=None if cases.shape is None else "nan")
         answered = np.less_equal(impact._raw[0], codes.ENERGY_GAIN)
         condition = cases.values(np.where(answered, root.condition, np.nan))
-        origin = Reconstruction(method="speeds", known=scene.kinds, condition=condition)
+        origin = Reconstruction(method="speeds", known=scene.kinds, condition=condition, answers=answers)
         impacts.append(found_by(origin, impact._asked, impact._raw, status))
     if cases.shape is not None and np.any(impacts[0]._raw[0] > codes.ENERGY_GAIN):
         warn_of_refusals(impacts[0]._raw[0], ASK_ALONE)
