@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from . import plot, reconstruct, reference, travel, uncertainty
     from .derivation import explain
     from .diagnostics import diagnose
+    from .reporting import report
     from .idealisation import left_out
     from .provenance import ModelChoice
     from .scene import required_model, solve
@@ -67,6 +68,7 @@ __all__ = [
     "plot",
     "reconstruct",
     "reference",
+    "report",
     "required_model",
     "solve",
     "travel",
@@ -80,6 +82,7 @@ _LATER = {
     "diagnose": "diagnostics",
     "explain": "derivation",
     "left_out": "idealisation",
+    "report": "reporting",
     "required_model": "scene",
     "solve": "scene",
 }

@@ -1,0 +1,107 @@
+"""What a propagation says of the impact: the answers it knows the spread of, and its own table."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ..derivation.answers import NAMES, kind_of
+from ..derivation.rounding import _SI
+from ..errors import InputError
+from ..impact import Impact
+from ..uncertainty import Output, Propagation
+from ..units import shown
+from .blocks import Sheet, plain
+
+_KINDS = {unit: kind for kind, unit in _SI.items()}
+_ANSWERS = {**{name.replace(".", "_"): name for name in NAMES}, **{name: name for name in NAMES}}
+
+
+class Known:
+    """The outputs of a propagation that are answers of the impact, by the name of the answer."""
+
+    def __init__(self, impact: Impact, uncertainty: Propagation | None) -> None:
+        self.impact = impact
+        self.outputs: dict[str, Output] = {}
+        for output in () if uncertainty is None else uncertainty.outputs.values():
+            name = _ANSWERS.get(output.name)
+            if name is not None and output.unit in (None, _SI[kind_of(name)]):
+                self.outputs[name] = output
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviations; of an output that an interval leaves open the larger one holds."""
+        found = {name: float(max(_both(output.std))) for name, output in self.outputs.items()}
+        return {name: deviation for name, deviation in found.items() if math.isfinite(deviation)}
+
+    def tell(self, sheet: Sheet, uncertainty: Propagation) -> None:
+        """The figures of every output, what they are given, and whether they are of this impact."""
+        sheet.heading("Uncertainty, given the stated inputs")
+        for name, output in self.outputs.items():
+            self._stray(sheet, name, output)
+        rows: list[tuple[str, str, str]] = []
+        for output in uncertainty.outputs.values():
+            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output)]
+        sheet.table(("of", "quantity", "value"), rows)
+        stated = [(plain(name), "stated as", plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
+        sheet.table(("of", "quantity", "value"), [("Inputs as stated", name, text) for name, _, text in stated])
+        cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
+        seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
+        sheet.say(f"By {uncertainty.method}: {cases}{seed}. What the inputs leave out, these figures do.")
+        if uncertainty.failed:
+            sheet.say("Cases without an answer are left out: the figures hold given that there is one.")
+        if uncertainty.interrupted:
+            sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
+
+    def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
+        name = next((name for name, own in self.outputs.items() if own is output), None)
+        kind = kind_of(name) if name is not None else None if output.unit is None else _KINDS.get(output.unit)
+        if kind is None:
+            return [("figures", plain(output.row()[1])), *self._shares(output)]
+        mean, std, (low, high) = _both(output.mean), _both(output.std), output.interval()
+
+        def number(value: float) -> str:
+            return sheet.system.answer(value, kind, None)
+
+        found = []
+        if len(mean) == 1:
+            found.append(("mean ± standard deviation", sheet.system.answer(mean[0], kind, std[0])))
+            found.append(("95 percent interval", _ends(sheet, low, high, kind, std[0])))
+        else:
+            found.append(("mean, wherever in the intervals the truth is", f"{number(mean[0])} to {number(mean[1])}"))
+            found.append(("range that holds 95 percent", f"{number(low)} to {number(high)}"))
+        return [*found, *self._shares(output)]
+
+    @staticmethod
+    def _shares(output: Output) -> list[tuple[str, str]]:
+        try:
+            shares = output.contributions
+        except InputError:
+            return []
+        return [(f"share of the variance by {plain(name)}", f"{100.0 * share:.0f} percent") for name, share in shares.items()]
+
+    def _stray(self, sheet: Sheet, name: str, output: Output) -> None:
+        """The answer must lie where the propagation says it does, or one of the two is of something else."""
+        value: Any = self.impact
+        for part in name.split("."):
+            value = getattr(value, part)
+        low, high = output.interval()
+        turns = (-1, 0, 1) if kind_of(name) == "angle" else (0,)
+        if value is None or not any(low <= value + 2.0 * math.pi * turn <= high for turn in turns):
+            told = "none" if value is None else sheet.system.answer(float(value), kind_of(name))
+            sheet.stress(
+                f"{name} of this impact, {told}, lies outside the 95 percent interval of the propagation: are both of the same "
+                f"case?"
+            )
+
+
+def _both(figure: Any) -> tuple[float, ...]:
+    """One figure, or the ends of its range."""
+    return tuple(map(float, figure)) if isinstance(figure, tuple) else (float(figure),)
+
+
+def _ends(sheet: Sheet, low: float, high: float, kind: str, deviation: float) -> str:
+    """The ends of an interval with the digits of the mean."""
+    first, second = (sheet.system.answer(end, kind, deviation).partition(" ± ")[0] for end in (low, high))
+    label = sheet.system.unit(kind, False)
+    return f"{first.removesuffix(label)} to {second.removesuffix(label)}{label}"

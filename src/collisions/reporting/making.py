@@ -1,0 +1,218 @@
+"""report: the whole page of one impact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..derivation.explaining import explain
+from ..derivation.page import Page
+from ..derivation.rounding import SYSTEMS, System
+from ..diagnostics import diagnose
+from ..errors import InputError, ShapeError
+from ..idealisation import left_out
+from ..impact import Impact
+from ..outlines import read_outline
+from ..plot.canvas import who
+from ..uncertainty import Propagation
+from ..units import Door, Input, shown
+from . import sections
+from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
+from .figures import figures as pictures
+from .known import Known
+from .markdown import markdown
+from .record import record
+from .web import html
+
+_FORMS = ("html", "markdown")
+
+
+def report(
+    impact: Impact,
+    *,
+    title: str | None = None,
+    form: str = "html",
+    units: str = "si",
+    uncertainty: Propagation | None = None,
+    outline_a: Any = None,
+    outline_b: Any = None,
+    duration: Input = 0.1,
+    drag: Input = 0.7,
+    limits: Mapping[str, Any] | None = None,
+    share_a: Input | None = None,
+    notes: str | Sequence[str] | None = None,
+    figures: bool = True,
+    derivation: bool = False,
+) -> str:
+    """One page about an impact: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
+
+    An energy gain stands first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, by the
+    rounding of ``explain``. The same arguments give the same page, byte for byte, one fact a line, without a date; from the
+    record at its end ``reporting.replay`` gives the impact again, and ``report`` of that the same page.
+
+    Parameters
+    ----------
+    impact : Impact
+        One case that was answered, of any forward or reverse solver.
+    title : str, optional
+        By default the names of the vehicles.
+    form : {"html", "markdown"}
+        One HTML file that asks for nothing from outside, to be read in a browser or printed; or Markdown, without figures.
+    units : {"si", "metric", "us"}
+        As for ``explain``.
+    uncertainty : Propagation, optional
+        Of ``uncertainty.propagate``. Outputs with the name of an answer, such as "b.after.vx" or "b_after_vx", also round it.
+    outline_a, outline_b, duration, drag, limits
+        As for ``diagnose``; the first two are also drawn.
+    share_a : float, str or Quantity, optional
+        A's share of the energy absorbed, 0 to 1, for ``Impact.ees``; without it no EES is given.
+    notes : str or sequence of str, optional
+        Your own words, each in a paragraph of its own.
+    figures : bool
+        Whether to draw. They need matplotlib; where it is missing the report says so and goes on.
+    derivation : bool
+        Whether to append what ``explain`` says, in HTML as plain text.
+
+    Returns
+    -------
+    str
+        The page.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or an impact that was refused (code ``refused_impact``).
+    ShapeError
+        A batch: report one case of it.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> from collisions.reporting import report
+    >>> a = col.Vehicle(mass="1100 kg", vx="80 km/h", name="Golf")
+    >>> page = report(col.linear_central(a, col.Vehicle(mass=950), 0.4), form="markdown", units="us")
+    >>> for line in page.splitlines():
+    ...     if "velocity along x" in line or "delta-V |" in line:
+    ...         print(line)
+    | A (Golf) | velocity along x | 49.71 mph, given as 80 km/h |
+    | B | velocity along x | 0 mph |
+    | A (Golf) | delta-V | 32.3 mph |
+    | B | delta-V | 37.3 mph |
+    """
+    from .. import __version__
+
+    _check(impact)
+    door = Door()
+    _option(door, "form", form, _FORMS)
+    _option(door, "units", units, SYSTEMS)
+    heading = "" if title is None else _text(door, "title", title)
+    words = [_text(door, "notes", note) for note in ([notes] if isinstance(notes, str) else _listed(door, notes))]
+    for name, value in (("figures", figures), ("derivation", derivation)):
+        if not isinstance(value, bool):
+            door.refuse(InputError(f"{name} must be True or False, got {shown(value)}", code="bad_option", argument=name))
+    if uncertainty is not None and not isinstance(uncertainty, Propagation):
+        door.refuse(
+            InputError(
+                f"uncertainty must be what uncertainty.propagate returned, got {type(uncertainty).__name__}; standard "
+                f"deviations by name go to explain(impact, uncertainty=...)",
+                code="bad_option",
+                argument="uncertainty",
+            )
+        )
+    outlines = {
+        label: read_outline(door, given, f"outline_{label}")
+        for label, given in (("a", outline_a), ("b", outline_b))
+        if given is not None
+    }
+    door.close()
+    findings = diagnose(impact, outline_a=outline_a, outline_b=outline_b, duration=duration, drag=drag, limits=limits)
+    known = Known(impact, uncertainty)
+    sheet = Sheet(Page(System(units), False, known.deviations))
+    sheet.title(heading or plain(f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"))
+    sections.gain(sheet, impact)
+    sections.inputs(sheet, impact)
+    sections.assumptions(sheet, impact, left_out(impact, duration=duration, drag=drag), outlines, limits)
+    sections.results(sheet, impact, share_a)
+    if uncertainty is not None:
+        known.tell(sheet, uncertainty)
+    sections.findings(sheet, findings)
+    if words:
+        sheet.heading("Notes")
+        for note in words:
+            sheet.say(note)
+    if figures:
+        sheet.heading("Figures")
+        sheet.blocks += (
+            pictures(impact, uncertainty, outline_a, outline_b, units)
+            if form == "html"
+            else [Paragraph("The figures are in the HTML form of this report.")]
+        )
+    if derivation:
+        sheet.heading("Derivation")
+        text = explain(impact, units=units, form="text" if form == "html" else form, uncertainty=known.deviations)
+        sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
+    sections.sources(sheet, findings, __version__)
+    sheet.blocks += [Heading("Record"), Record(record(impact, __version__))]
+    return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
+
+
+def _check(impact: Any) -> None:
+    """Refuses what is not one impact with an answer."""
+    if not isinstance(impact, Impact):
+        raise InputError(
+            f"impact must be an Impact, got {type(impact).__name__}; write report(collisions.eccentric(...)). A "
+            f"MomentumSolution, which knows no contact, has its page by explain(...)",
+            code="not_an_impact",
+            argument="impact",
+        )
+    if isinstance(impact.status, np.ndarray):
+        raise ShapeError(
+            f"impact is a batch of shape {impact.status.shape}, and a report is of one case: ask the solver again with the "
+            f"numbers of that case, such as mass=float(masses[0]); impact.to_columns() has the table of all",
+            code="bad_shape",
+            argument="impact",
+        )
+    if impact.refused:
+        raise InputError(
+            f"impact was refused, so there is nothing to report: {impact.status.sentence}; mend its inputs and solve it again",
+            code="refused_impact",
+            argument="impact",
+            status=impact.status.label,
+        )
+
+
+def _option(door: Door, argument: str, value: Any, allowed: tuple[str, ...]) -> None:
+    if not isinstance(value, str) or value not in allowed:
+        door.refuse(
+            InputError(
+                f"{argument} must be one of {', '.join(map(repr, allowed))}, got {shown(value)}",
+                code="bad_option",
+                argument=argument,
+            )
+        )
+
+
+def _listed(door: Door, notes: Any) -> Sequence[Any]:
+    if notes is None:
+        return []
+    if not isinstance(notes, (list, tuple)):
+        door.refuse(
+            InputError(
+                f"notes must be a text, or a list of texts, got {type(notes).__name__}", code="not_a_text", argument="notes"
+            )
+        )
+        return []
+    return notes
+
+
+def _text(door: Door, argument: str, text: Any) -> str:
+    if not isinstance(text, str) or not plain(text):
+        door.refuse(
+            InputError(
+                f"{argument} must be a text that says something, got {shown(text)}", code="not_a_text", argument=argument
+            )
+        )
+        return ""
+    return plain(text)

@@ -1,0 +1,232 @@
+"""The parts of a report: what was given, assumed, answered and found, and where it is published."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from .. import reference
+from ..derivation import answers, origin
+from ..derivation.rounding import _SI
+from ..diagnostics import LIMITS, Finding
+from ..diagnostics.finding import read_limits
+from ..errors import Status
+from ..idealisation import LeftOut, LeftOutSide
+from ..impact import Impact
+from ..plot.canvas import who
+from ..units import Door, Input
+from ..vehicle import Vehicle
+from .blocks import Items, Sheet, Table, plain
+
+_HEAD = ("of", "quantity", "value")
+_FIELDS = {
+    "mass": ("mass",),
+    "velocity along x": ("vx",),
+    "velocity along y": ("vy",),
+    "yaw rate": ("yaw_rate",),
+    "yaw inertia about the centre of mass": ("yaw_inertia",),
+    "position x of the centre of mass": ("x",),
+    "position y of the centre of mass": ("y",),
+    "heading": ("heading",),
+    "pivot O (x, y)": ("pivot[0]", "pivot[1]"),
+}
+_MODELS = {
+    "linear_central": (
+        "Linear central: momentum along the normal (2) with restitution, which gives (5) and (6). The vehicles are point "
+        "masses that move along one line; rotation and forces along the tangent are left out."
+    ),
+    "oblique_central": (
+        "Oblique central: restitution along the normal (9), friction along the tangent. The vehicles are point masses; "
+        "rotation is left out."
+    ),
+    "eccentric": (
+        "Eccentric: momentum and angular momentum (10) to (19), with restitution along the normal and friction along the "
+        "tangent at one contact point; free, pinned and fixed bodies."
+    ),
+}
+_LAWS = {
+    "brach": (
+        "restitution acts on the normal impulse; with enough friction the contact has stopped slipping when the vehicles part"
+    ),
+    "kudlich-slibar": (
+        "with enough friction the contact is at rest at the end of compression, and the whole impulse until then is multiplied "
+        "by 1 + e, so that slip comes back with the opposite sign"
+    ),
+}
+_REGIMES = {
+    "frictionless": "none: the contact is frictionless",
+    "sliding": "the contact slips to the end, and the impulse ratio is the friction given",
+    "sticking": "slip ends before the vehicles part, with less than the friction given",
+    "given": "by the ratio that was given, not by a law of friction",
+}
+_KINDS = {unit: kind for kind, unit in _SI.items()}
+_RANGE = (
+    reference.RESTITUTION_FIT,
+    reference.RESTITUTION_LOW_SPEED,
+    reference.RESTITUTION,
+    reference.RESTITUTION_OBLIQUE,
+    reference.RESTITUTION_SMALL_OVERLAP,
+)
+
+
+def gain(sheet: Sheet, impact: Impact) -> None:
+    """An energy gain comes before anything else."""
+    if impact.status == Status.ENERGY_GAIN:
+        sheet.stress(
+            f"Energy gain of {sheet.system.answer(-impact.energy_loss, 'energy')}: {impact.status.sentence}, which no impact "
+            f"gives. The inputs do not go together; the numbers are shown as they are."
+        )
+
+
+def inputs(sheet: Sheet, impact: Impact) -> None:
+    """What went in, with the texts that the vehicles were given as, and why this model or how the state was found."""
+    backwards = impact.reconstruction is not None
+    sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
+    aside = sheet.aside()
+    answers.given(aside, impact)
+    vehicles = {"A": impact.a.before, "B": impact.b.before}
+    rows: list[tuple[str, str, str]] = []
+    for of, quantity, value in _rows(aside):
+        vehicle = None if of == "contact" else vehicles[of[0]]
+        texts = {} if vehicle is None else vehicle._given or {}
+        text = ", ".join(texts[name] for name in _FIELDS.get(quantity, ()) if name in texts)
+        rows.append((of, quantity, value if text in ("", value) else f"{value}, given as {plain(text)}"))
+        if vehicle is not None and quantity == "mass":
+            rows += [(of, what, told) for what, told in _speed(sheet, vehicle, texts)]
+    sheet.table(_HEAD, rows)
+    sheet.say(
+        "Where a value says how it was given, it was converted from that text; others were given or found as SI numbers, or "
+        "are 0 because nothing was given. The record has all digits."
+    )
+    origin.chosen(sheet, impact)
+    if backwards:
+        aside = sheet.aside()
+        origin.found(aside, impact)
+        # The heading, what was known, and how well-posed it was; what follows is the working.
+        sheet.blocks += aside.blocks[:3]
+
+
+def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Speed and course, where the velocity was given by them."""
+    for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
+        if name in texts:
+            text = plain(texts[name])
+            told = text if math.isnan(float(value)) else sheet.number(float(value), kind)
+            yield name, told if told == text else f"{told}, given as {text}"
+
+
+def assumptions(
+    sheet: Sheet, impact: Impact, found: LeftOut, outlines: Mapping[str, Any], limits: Mapping[str, Any] | None
+) -> None:
+    """The model and its law, the conventions, and what an impulse leaves out, as numbers."""
+    sheet.heading("Assumptions")
+    lines = [("Model:", _MODELS[impact.model])]
+    if impact.model != "linear_central":
+        lines.append(("Law:", f"{impact.law}: {_LAWS[str(impact.law)]}."))
+        lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}."))
+    lines += [
+        (
+            "Impulse:",
+            "it acts at once, along one normal, which points from A into B. Places, masses and inertias stay as they are "
+            "while it acts, and tyres and all other forces are left out.",
+        ),
+        ("Axes:", "x and y in the road plane; angles and yaw positive counter-clockwise, seen from above."),
+    ]
+    for label, corners in outlines.items():
+        told = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
+        lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {told}."))
+    for code, value in read_limits(limits, Door()).items():
+        if value is not None and value != LIMITS[code].default:
+            lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
+    sheet.blocks.append(Items(tuple(lines)))
+    time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
+    sheet.say(
+        f"What is left out, if the contact lasts {time} and the tyres have a drag of {drag} (estimates, except the bound):"
+    )
+    rows = [
+        ("contact", "mutual crush, at its most", sheet.system.answer(float(found.mutual_crush), "length")),
+        ("contact", "slide along the tangent", sheet.system.answer(float(found.contact_slide), "length")),
+    ]
+    for index, vehicle, side in ((0, impact.a.before, found.a), (1, impact.b.before, found.b)):
+        if math.isfinite(float(vehicle.mass)):
+            rows += [(plain(who(index, vehicle)), what, told) for what, told in _left_out(sheet, side, impact.model)]
+    sheet.table(_HEAD, rows)
+
+
+def _left_out(sheet: Sheet, side: LeftOutSide, model: str) -> Iterator[tuple[str, str]]:
+    way = (sheet.system.answer(float(part), "length") for part in (side.displacement_x, side.displacement_y))
+    yield "way during the contact (x, y)", ", ".join(way)
+    if model == "eccentric":
+        yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
+    for what, change, share in (
+        ("delta-V by its own tyres, bound", side.tyre_delta_v_bound, side.tyre_share_bound),
+        ("delta-V moved by the tyres of both", side.tyre_delta_v, side.tyre_share),
+        ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share),
+    ):
+        if change is not None and share is not None:
+            part = "" if math.isnan(float(share)) else f" ({100.0 * float(share):.0f} percent)"
+            yield what, sheet.system.answer(float(change), "speed") + part
+
+
+def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
+    """What came out, with the EES of a stated share."""
+    aside = sheet.aside()
+    answers.answers(aside, impact)
+    rows = _rows(aside)
+    if share_a is not None:
+        door = Door()
+        share = door.number(share_a, "", "share_a")
+        for label, speed in zip("AB", impact.ees(share_a), strict=True):
+            held = f"EES, if A took up {100.0 * share:.6g} percent of the energy absorbed"
+            last = max(at for at, row in enumerate(rows) if row[0] == label) + 1
+            rows.insert(last, (label, held, sheet.system.answer(float(speed), "speed")))
+    rows.append(("contact", "kind", impact.kind))
+    names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
+    sheet.heading("Results")
+    sheet.table(_HEAD, [(plain(names.get(of, of)), what, told) for of, what, told in rows])
+
+
+def findings(sheet: Sheet, found: Sequence[Finding]) -> None:
+    """What is odd, each with its measure and its limit."""
+    sheet.heading("Findings")
+    if not found:
+        sheet.say(f"None of {len(LIMITS)} checks found anything. No finding is no proof.")
+        return
+    lines = []
+    for finding in found:
+        measured, limit = (_amount(sheet, value, finding.unit) for value in (finding.measured, finding.limit))
+        of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
+        told = f"{plain(finding.sentence).rstrip('.')}. Measured {measured}, limit {limit}; limit: {finding.source}."
+        lines.append((f"{finding.code}{of}:", told))
+    sheet.blocks.append(Items(tuple(lines)))
+    sheet.say("A finding is a reason to look again, not an error.")
+
+
+def sources(sheet: Sheet, found: Sequence[Finding], version: str) -> None:
+    """Where equations, limits and comparable values are published, and what worked this out."""
+    sheet.heading("References")
+    lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; its equations are cited as (5).']
+    for finding in found:
+        for name in re.findall(r"reference\.(\w+)", finding.source):
+            for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
+                lines.append(f"{value.name}: {value.source}. {value.quality}")
+    duration = reference.CONTACT_DURATION
+    lines.append(f"To compare the duration with, {duration.name}: {duration.low:g} s; {duration.source}.")
+    factors = reference.DRAG_FACTORS
+    low, high = min(factor.low for factor in factors), max(factor.high for factor in factors)
+    published = "; ".join(dict.fromkeys(factor.source for factor in factors))
+    lines.append(f"To compare the drag with, locked wheels on dry asphalt: {low:.2f} to {high:.2f}; {published}.")
+    sheet.listed(list(dict.fromkeys(lines)))
+    sheet.say(f"Worked out by collisions {version}.")
+
+
+def _rows(aside: Sheet) -> list[tuple[str, str, str]]:
+    """The rows of the tables of a sheet."""
+    return [row for block in aside.blocks if isinstance(block, Table) for row in block.rows]
+
+
+def _amount(sheet: Sheet, value: float, unit: str) -> str:
+    """A number in an SI unit, in the units of the page."""
+    return sheet.number(value, _KINDS[unit])

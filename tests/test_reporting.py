@@ -1,0 +1,553 @@
+"""report: what stands on the page is what the pieces say, the page is one HTML that asks for nothing, and it can be made again."""
+
+import html
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import warnings
+from contextlib import nullcontext
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pint
+import pytest
+
+import collisions as col
+from collisions import reconstruct, uncertainty
+from collisions.derivation import explain
+from collisions.diagnostics import LIMITS, diagnose
+from collisions.reporting import replay, report
+
+mpl = pytest.importorskip("matplotlib")
+mpl.use("agg")
+
+ROOT = Path(__file__).resolve().parent.parent
+UREG = pint.UnitRegistry()
+VOID = {"meta", "br", "hr", "img", "link", "input"}
+# A name that tries to be markup, in HTML, in Markdown, in a formula and in an SVG file.
+EVIL = '<script>alert("1")</script> | `x` **b** $\\frac$ & </pre> id="z" [l](http://x)'
+
+
+def golf(**changes):
+    given = {"mass": "1500 kg", "yaw_inertia": 2600, "vx": "54 km/h", "x": -2.2, "y": 0.0, "heading": "0 deg", "name": "Golf"}
+    return col.Vehicle(**{**given, **changes})
+
+
+def polo(**changes):
+    given = {"mass": UREG.Quantity(2600, "lb"), "yaw_inertia": 2100, "x": 0.9, "y": 0.1, "heading": "-90 deg", "name": "Polo"}
+    return col.Vehicle.from_speed(speed="30 km/h", course="-90 deg", **{**given, **changes})
+
+
+def crash(a=None, b=None, e=0.1, **options):
+    options = {"friction": 0.5} | options if not {"impulse_ratio", "critical_fraction"} & options.keys() else options
+    return col.eccentric(a or golf(), b or polo(), e, **{"normal": "10 deg", "point": (0.0, 0.0), **options})
+
+
+def gaining():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.EnergyGainWarning)
+        return col.oblique_central(golf(), polo(), 1.0, normal=0.0, impulse_ratio=-0.9)
+
+
+def pinned():
+    """Example 3 of the paper."""
+    a = col.Vehicle(mass="900 kg", vx="60 km/h", yaw_inertia=math.inf, x=0.0, y=4.0)
+    b = col.Vehicle(mass="1000 kg", yaw_inertia="1333 kg*m**2", x=0.0, y="2 m", pivot=("0 ft", 0.0))
+    return col.eccentric(a, b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0)
+
+
+def example_2():
+    return reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
+
+
+IMPACTS = {
+    "eccentric": crash,
+    "other law": lambda: crash(law="kudlich-slibar"),
+    "given ratio": lambda: crash(impulse_ratio=0.1),
+    "share of critical": lambda: crash(critical_fraction=0.5),
+    "wall": lambda: col.linear_central(golf(heading=None), col.Vehicle.barrier(), 0.2),
+    "oblique": lambda: col.oblique_central(golf(), polo(), 0.2, normal=0.2, friction=0.3),
+    "pinned": pinned,
+    "example 2": example_2,
+    "planar": lambda: reconstruct.planar(crash().a.after, crash().b.after, normal="10 deg", point=(0, 0), restitution=0.1,
+                                          friction=0.5, regime="sliding"),
+    "solve, full": lambda: col.solve(golf(), polo(), 0.1, normal="10 deg", point=(0, 0), friction=0.5),
+    "solve, linear": lambda: col.solve(golf(), golf(vx=0.0, x=2.2), 0.1, normal=0, point=(0, 0), friction=0.5, tolerance=0.1),
+    "energy gain": gaining,
+    "evil": lambda: crash(golf(name=EVIL), polo(name="a\u202eb\x00c\n# d 漢")),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def impacts():
+    found = {}
+    for name, make in IMPACTS.items():
+        try:
+            found[name] = make()
+        except col.AmbiguousSolutionError as error:
+            found[name] = error.solutions[0]
+    return found
+
+
+def spread(*names, method="quasi_random", **changes):
+    """Outputs of these names, all of them without one; two of an answer, one with a unit and one without."""
+
+    def model(speed, restitution):
+        with_speed = golf(vx=speed)
+        answer = col.eccentric(with_speed, polo(), restitution, normal="10 deg", point=(0, 0), friction=0.5, on_failure="nan")
+        found = {
+            "b.delta_v": answer.b.q.delta_v,
+            "a_after_vx": answer.a.after.vx,
+            "loss": answer.q.energy_loss,
+            "own": 2.0 * speed,
+        }
+        return {name: found[name] for name in names or found}
+
+    inputs = {"speed": uncertainty.Normal("54 km/h", "2 km/h"), "restitution": uncertainty.Uniform(0.05, 0.15), **changes}
+    options = {"samples": 64, "seed": 1} if method == "quasi_random" else {}
+    return uncertainty.propagate(model, inputs, method=method, **options)
+
+
+class Page(HTMLParser):
+    """Elements in order, text by element, and whether every tag is closed where it should be."""
+
+    def __init__(self, page):
+        super().__init__(convert_charrefs=True)
+        self.open, self.tags, self.texts, self.ids, self.urls = [], [], [], [], []
+        self.feed(page)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self._look(attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        # Only within SVG may an element close itself.
+        assert "svg" in self.open, tag
+        self.tags.append(tag)
+        self._look(attrs)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.texts.append((self.open[-1] if self.open else "", data))
+
+    def _look(self, attrs):
+        names = [name for name, _ in attrs]
+        assert len(set(names)) == len(names)
+        self.ids += [value for name, value in attrs if name == "id"]
+        self.urls += [value for name, value in attrs if name in ("src", "href", "xlink:href", "action", "data", "srcset")]
+
+    def of(self, tag):
+        return [text for element, text in self.texts if element == tag]
+
+
+def rows(page):
+    """The rows of all tables of a Markdown page, without escapes."""
+    lines = [line for line in page.splitlines() if line.startswith("| ") and not line.startswith("| --- ")]
+    return [tuple(re.sub(r"\\(.)", r"\1", part) for part in line[2:-2].split(" | ")) for line in lines]
+
+
+def section(page, name):
+    """The part of a Markdown page below a heading."""
+    return page.split(f"\n## {name}\n")[1].split("\n## ")[0]
+
+
+@pytest.mark.parametrize("form", ["html", "markdown"])
+@pytest.mark.parametrize("name", IMPACTS)
+def test_a_report_made_of_what_a_report_holds_is_the_same(name, form, impacts):
+    impact = impacts[name]
+    # Figures are costly, and are looked at for one impact below.
+    options = {"form": form, "units": "metric", "derivation": True, "figures": False}
+    page = report(impact, **options)
+    with pytest.warns(col.EnergyGainWarning) if name == "energy gain" else nullcontext():
+        again = replay(page)
+    assert again == impact
+    assert [side.before._given or {} for side in (again.a, again.b)] == [
+        side.before._given or {} for side in (impact.a, impact.b)
+    ]
+    assert report(again, **options) == page
+
+
+def test_other_ends_of_lines_do_no_harm(impacts):
+    for form in ("html", "markdown"):
+        page = report(impacts["eccentric"], form=form, figures=False)
+        assert replay(page.replace("\n", "\r\n")) == impacts["eccentric"]
+
+
+def test_with_everything_it_is_the_same_too_and_in_another_process():
+    """Neither hashes, nor settings of matplotlib, nor the record change a byte."""
+    code = (
+        "import sys; sys.path.insert(0, 'tests'); import test_reporting as t\n"
+        "sys.stdout.buffer.write(t.everything(t.rear_end()).encode())"
+    )
+    page = subprocess.run(
+        [sys.executable, "-c", code], check=True, capture_output=True, cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "PYTHONHASHSEED": "1", "MPLBACKEND": "agg"},
+    ).stdout.decode()  # fmt: skip
+    with mpl.rc_context({"font.size": 17, "svg.fonttype": "path", "axes.facecolor": "red"}):
+        assert everything(replay(page)) == page
+        assert mpl.rcParams["font.size"] == 17
+    assert Page(page).tags.count("svg") == 4
+
+
+def rear_end():
+    return col.linear_central(golf(), golf(vx="10 km/h", x="2.2 m", name="Passat"), 0.1)
+
+
+def everything(impact):
+    return report(
+        impact, title="Case 7", units="metric", uncertainty=spread("b.delta_v"), outline_a=(4.2, 1.8), outline_b=("13 ft", 1.7, 0.2),
+        duration="90 ms", drag=0.6, limits={"normal": 0.5}, share_a="50 %", notes=["One.", "Two <b>."], derivation=True,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def evil_page(impacts):
+    return report(impacts["evil"], title=EVIL, notes=[EVIL, "- not a list"], derivation=True)
+
+
+def test_html_is_whole_and_asks_for_nothing(evil_page):
+    page = Page(evil_page)
+    assert page.tags[:3] == ["html", "head", "meta"]
+    assert page.tags.count("svg") == 4
+    assert not {"script", "link", "img", "iframe", "object", "base", "form"} & set(page.tags)
+    assert len(set(page.ids)) == len(page.ids)
+    assert not any(re.search(r"\s", name) for name in page.ids)
+    assert all(url.startswith("#") and url[1:] in page.ids for url in page.urls)
+    assert all(found in page.ids for found in re.findall(r"url\(#([^)]*)\)", evil_page))
+    assert "@import" not in evil_page
+    assert "default-src 'none'" in evil_page
+    assert page.of("title") == page.of("h1") == [EVIL]
+    assert page.of("p").count(EVIL) == 1
+    assert evil_page.encode("utf-8").decode("utf-8") == evil_page
+
+
+@pytest.mark.parametrize("name", ["energy gain", "example 2", "solve, linear", "pinned"])
+def test_html_of_other_parts_is_whole_too(name, impacts):
+    Page(report(impacts[name], figures=False, derivation=True))
+
+
+def test_names_stay_names(impacts, evil_page):
+    page = Page(evil_page)
+    assert f"A ({EVIL})" in page.of("caption")
+    assert any(EVIL in text for text in page.of("text"))
+    # What turns the reading direction, or cannot be seen, is shown as such.
+    assert "B (a\ufffdb\ufffdc # d 漢)" in page.of("caption")
+    text = report(impacts["evil"], form="markdown").split("```json")[0]
+    assert not re.search(r"(?<!\\)[<>`$]", text)
+    assert {row[0] for row in rows(text.replace("\\|", "¦"))} >= {f"A ({EVIL})".replace("|", "¦"), "contact"}
+
+
+def test_markdown_cannot_be_broken_by_a_note(impacts):
+    notes = ["# head", "---", "1. one", "+ plus", "```json\n{}\n```", "= x"]
+    text = report(impacts["example 2"], form="markdown", notes=notes)
+    assert section(text, "Notes").strip().split("\n\n") == [
+        r"\# head", r"\---", r"1\. one", r"\+ plus", r"\`\`\`json \{\} \`\`\`", r"\= x"
+    ]  # fmt: skip
+    assert replay(text) == impacts["example 2"]
+
+
+def test_parts_stand_in_order(impacts):
+    text = report(impacts["eccentric"], form="markdown", uncertainty=spread(), notes="A word.", derivation=True)
+    assert re.findall(r"^##? (.*)$", text, re.MULTILINE) == [
+        "Impact of A (Golf) and B (Polo)", "Inputs", "Assumptions", "Results", "Uncertainty, given the stated inputs", "Findings",
+        "Notes", "Figures", "Derivation", "References", "Record",
+    ]  # fmt: skip
+    assert f"Worked out by collisions {col.__version__}." in text
+    assert "Application of Impulse Momentum Theory to Vehicle Collisions" in section(text, "References")
+
+
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_an_energy_gain_stands_first(form, impacts):
+    text = report(impacts["energy gain"], form=form, figures=False)
+    first = text.split("</h1>\n" if form == "html" else "\n\n")[1]
+    assert first.startswith('<p class="stressed">Energy gain of ' if form == "html" else "**Energy gain of ")
+    loss = impacts["energy gain"].energy_loss
+    assert loss < 0.0
+    # Three figures are printed.
+    assert float(re.search(r"Energy gain of ([\d.]+) J", first)[1]) == pytest.approx(-loss, rel=5e-3)
+    assert "Energy gain" not in report(impacts["oblique"], form=form, figures=False)
+
+
+def test_inputs_are_shown_as_given():
+    metric = rows(report(crash(), form="markdown", units="metric"))
+    si = rows(report(crash(), form="markdown"))
+    assert ("A (Golf)", "velocity along x", "54 km/h") in metric
+    assert ("A (Golf)", "velocity along x", "15 m/s, given as 54 km/h") in si
+    # 2600 lb is 2600 x 0.45359237 kg.
+    assert ("B (Polo)", "mass", "1179 kg, given as 2600.0 pound") in si
+    assert ("B (Polo)", "speed", "8.333 m/s, given as 30 km/h") in si
+    assert ("B (Polo)", "course", "-1.571 rad, given as -90 deg") in si
+    assert ("A (Golf)", "yaw inertia about the centre of mass", "2600 kg*m**2") in si
+    assert ("B", "pivot O (x, y)", "0 m, 0 m, given as 0 ft") in rows(report(pinned(), form="markdown"))
+
+
+@pytest.mark.parametrize("units", ["si", "metric", "us"])
+@pytest.mark.parametrize("name", ["eccentric", "oblique", "pinned", "example 2", "solve, linear"])
+def test_results_are_those_of_explain(name, units, impacts):
+    """The derivation is tested against the paper; here its table of answers must come back, row by row."""
+    impact = impacts[name]
+    text = report(impact, form="markdown", units=units)
+    explained = explain(impact, units=units).split("\n## Answers\n")[1].split("\n## ")[0]
+    shown = rows(section(text, "Results"))
+    for of, what, value in rows(explained)[1:]:
+        assert any(row[0][0] == of[0] and row[1:] == (what, value) for row in shown), (of, what, value)
+    assert shown[-1] == ("contact", "kind", impact.kind)
+
+
+def test_ees_needs_a_share():
+    impact = crash()
+    assert "EES" not in report(impact, form="markdown")
+    shown = dict(
+        row[::2] for row in rows(report(impact, form="markdown", share_a="25 %")) if "EES, if A took up 25 percent" in row[1]
+    )
+    energy = impact.energy_absorbed
+    # 0.01 m/s is the last digit printed.
+    assert float(shown["A (Golf)"].split()[0]) == pytest.approx(math.sqrt(2 * 0.25 * energy / 1500.0), abs=0.006)
+    assert float(shown["B (Polo)"].split()[0]) == pytest.approx(math.sqrt(2 * 0.75 * energy / (2600 * 0.45359237)), abs=0.006)
+
+
+def test_every_finding_is_told(impacts):
+    limits = {"tyre_impulse": 0.01}
+    for name in ("pinned", "eccentric", "energy gain"):
+        found = diagnose(impacts[name], limits=limits)
+        assert found
+        text = re.sub(r"\\(.)", r"\1", report(impacts[name], form="markdown", limits=limits))
+        for finding in found:
+            assert f"**{finding.code}" in section(text, "Findings")
+            assert finding.sentence in text
+            assert finding.source in text
+        assert "- **Limit of tyre_impulse:** 0.01, set for this report." in text
+    assert "FIT" not in text
+    pins = re.sub(r"\\(.)", r"\1", report(impacts["pinned"], form="markdown"))
+    assert "reference.restitution_range" in section(pins, "Findings")
+    assert "Cipriani and others, SAE 2002-01-0540" in section(pins, "References")
+    none = report(pinned(), form="markdown", limits={"restitution": 0.9, "normal": 1.0})
+    assert "No finding is no proof." in section(none, "Findings")
+
+
+def test_limits_of_every_unit_can_be_shown(impacts):
+    text = report(impacts["eccentric"], form="markdown", units="us", limits=dict.fromkeys(LIMITS, 1e-3), figures=False)
+    told = section(text, "Assumptions")
+    assert told.count("set for this report.") == len(LIMITS)
+    # 1 g in pounds, to four figures; and 0.001 m in feet, to two decimals and two more.
+    assert "Limit of suspect\\_mass:** 0.002205 lb" in told
+    assert "Limit of point\\_outside:** 0.0033 ft" in told
+
+
+def test_assumptions_say_what_is_left_out(impacts):
+    impact = impacts["eccentric"]
+    text = report(impact, form="markdown", duration="50 ms", drag=0.5)
+    told = section(text, "Assumptions")
+    assert "lasts 0.05 s and the tyres have a drag of 0.5" in told
+    # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
+    share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
+    assert ("A (Golf)", "delta-V by its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(told)
+    assert "**Law:** brach" in told
+    assert f"**Tangential impulse:** {impact.regime}" in told
+    assert "**Law:** kudlich" in report(impacts["other law"], form="markdown")
+    assert "Law:" not in report(impacts["wall"], form="markdown")
+    # A wall has no tyres.
+    assert {row[0] for row in rows(section(report(impacts["wall"], form="markdown"), "Assumptions"))} == {
+        "of",
+        "contact",
+        "A (Golf)",
+    }
+
+
+def test_reverse_and_choice_are_told(impacts):
+    text = report(impacts["example 2"], form="markdown")
+    assert "## Inputs" not in text
+    assert "known beside masses and geometry were velocity of A before, velocity of B before, velocity of B after" in text
+    assert "Condition " in section(text, "How the state before was found")
+    assert "$" not in text.split("```json")[0]
+    chosen = report(impacts["solve, linear"], form="markdown")
+    assert "Taken: linear\\_central." in section(chosen, "Why this model")
+    assert "Why this model" not in report(impacts["eccentric"], form="markdown")
+
+
+def test_uncertainty_is_told():
+    impact, known = crash(), spread()
+    text = report(impact, form="markdown", uncertainty=known)
+    part = section(text, "Uncertainty, given the stated inputs")
+    output = known["b.delta_v"]
+    # Two figures of the standard deviation.
+    assert ("b.delta_v", "mean ± standard deviation", f"{output.mean:.2f} ± {output.std:.2f} m/s") in rows(part)
+    low, high = output.interval()
+    assert ("b.delta_v", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
+    share = output.contributions["speed"]
+    assert ("b.delta_v", "share of the variance by speed", f"{100 * share:.0f} percent") in rows(part)
+    assert any(row[:2] == ("own", "figures") for row in rows(part))
+    assert "64 cases, 0 without an answer, seed 1" in part
+    assert "Normal(mean=15 m/s, sd=0.5556 m/s)" in part
+    # The answers of that name are rounded to it, also under the other spelling.
+    assert ("B (Polo)", "delta-V", f"{impact.b.delta_v:.2f} ± {output.std:.2f} m/s") in rows(section(text, "Results"))
+    spread_of_a = known["a_after_vx"].std
+    assert any(
+        f"± {spread_of_a:.2f} m/s" in row[2] for row in rows(section(text, "Results")) if row[1] == "velocity after, along x"
+    )
+    assert "lies outside" not in text
+
+
+def test_an_uncertainty_of_another_case_is_seen():
+    text = report(crash(golf(vx="30 km/h")), form="markdown", uncertainty=spread())
+    assert "of the propagation: are both of the same case?" in text
+
+
+def test_intervals_and_local_methods():
+    interval = spread("b.delta_v", restitution=uncertainty.Interval(0.05, 0.15))
+    ranges = report(crash(), form="markdown", uncertainty=interval)
+    part = section(ranges, "Uncertainty, given the stated inputs")
+    assert "mean, wherever in the intervals the truth is" in part
+    assert "share of the variance" not in part
+    local = spread("b.delta_v", method="first_order")
+    assert ", seed" not in section(report(crash(), form="markdown", uncertainty=local), "Uncertainty, given the stated inputs")
+    page = Page(report(rear_end(), uncertainty=local))
+    # A local method has contributions, and nothing that was drawn.
+    assert page.tags.count("svg") == 2 + 1
+    pictured = Page(report(rear_end(), uncertainty=interval))
+    assert any("Not drawn: " in text for text in pictured.of("p"))
+
+
+def test_figures_show_this_impact(impacts):
+    drawn = Page(report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7)))
+    assert drawn.tags.count("svg") == 4
+    assert {"scene.a.outline", "scene.b.outline", "scene.contact", "energy.figure_1"} <= set(drawn.ids)
+    assert any("54.0 km/h" in text for text in drawn.of("text"))
+    assert "svg" not in Page(report(impacts["wall"], figures=False)).tags
+    assert "The figures are in the HTML form" in report(impacts["wall"], form="markdown")
+
+
+def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
+    import matplotlib.pyplot as plt
+
+    before = plt.get_fignums()
+    assert Page(report(impacts["wall"])).tags.count("svg") == 2
+    assert plt.get_fignums() == before
+
+
+def test_without_matplotlib_the_rest_is_there(impacts, monkeypatch):
+    for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    text = report(impacts["eccentric"])
+    assert "svg" not in Page(text).tags
+    assert "pip install 'collisions[plot]'" in html.unescape(text)
+    assert replay(text) == impacts["eccentric"]
+
+
+def test_importing_it_does_not_import_matplotlib_or_pint():
+    code = "import sys, collisions.reporting; assert not {'matplotlib', 'pint'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
+
+
+def test_the_derivation_is_that_of_explain(impacts):
+    impact = impacts["pinned"]
+    assert explain(impact, form="text") in Page(report(impact, derivation=True, figures=False)).of("pre")
+    text = report(impact, form="markdown", derivation=True)
+    assert explain(impact).split("\n## Given\n")[1].split("\n## ")[0].strip() in text
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "said"),
+    [
+        ({"form": "pdf"}, "bad_option", "form must be one of 'html', 'markdown', got 'pdf'"),
+        ({"units": "imperial"}, "bad_option", "units must be one of 'si', 'metric', 'us'"),
+        ({"figures": "no"}, "bad_option", "figures must be True or False"),
+        ({"derivation": 1}, "bad_option", "derivation must be True or False"),
+        ({"title": 7}, "not_a_text", "title must be a text that says something, got 7"),
+        ({"title": "  "}, "not_a_text", "title must be"),
+        ({"notes": 7}, "not_a_text", "notes must be a text, or a list of texts, got int"),
+        ({"notes": ["a", None]}, "not_a_text", "notes must be a text that says something, got None"),
+        ({"uncertainty": {"energy_loss": 3.0}}, "bad_option", "explain(impact, uncertainty=...)"),
+        ({"share_a": 1.5}, "bad_fraction", "share_a"),
+        ({"outline_a": 3.0}, "bad_shape", "outline_a must be"),
+        ({"duration": "3 m"}, "bad_units", "duration"),
+        ({"limits": {"nothing": 1.0}}, "unknown_finding", "there is no finding 'nothing'"),
+    ],
+)
+def test_refusals_of_options(change, code, said, impacts):
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        report(impacts["eccentric"], **{"form": "markdown", **change})
+    assert caught.value.code == code
+
+
+def test_refusals_of_impacts():
+    with pytest.raises(col.ShapeError, match="ask the solver again") as caught:
+        report(col.linear_central(golf(vx=[10.0, 12.0]), col.Vehicle(mass=900), 0.1))
+    assert caught.value.code == "bad_shape"
+    refused = col.linear_central(golf(vx=-1.0), col.Vehicle(mass=900), 0.1, on_failure="nan")
+    with pytest.raises(col.InputError, match="the bodies move apart along the normal") as caught:
+        report(refused)
+    assert (caught.value.code, caught.value.fields["status"]) == ("refused_impact", "separating")
+    momentum = reconstruct.momentum(900, 900, course_a=0.0, course_b="90 deg", course_a_after="45 deg", course_b_after="45 deg",
+                                    speed_a_after=5.0, speed_b_after=5.0)  # fmt: skip
+    for other in (momentum, None, crash().to_dict()):
+        with pytest.raises(col.InputError, match="impact must be an Impact") as caught:
+            report(other)
+        assert caught.value.code == "not_an_impact"
+
+
+def tampered(page, change):
+    head, _, rest = page.partition("```json\n")
+    record = json.loads(rest.partition("```")[0])
+    change(record)
+    return f"{head}```json\n{json.dumps(record)}\n```\n"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda r: r["given"]["a"].update(vx="64 km/h"), "a.vx was given as '64 km/h', which is not its number, 15.0 m/s"),
+        (lambda r: r["given"]["b"].update(course="90 deg"), "b.course was given as '90 deg'"),
+        (lambda r: r["given"]["b"].update(speed="40 km/h"), "b.speed was given as '40 km/h'"),
+        (lambda r: r["given"]["a"].update(tyres="4"), "a has no 'tyres' that could have been given"),
+        (lambda r: r["given"]["a"].update({"pivot[0]": "1 m"}), "a has no 'pivot[0]'"),
+        (lambda r: r["given"].update(b=[1]), "how b was given is no dict"),
+        (lambda r: r.pop("given"), "how a and b were given"),
+        (lambda r: r.update(format="x"), "not of the format 'collisions report 1'"),
+        (lambda r: r.update(impact=3), "it has no impact"),
+        (lambda r: r["impact"]["inputs"].update(model="none"), "record is not what Impact.to_dict() gives"),
+        (lambda r: r["impact"]["inputs"]["a"].update(mass=-5.0), "mass"),
+    ],
+)
+def test_a_record_that_was_changed_is_refused(change, said):
+    with pytest.raises(col.InputError, match=re.escape(said)):
+        replay(tampered(report(crash(), form="markdown"), change))
+
+
+def test_a_record_that_was_changed_in_its_numbers_makes_another_report():
+    page = report(col.linear_central(col.Vehicle(mass=900, vx=20.0), col.Vehicle(mass=900), 0.1), form="markdown")
+    other = replay(tampered(page, lambda r: r["impact"]["inputs"].update(restitution=0.2)))
+    assert other.restitution == 0.2
+    assert report(other, form="markdown") != page
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        (None, "not_a_text"), ("", "no_record"), ("# A page\n", "no_record"), ("<html></html>", "no_record"),
+        ("```json\n{\n```", "bad_record"), ("```json\n[]\n```", "bad_record"), (f"```json\n{'[' * 100_000}\n```", "bad_record"),
+    ],
+)  # fmt: skip
+def test_what_is_no_report_is_refused(text, code):
+    with pytest.raises(col.InputError) as caught:
+        replay(text)
+    assert caught.value.code == code
+
+
+def test_a_unit_of_another_registry_is_kept_as_it_was_written():
+    registry = pint.UnitRegistry()
+    registry.define("slugfest = 14.6 kg")
+    impact = col.linear_central(golf(mass=registry.Quantity(100.0, "slugfest")), col.Vehicle(mass=900), 0.1)
+    page = report(impact, form="markdown")
+    assert ("A (Golf)", "mass", "1460 kg, given as 100.0 slugfest") in rows(page)
+    assert report(replay(page), form="markdown") == page
