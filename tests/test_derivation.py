@@ -13,6 +13,7 @@ import collisions as col
 from collisions import reconstruct, uncertainty
 from collisions.derivation import explain
 from collisions.derivation.page import Page
+from collisions.derivation.rounding import System
 
 # Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred operations of 2**-53.
 SAME = 1e-12
@@ -171,6 +172,9 @@ def momenta():
     yield reconstruct.momentum(1200, 1800, **courses, **after, outside_impulse=(300.0, -100.0))
     yield reconstruct.momentum(
         1200, 1800, course_a="90 deg", course_b="0 deg", course_a_after="40 deg", speed_a_after=8.0, together=True
+    )
+    yield reconstruct.momentum(
+        1200, 1800, course_a="90 deg", course_b="0 deg", course_a_after="40 deg", speed_b=7.0, together=True
     )
     yield reconstruct.momentum(
         1200, 1800, course_a="0 deg", speed_b=0.0, course_a_after="30 deg", course_b_after="-40 deg", speed_a=15.0
@@ -689,3 +693,133 @@ def test_extremes_are_written_down_without_a_crash():
             assert answer(text, "contact", "closing speed") == f"{round(impact.closing_speed, 2):.2f} m/s"
     assert done > 30
     assert said > 10
+
+
+def test_speeds_of_momentum_are_solved_for():
+    """Each unknown by itself: a textbook right angle, m_A v_A = (m_A + m_B) v' sin 40, and with the vehicles leaving as one."""
+    text = explain(MOMENTA[2], form="text")
+    assert "v_A = (m_A * v'_A * sin(theta'_A - theta_B) + m_B * v'_B * sin(theta'_B - theta_B))" in text
+    assert MOMENTA[2].speed_a == pytest.approx(3000 * 8.0 * math.sin(math.radians(40)) / 1200, rel=1e-14)
+    assert f"= {MOMENTA[2].speed_a:.2f} m/s" in text
+    together = explain(MOMENTA[3], form="text")
+    assert "/ ((m_A + m_B) * sin(theta'_A - theta_A))" in together
+    # Along x: 1800 * 7 = 3000 * v' cos 40.
+    assert MOMENTA[3].speed_a_after == pytest.approx(1800 * 7.0 / (3000 * math.cos(math.radians(40))), rel=1e-14)
+    for solution, name in ((each, name) for each in MOMENTA for name in each.unknowns):
+        caption = f"Speed of {name[6].upper()} {'after' if name.endswith('after') else 'before'}, by the momentum across"
+        assert caption in explain(solution, form="text")
+
+
+def test_nothing_else_across_leaves_no_speed():
+    """B cannot leave sideways when A comes and goes straight on."""
+    still = reconstruct.momentum(
+        1000, 1000, course_a=0.0, speed_a=5.0, speed_b=0.0, course_a_after=0.0, course_b_after="90 deg"
+    )
+    text = explain(still, form="text")
+    assert "Nothing else has momentum across it: v'_B = 0 m/s." in text
+    assert still.speed_b_after == 0.0
+
+
+def test_the_impulse_without_slip_is_solved_for():
+    """Both formulas by Cramer's rule, whose numbers are checked with all others; and by numpy from the printed equations."""
+    text = explain(crossroads(friction=0.8), form="text")
+    assert "N_s = (K_tt * (1 + e) * g + K_nt * s) / (K_nn * K_tt - K_nt**2)" in text
+    assert "T_s = -(K_nn * s + K_nt * (1 + e) * g) / (K_nn * K_tt - K_nt**2)" in text
+
+    def printed(name):
+        (lines,) = (lines for _, lines in blocks(text) if lines[0].startswith(f"  {name} = "))
+        return float(lines[-1].rpartition("= ")[2].split()[0])
+
+    k = np.array([[printed("K_nn"), printed("K_nt")], [printed("K_nt"), printed("K_tt")]])
+    found = np.linalg.solve(k, [1.2 * printed("g"), -printed("s")])
+    # Four figures of each coefficient, of which the off-diagonal ones are small.
+    assert found == pytest.approx([printed("N_s"), printed("T_s")], rel=2e-3)
+    assert "K_tt * (1 + (1 + e)" not in text
+    assert "+ K_nt * (1 + e) * s" in explain(crossroads(friction=0.8, law="kudlich-slibar"), form="text")
+
+
+def test_kinetic_energies_are_worked_out_and_say_whether_they_turn():
+    """Half m v squared and half I w squared, by body and moment; a body at rest is said to be."""
+    impact = crossroads(friction=0.8)
+    text = explain(impact, form="text")
+    assert "Kinetic energy of A before:" in text
+    assert "Kinetic energy of A after, of translation and rotation:" in text
+    assert "T'_B = 1 / 2 * m_B * (v'_Bx**2 + v'_By**2) + 1 / 2 * I_B * w'_B**2" in text
+    assert f"= {0.5 * 1500 * 14.0**2:.0f} J" in text
+    after = impact.b.after
+    size = 0.5 * 1200 * (after.vx**2 + after.vy**2) + 0.5 * 1900 * after.yaw_rate**2
+    assert f"= {size:.0f} J" in text.partition("Kinetic energy of B after")[2].partition("Check")[0]
+    third = explain(example_3(), form="text")
+    assert "B rests before: T_B = 0 J." in third
+    assert "T_A = 1 / 2 * m_A * v_Ax**2" in third
+    assert "B has an infinite mass and rests after, so it has no kinetic energy." in explain(example_1(), form="text")
+
+
+def test_a_kinetic_energy_that_is_not_known_is_no_check():
+    """A central model that solve took needs no yaw inertia of a body that turns; nothing tells its energy of rotation."""
+    a = col.Vehicle(mass=1000.0, vx=10.0, yaw_rate=0.01, x=-2.0, y=0.0)
+    b = col.Vehicle(mass=900.0, x=2.0, y=0.0, yaw_inertia=1500.0)
+    impact = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0, tolerance=50.0)
+    assert impact.model == "linear_central"
+    text = explain(impact, form="text")
+    assert "A body turns whose yaw inertia is not known" in text
+    assert "T_A" not in text
+
+
+def test_components_of_the_normal_are_introduced():
+    """Before they are first used, from the direction given; nothing is needed where the normal is the x axis."""
+    for solver in (col.oblique_central, col.eccentric):
+        text = explain(crossroads(solver, normal="20 deg"), form="text", units="metric")
+        assert "n_x = cos(phi)\n      = cos(20 deg)\n      = 0.9397" in text
+        assert "n_y = sin(phi)\n      = sin(20 deg)\n      = 0.3420" in text
+        assert text.index("n_x = cos(phi)") == text.index("n_x")
+    across = col.oblique_central(col.Vehicle(mass=1e3, vy=9.0), col.Vehicle(mass=9e2), 0.1, normal=(0, 1), friction=0.0)
+    assert "Components of the normal: n_x = 0 and n_y = 1." in explain(across, form="text")
+    assert "n_x" not in explain(example_3(), form="text")
+    backwards = explain(SCENES["planar brach {'restitution': 0.3}"], form="text")
+    assert backwards.index("n_x = cos(phi)") == backwards.index("n_x")
+
+
+def test_no_fraction_is_divided_by_a_fraction():
+    """The mass that the contact feels is a factor."""
+    marked = explain(crossroads(col.oblique_central, friction=0.05))
+    assert r"m_e\,\left(1 + e\right)\,g" in marked
+    for impact in SCENES.values():
+        for formula in re.findall(r"\$\$\n(.*?)\n\$\$", explain(impact), re.DOTALL):
+            assert not re.search(r"\}\{\\frac", formula), formula
+
+
+def test_figures_are_as_the_notes_say():
+    """As it is with six, else four; all before the decimal point; and two decimals more than an answer of a small speed."""
+    figures = System("si")
+    assert figures.working(16.25, "speed") == "16.25"
+    assert figures.working(100.0 / 3.0, "energy") == "33.33"
+    assert figures.working(126553.7391, "energy") == "126554"
+    assert figures.working(0.0123456789, "speed") == "0.0123"
+    notes = explain(example_2(), form="text").partition("Notes")[2]
+    assert "with four figures; but with all those before its decimal point" in notes
+    assert "at most two decimals more than an answer has" in notes
+
+
+def test_other_answers_are_told_of():
+    """A delta-V and an energy that two pairs of speeds give: each of them says that there is another; a single one does not."""
+    forward = crossroads(friction=0.3, normal="20 deg")
+    with pytest.warns(col.OutOfRangeWarning, match="backwards along its course"):
+        both = reconstruct.speeds(
+            forward.a.before.replace(vx=0.0, vy=0.0),
+            forward.b.before.replace(vx=0.0, vy=0.0),
+            course_a="0 deg",
+            course_b="90 deg",
+            restitution=0.2,
+            normal="20 deg",
+            point=(0.0, 0.1),
+            friction=0.3,
+            delta_v_a=forward.a.delta_v,
+            energy_loss=forward.energy_loss,
+        )
+    assert len(both) == 2
+    for one in both:
+        text = explain(one)
+        assert "**Not the only answer: 2 impacts fit what was known, and this is one of them." in text
+        assert text.index("Not the only answer") < text.index("What follows is the same impact")
+    assert "Not the only answer" not in explain(example_2())

@@ -348,6 +348,90 @@ def test_a_central_impulse_acts_at_the_centres_and_has_no_contact_point():
     assert "contact" not in names(axes)
 
 
+def in_line(solver):
+    """Cars that follow or meet each other, by speeds of A and B, with all of it along one line."""
+    for va, vb in ((20.0, 5.0), (20.0, -15.0), (8.0, -20.0), (20.0, 0.0)):
+        a, b = (
+            col.Vehicle(mass=mass, yaw_inertia=2500.0, vx=vx, x=x, y=0.0)
+            for mass, vx, x in ((1500.0, va, -2.2), (2300.0, vb, 2.2))
+        )
+        yield solver(a, b, 0.3, normal=0.0, **({"point": (0.0, 0.0), "friction": 0.0} if solver is col.eccentric else {}))
+
+
+@pytest.mark.parametrize("solver", [col.linear_central, col.eccentric])
+def test_arrows_of_an_in_line_scene_do_not_hide_each_other(solver):
+    """No two lie on one line where both are, by five points at least: wider than their heads; and the picture says so."""
+    said = 0
+    for impact in in_line(solver):
+        axes = plot.scene(impact)
+        axes.figure.draw_without_rendering()
+        ends = [axes.transData.transform(pair) * 72.0 / axes.figure.dpi for pair in arrows(axes).values()]
+        for one, other in itertools.combinations(ends, 2):
+            if max(np.ptp(one[:, 1]), np.ptp(other[:, 1])) > 1e-6:
+                continue  # the tangent
+            overlap = min(one[:, 0].max(), other[:, 0].max()) - max(one[:, 0].min(), other[:, 0].min())
+            assert overlap < 8.0 or abs(one[0, 1] - other[0, 1]) > 5.0
+        moved = any(abs(tail[1]) > 1e-9 for name, (tail, _) in arrows(axes).items() if name != "tangent")
+        assert ("drawn side by side" in axes.get_xlabel()) == moved
+        said += moved
+        assert vectors(axes)["impulse.a"] == pytest.approx(-vectors(axes)["impulse.b"])
+        plt.close("all")
+    assert said >= 2
+
+
+def test_arrows_that_are_apart_stay_where_they_are():
+    """Nothing is said of it, and both impulses start at the contact."""
+    assert "side by side" not in drawn("scene", "sticking").get_xlabel()
+
+
+def told_beside(axis):
+    """The numbers beside an axis, as they are read, and the boxes they fill."""
+    texts = [text for text in axis.get_ticklabels() if text.get_text()]
+    plain = [re.sub(r"\$\\mathdefault\{(.*)\}\$", r"\1", text.get_text()) for text in texts]
+    return plain, [text.get_window_extent() for text in texts]
+
+
+def small(a, b):
+    """Their impact at the origin."""
+    return col.eccentric(a, b, 0.3, friction=0.3, **T_BONE)
+
+
+def test_the_scene_of_small_bodies_is_small():
+    """Millimetres fill the picture; and without any distance between them there still is one."""
+    a = col.Vehicle(mass=1e-3, yaw_inertia=1e-9, vx=0.5, x=-0.002, y=0.0)
+    b = col.Vehicle(mass=2e-3, yaw_inertia=3e-9, x=0.002, y=0.001)
+    axes = plot.scene(small(a, b))
+    assert 0.004 < np.ptp(axes.get_xlim()) < 0.02
+    one = plot.scene(small(a.replace(x=0.0), b.replace(x=0.0, y=0.0)))
+    assert 2.0 < np.ptp(one.get_xlim()) < 20.0
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1e9])
+@pytest.mark.parametrize("picture", DRAWN)
+def test_numbers_beside_the_axes_are_told_apart_at_any_size(picture, mass):
+    """No two alike, none longer than seven signs, and none hides another."""
+    a = col.Vehicle(mass=mass, yaw_inertia=2.0 * mass, vx=15.0, x=-2.0, y=0.0)
+    axes = DRAWN[picture](small(a, a.replace(vx=0.0, vy=3.0, x=2.0)), axes=Figure((5.5, 4.6), layout="constrained").subplots())
+    axes.figure.draw_without_rendering()
+    for axis, end in ((axes.xaxis, "x"), (axes.yaxis, "y")):
+        told, boxes = told_beside(axis)
+        assert len(set(told)) == len(told)
+        if picture == "energy" and end == "y":
+            continue
+        assert max(map(len, told)) <= 7, told
+        assert all(getattr(one, f"{end}1") <= getattr(other, f"{end}0") for one, other in itertools.pairwise(boxes)), told
+
+
+def test_coordinates_of_a_national_grid_are_in_full():
+    """Seven digits before the point."""
+    a, b = col.Vehicle(mass=1500.0, vx=15.0, x=4_200_000.0, y=510_000.0), col.Vehicle(mass=1500.0, x=4_200_004.0, y=510_000.0)
+    axes = plot.scene(col.oblique_central(a, b, 0.1, normal=0.0, friction=0.2))
+    axes.figure.draw_without_rendering()
+    told, boxes = told_beside(axes.xaxis)
+    assert "4200000" in told
+    assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
+
+
 @pytest.mark.parametrize(
     ("moment", "drawn"),
     [

@@ -9,6 +9,8 @@ from typing import Any
 from ..impact import Impact
 from ..kernels import codes
 from ..vehicle import Vehicle
+from .expressions import Function
+from .letters import Contact, letter
 from .page import Page
 
 _SIDE = {
@@ -76,6 +78,19 @@ def given(page: Page, impact: Impact) -> None:
         rows.append(("contact", names[impact._asked.rule], page.number(bound, "number")))
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     page.table(("of", "quantity", "value"), rows)
+
+
+def direction(page: Page, impact: Impact) -> None:
+    """The components of the normal, which the formulas need wherever it is not the x axis."""
+    if impact.normal == (1.0, 0.0):
+        return
+    nx, ny = Contact(impact).nx, Contact(impact).ny
+    if 0.0 in impact.normal:
+        page.say(f"Components of the normal: {page.shown(nx)} and {page.shown(ny)}.")
+        return
+    phi = letter(r"\varphi", "phi", impact.normal_angle, "angle")
+    page.equation(f"Normal along x, from its direction {page.letter(phi)}", nx, Function("cos", phi))
+    page.equation("Normal along y", ny, Function("sin", phi))
 
 
 def _vehicle(page: Page, vehicle: Vehicle) -> Iterator[tuple[str, str]]:

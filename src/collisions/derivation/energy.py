@@ -7,7 +7,7 @@ import math
 from ..impact import Impact
 from ..vehicle import Vehicle
 from .expressions import HALF, Expression, total
-from .letters import Contact, letter
+from .letters import AFTER, BEFORE, Body, Contact, bodies, letter
 from .page import Page
 
 
@@ -29,18 +29,45 @@ def kinetic_energies(page: Page, impact: Impact, contact: Contact) -> None:
     """The loss as the difference of the kinetic energies, where those are finite."""
     starts: list[Expression] = []
     ends: list[Expression] = []
-    for label, side in (("A", impact.a), ("B", impact.b)):
-        for mark, vehicle, terms in (("", side.before, starts), ("'", side.after, ends)):
-            value = _kinetic(vehicle)
-            if not math.isfinite(value):
-                page.say("A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is no check here.")
-                return
-            if math.isfinite(vehicle.mass) or value:
-                terms.append(letter(f"T_{label}{mark}", f"T{mark}_{label}", value, "energy"))
+    states = [(body, when, _kinetic(body.state(when))) for body in bodies(impact) for when in (BEFORE, AFTER)]
+    if any(math.isnan(value) for *_, value in states):
+        page.say("A body turns whose yaw inertia is not known, and so its kinetic energy is not: (7) is no check here.")
+        return
+    if any(math.isinf(value) for *_, value in states):
+        page.say("A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is no check here.")
+        return
+    for body, when, value in states:
+        if body.fixed and not value:
+            page.say(f"{body.label} has an infinite mass and rests {when}, so it has no kinetic energy.")
+            continue
+        mark = "'" if when == AFTER else ""
+        symbol = letter(f"T_{body.label}{mark}", f"T{mark}_{body.label}", value, "energy")
+        (ends if mark else starts).append(symbol)
+        parts = _parts(body, when)
+        if parts:
+            turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
+            page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, total(*parts))
+        else:
+            page.say(f"{body.label} rests {when}: {page.shown(symbol)}.")
     right = total(*starts)
     for term in ends:
         right = right - term
     page.equation("Check: kinetic energies before less those after (7)", contact.loss, right)
+
+
+def _parts(body: Body, when: str) -> list[Expression]:
+    """Half of mass times speed squared, and half of yaw inertia times yaw rate squared, as far as they are not 0."""
+    state, parts = body.state(when), list[Expression]()
+    if state.speed:
+        x, y = body.along("x", when), body.along("y", when)
+        if body.impact.model == "linear_central" and body.impact.normal == (1.0, 0.0) and not state.vy:
+            squares = body.straight(when).squared()
+        else:
+            squares = total(*(part.squared() for part in (x, y) if part.value))
+        parts.append(HALF * body.mass * squares)
+    if state.yaw_rate:
+        parts.append(HALF * body.inertia * body.spin(when).squared())
+    return parts
 
 
 def _kinetic(vehicle: Vehicle) -> float:

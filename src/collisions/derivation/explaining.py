@@ -42,7 +42,8 @@ def explain(
     did not give the result's number would say so. Equation numbers, as (5), are those of "Application of Impulse Momentum
     Theory to Vehicle Collisions". An energy gain is told first.
 
-    The working keeps a number as it is if six figures hold it, else four figures, so that it can be followed with a pocket
+    The working keeps a number as it is if six figures hold it, else four figures (all that stand before the decimal point; of
+    small speeds, angles, lengths and ratios two decimals more than an answer has), so that it can be followed with a pocket
     calculator. The answers at the end are rounded: speeds to 0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad,
     yaw rates to 1 deg/s or 0.01 rad/s, ratios to 0.01, impulses and energies to three figures; or to two figures of their
     standard deviation where that is known.
@@ -114,6 +115,7 @@ def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> P
     _gain(page, impact.status, impact.energy_loss)
     page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
     answers.given(page, impact)
+    answers.direction(page, impact)
     chosen(page, impact)
     found(page, impact)
     _MODELS[impact.model](page, impact)
@@ -136,8 +138,10 @@ def _notes(page: Page) -> None:
     lines = [
         'Equation numbers are those of "Application of Impulse Momentum Theory to Vehicle Collisions"; its vehicles 1 and 2 '
         "are A and B here.",
-        "Every step was worked out with all digits and is printed with four figures, so a line worked out again from its "
-        "printed numbers may differ in the last one. The answers are rounded.",
+        "Every step was worked out with all digits. A number is printed as it is if six figures hold it, else with four "
+        "figures; but with all those before its decimal point, and a speed, angle, length or ratio with at most two decimals "
+        "more than an answer has. A line worked out again from its printed numbers may differ in the last figure. The answers "
+        "are rounded.",
         "x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.",
     ]
     if page.system.conversions:

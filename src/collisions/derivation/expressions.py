@@ -231,6 +231,15 @@ def total(*terms: Expression) -> Expression:
     return found
 
 
+def over(what: Expression, by: Expression) -> Expression:
+    """One over another; over the reciprocal of a quantity, the product with that quantity."""
+    if isinstance(what, Negative):
+        return -over(what.inner, by)
+    if isinstance(by, Quotient) and isinstance(by.over, Literal) and by.over.value == 1.0:
+        return by.under * what
+    return what / by
+
+
 def root(inner: Expression) -> Expression:
     """The square root."""
     return Function("sqrt", inner)

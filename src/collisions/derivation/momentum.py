@@ -39,6 +39,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
         "The momentum of both vehicles together is the same before and after, along x and along y (1), (2). Nothing is assumed "
         "of restitution, friction or rotation. Unknown are the two speeds along their courses."
     )
+    push: list[Symbol] = []
     outside = any(name.startswith("outside") for row in solution.sensitivity.values() for name in row)
     for axis, function in (("x", "cos"), ("y", "sin")):
         sides = [
@@ -54,12 +55,15 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
             j = letter(f"J_{axis}", f"J_{axis}", right.value - left.value, "impulse")
             page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(j)}.")
             left = left + j
+            push.append(j)
         page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
     first, second = solution.unknowns
     page.say(
-        f"Turned across the course of one unknown, the balance holds the other alone: these give {page.shown(speeds[first])} "
-        f"and {page.shown(speeds[second])}."
+        f"Counted across the course of one unknown speed, the balance holds the other one alone. This gives "
+        f"{page.letter(speeds[first])} and {page.letter(speeds[second])}."
     )
+    for name, across in ((first, second), (second, first)):
+        _solved(page, solution, speeds, courses, masses, name, courses[across], push)
     one, other = courses[first], courses[second]
     condition = letter(r"\kappa", "kappa", solution.condition, "number")
     angle = one - other
@@ -69,6 +73,44 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
         (1.0 + Function("abs", Function("cos", angle))) / Function("abs", Function("sin", angle)),
     )
     _changes(page, solution, speeds, courses)
+
+
+def _solved(
+    page: Page,
+    solution: MomentumSolution,
+    speeds: dict[str, Symbol],
+    courses: dict[str, Symbol],
+    masses: dict[str, Symbol],
+    name: str,
+    across: Symbol,
+    push: list[Symbol],
+) -> None:
+    """One of both speeds, by the balance counted across the course of the other."""
+    mass: Expression = masses[name[6]]
+    own = [name]
+    if name.endswith("after") and _together(solution):
+        own, mass = ["speed_a_after", "speed_b_after"], masses["a"] + masses["b"]
+    ends = name.endswith("after")
+    found: Expression | None = None
+    # What is on the other side of the balance counts forwards, what is on the side of the unknown backwards.
+    others = [other for other in courses if other not in own and courses[other].value != across.value and speeds[other].value]
+    for other in sorted(others, key=lambda other: other.endswith("after") == ends):
+        term = masses[other[6]] * speeds[other] * Function("sin", courses[other] - across)
+        forwards = other.endswith("after") != ends
+        found = (term if forwards else -term) if found is None else found + term if forwards else found - term
+    if push:
+        j_x, j_y = push
+        moment = j_y * Function("cos", across) - j_x * Function("sin", across)
+        found = (moment if ends else -moment) if found is None else found + moment if ends else found - moment
+    if found is None:
+        page.say(f"Nothing else has momentum across it: {page.shown(speeds[name])}.")
+        return
+    label = page.letter(across)
+    page.equation(
+        f"Speed of {name[6].upper()} {'after' if ends else 'before'}, by the momentum across {label}",
+        speeds[name],
+        found / (mass * Function("sin", courses[name] - across)),
+    )
 
 
 def _together(solution: MomentumSolution) -> bool:

@@ -60,6 +60,11 @@ def found(page: Page, impact: Impact) -> None:
         f"Condition {page.system.answer(origin.condition, 'number')}: by so much a relative error of what was given may be "
         "larger in the speeds before, taken relative to the closing speed."
     )
+    if origin.answers > 1:
+        page.stress(
+            f"Not the only answer: {origin.answers} impacts fit what was known, and this is one of them. Nothing here tells "
+            "which of them happened; look at the others too, and rule them out by other evidence."
+        )
     {"central": _central, "planar": _planar, "speeds": _speeds}.get(origin.method, _forward)(page, impact, origin.known)
     page.say("What follows is the same impact forwards, from the state that was found; it ends in what was known.")
 

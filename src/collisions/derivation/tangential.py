@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ..impact import Impact
 from ..kernels import codes
-from .expressions import Expression, Symbol
+from .expressions import Expression, Symbol, over
 from .letters import Contact, letter
 from .page import Page
 
@@ -32,7 +32,7 @@ def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
     change = (1.0 + contact.e) * contact.closing
     if rule == codes.FRICTION and bound == 0.0:
         page.say("Without friction the impulse is along the normal alone, as in the paper.")
-        page.equation("Normal impulse", contact.normal, change / k.normal)
+        page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
     if rule == codes.IMPULSE_RATIO:
         page.say(f"The impulse ratio was given: {page.shown(contact.ratio)}, tangential over normal, signed.")
@@ -40,7 +40,7 @@ def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
         return
     if rule == codes.CRITICAL_FRACTION and bound == 0.0:
         page.say("A critical fraction of 0 leaves no tangential impulse.")
-        page.equation("Normal impulse", contact.normal, change / k.normal)
+        page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
     _without_slip(page, impact, contact, k)
     if rule == codes.CRITICAL_FRACTION:
@@ -63,12 +63,20 @@ def _without_slip(page: Page, impact: Impact, contact: Contact, k: Mobility) -> 
     wanted = -s if impact.law == codes.BRACH else -((1.0 + e) * s)
     change = (1.0 + e) * contact.closing
     if k.coupling is None:
-        page.equation("Its normal component", ns, change / k.normal)
-        page.equation("Its tangential component", ts, wanted / k.tangential)
+        page.equation("Its normal component", ns, over(change, k.normal))
+        page.equation("Its tangential component", ts, over(wanted, k.tangential))
     else:
-        page.say("Both are found from two equations at once; with them:")
+        page.say("Both are found from two equations at once:")
         page.balance("Along the normal", k.normal * ns + k.coupling * ts, change, "speed")
         page.balance("Along the tangent", k.coupling * ns + k.tangential * ts, wanted, "speed")
+        determinant = k.normal * k.tangential - k.coupling.squared()
+        stopped = (1.0 + e) * s if impact.law != codes.BRACH else s
+        page.equation(
+            "Solved for the normal component (Cramer's rule)",
+            ns,
+            (k.tangential * change + k.coupling * stopped) / determinant,
+        )
+        page.equation("Solved for the tangential component", ts, -((k.normal * stopped + k.coupling * change) / determinant))
     if ns.value > 0.0:
         page.equation("The critical impulse ratio", contact.critical, ts / ns)
 
@@ -104,7 +112,7 @@ def _decide(page: Page, impact: Impact, contact: Contact, change: Expression, k:
 def _at_ratio(page: Page, contact: Contact, change: Expression, k: Mobility) -> None:
     """Both components at a ratio."""
     resistance = k.normal if k.coupling is None else k.normal + contact.ratio * k.coupling
-    page.equation("Normal impulse", contact.normal, change / resistance)
+    page.equation("Normal impulse", contact.normal, over(change, resistance))
     page.equation("Tangential impulse", contact.tangential, contact.ratio * contact.normal)
 
 

@@ -162,8 +162,8 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
     return axes
 
 
-def tidy(axes: Axes) -> None:
-    """Only the lines that are read, and numbers in full beside them."""
+def tidy(axes: Axes, in_full: tuple[int, int] = (-3, 6)) -> None:
+    """Only the lines that are read, and numbers in full beside them, or beyond these with a power of ten at the end."""
     from matplotlib.ticker import ScalarFormatter
 
     axes.spines[["top", "right"]].set_visible(False)
@@ -171,7 +171,8 @@ def tidy(axes: Axes) -> None:
         formatter = axis.get_major_formatter()
         if isinstance(formatter, ScalarFormatter):
             formatter.set_useOffset(False)
-            formatter.set_scientific(False)
+            formatter.set_powerlimits(in_full)
+            formatter.set_useMathText(True)
 
 
 def legend_below(axes: Axes, columns: int = 2) -> None:

@@ -10,12 +10,11 @@ from ..impact import Impact
 from ..side import Side
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, legend_below, tidy, who
 from .drawing import Drawing, Place
+from .lanes import ALONG_ONE_LINE, beside, covers, cross
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# All within this of one line are drawn side by side: sine of the angle.
-_ALONG_ONE_LINE = 0.03
 # Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
 _LANE, _APART = 0.11, 0.04
 
@@ -86,13 +85,13 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> 
             return
         # To the right, seen along the arrow.
         side = (vector[1] / length, -vector[0] / length) if across is None else across
-        start = tail if across is None else _beside(tail, across, -_LANE * longest * len(drawn))
-        while across is None and any(_covers(start, vector, *other, longest) for other in drawn):
-            start = _beside(start, side, _APART * longest)
+        start = tail if across is None else beside(tail, across, -_LANE * longest * len(drawn))
+        while across is None and any(covers(start, vector, *other, longest) for other in drawn):
+            start = beside(start, side, _APART * longest)
             apart.append(gid)
         drawn.append((start, vector))
         drawing.arrow(start, _sum([start, vector]), gid, colour=colour, style=style, width=width)
-        middle, *others = (_beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
+        middle, *others = (beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
         drawing.label(middle, tag, side, colour, *others)
         told = f"{tag}: {text} {labels.text(length / factor, 'kg*m/s')}"
         axes.plot([], [], color=colour, lw=width, ls=style, label=told)
@@ -121,6 +120,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> 
     axes.grid(color="#e2e2e2", lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
+    axes.locator_params(axis="x", nbins=6)
     legend_below(axes, 1 if open_ended else 2)
     drawing.finish()
     return axes
@@ -139,29 +139,10 @@ def _sum(vectors: list[Place]) -> Place:
     return sum(vector[0] for vector in vectors), sum(vector[1] for vector in vectors)
 
 
-def _beside(place: Place, direction: Place, far: float) -> Place:
-    return place[0] + far * direction[0], place[1] + far * direction[1]
-
-
-def _covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
-    """Whether one arrow lies on another one."""
-    length, size = math.hypot(*vector), math.hypot(*along)
-    gap = start[0] - other[0], start[1] - other[1]
-    if abs(_cross(vector, along)) > _ALONG_ONE_LINE * length * size or abs(_cross(gap, along)) > 0.02 * longest * size:
-        return False
-    begin_at = (gap[0] * along[0] + gap[1] * along[1]) / size
-    end_at = begin_at + (vector[0] * along[0] + vector[1] * along[1]) / size
-    return min(max(begin_at, end_at), size) - max(min(begin_at, end_at), 0.0) > 0.02 * longest
-
-
-def _cross(one: Place, other: Place) -> float:
-    return one[0] * other[1] - one[1] * other[0]
-
-
 def _common_normal(vectors: list[Place], longest: float) -> Place | None:
     """The direction across the line all of them lie along; None if they do not."""
     chief = max(vectors, key=lambda vector: math.hypot(*vector))
-    if longest == 0.0 or any(abs(_cross(chief, v)) > _ALONG_ONE_LINE * longest * math.hypot(*chief) for v in vectors):
+    if longest == 0.0 or any(abs(cross(chief, v)) > ALONG_ONE_LINE * longest * math.hypot(*chief) for v in vectors):
         return None
     length = math.hypot(*chief)
     across = -chief[1] / length, chief[0] / length

@@ -15,6 +15,7 @@ from ..units import Door, shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, THIN, Units, answered, begin, tidy, who
 from .drawing import Drawing, Place
+from .lanes import beside, covers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,6 +27,7 @@ _TITLES = {
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
+_APART = 0.045  # of the size of the scene: between arrows that would hide each other
 
 
 def scene(
@@ -40,7 +42,8 @@ def scene(
     """The scene from above at the moment of impact, to scale.
 
     Velocities before point to the centre of mass, those after away from it; the vehicles stand where they were, because an
-    impulse takes no time. The impulse acts at the contact point, in a central impact at the centres of mass. The scales of the
+    impulse takes no time. The impulse acts at the contact point, in a central impact at the centres of mass. Arrows that would
+    hide each other, as those of an in-line impact, are drawn side by side, which is said below the picture. The scales of the
     arrows are stated below the picture. Positions that a central model has no need of are never made up: without them the
     picture is a sketch, and says so.
 
@@ -109,11 +112,13 @@ def scene(
     known += [scaled(corner) for rectangle in corners for corner in rectangle]
     known += [scaled(side.before.pivot) for side in sides if side.before.pivot is not None]
     known.append(scaled(contact))
-    size = max(4.0 * length, *(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1)))
+    size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
+    # Where all is in one place, or as good as, nothing tells the size of the bodies.
+    if sketched or size <= 1e-6 * max(abs(part) for place in known for part in place):
+        size = max(size, 4.0 * length)
     drawing.include(*known)
 
     n, at = impact.normal, scaled(contact)
-    _draw_frame(drawing, at, n, size, marked=impact.point is not None)
     speed_scale = _scale([state.speed for side in sides for state in _states(side, moment)], labels.factor("m/s"), 0.55 * size)
     impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
     impulse_scale = _scale([impulse], labels.factor("N*s"), 0.3 * size) if moment != "before" else 0.0
@@ -127,16 +132,26 @@ def scene(
             pin = scaled(side.before.pivot)
             axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
             drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index])
-        where = scaled(place) if place is not None else at
-        if speed_scale:
-            _draw_velocities(drawing, where, index, side, moment, labels, labels.factor("m/s") / speed_scale, size)
-        if impulse_scale:
-            share = labels.factor("N*s") / impulse_scale
-            start = at if impact.point is not None or place is None else where
-            tip = start[0] + side.impulse_x * share, start[1] + side.impulse_y * share
+    wheres = [at if place is None else scaled(place) for place in centres]
+    lanes = _Lanes(size)
+    for when in _MOMENTS[moment]:
+        for index, side in enumerate(sides):
+            if speed_scale:
+                share = labels.factor("m/s") / speed_scale
+                _draw_velocity(drawing, wheres[index], index, getattr(side, when), when, labels, share, lanes)
+    if impulse_scale:
+        share = labels.factor("N*s") / impulse_scale
+        starts = [at if impact.point is not None or place is None else scaled(place) for place in centres]
+        arrows: list[tuple[Place, Place]] = [
+            (start, (float(side.impulse_x) * share, float(side.impulse_y) * share))
+            for start, side in zip(starts, sides, strict=True)
+        ]
+        # Both the same way, so that they still are seen to be equal and opposite.
+        for index, (start, vector) in enumerate(lanes.free(arrows)):
+            tip = start[0] + vector[0], start[1] + vector[1]
             drawing.arrow(start, tip, f"impulse.{SIDES[index]}", colour=FORCE, width=2.6)
-            text = f"impulse on {'AB'[index]}\n{labels.text(impulse, 'N*s')}"
-            drawing.label(tip, text, (side.impulse_x, side.impulse_y), FORCE)
+            drawing.label(tip, f"impulse on {'AB'[index]}\n{labels.text(impulse, 'N*s')}", vector, FORCE)
+    _draw_frame(drawing, at, n, lanes, marked=impact.point is not None)
 
     scales = [("velocities", speed_scale, "m/s"), ("impulses", impulse_scale, "N*s")]
     step = labels.name("m")
@@ -144,12 +159,14 @@ def scene(
         f"{what}: 1 {step} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)}" for what, scale, unit in scales if scale
     )
     note = "not all positions given: a sketch, places not to scale\n" if sketched else ""
+    note += "arrows that would hide each other are drawn side by side\n" if lanes.moved else ""
     axes.set_xlabel(f"{labels.label('x', 'm')}\n{note}{told and f'arrows: {told}'}".rstrip())
     axes.set_ylabel(labels.label("y", "m"))
     axes.set_title(_TITLES[moment], fontsize=10.5)
     if sketched:
         axes.set(xticks=[], yticks=[])
-    tidy(axes)
+    # Coordinates of a national grid have seven digits before the point, and all of them count.
+    tidy(axes, (-3, 8))
     drawing.finish()
     return axes
 
@@ -198,11 +215,41 @@ def _scale(values: list[float], factor: float, reach: float) -> float:
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 
 
-def _draw_frame(drawing: Drawing, at: Place, n: Place, size: float, marked: bool) -> None:
+class _Lanes:
+    """The arrows drawn so far, so that none is drawn on another one."""
+
+    def __init__(self, size: float) -> None:
+        self.size = size
+        self.moved = False
+        self._drawn: list[tuple[Place, Place]] = []
+
+    def hides(self, start: Place, vector: Place) -> bool:
+        """Whether an arrow would lie on one of them."""
+        return any(covers(start, vector, *other, self.size) for other in self._drawn)
+
+    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
+        """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
+        length = max(math.hypot(*vector) for _, vector in arrows)
+        if length == 0.0:
+            return arrows
+        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
+        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
+        found, lane = arrows, 0
+        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
+            lane += 1
+            found = [(beside(start, aside, lane * _APART * self.size), vector) for start, vector in arrows]
+        self.moved = self.moved or lane > 0
+        self._drawn += [(start, vector) for start, vector in found if vector != (0.0, 0.0)]
+        return found
+
+
+def _draw_frame(drawing: Drawing, at: Place, n: Place, lanes: _Lanes, marked: bool) -> None:
     """The line of impact, the normal and the tangent, and the contact point where the model has one."""
-    t = -n[1], n[0]
+    t, size = (-n[1], n[0]), lanes.size
     # Through both centres of mass where these lie on it.
     for vector, reach, name in ((n, 0.42 if marked else 0.62, "normal"), (t, 0.28, "tangent")):
+        while lanes.hides(beside(at, vector, reach * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
+            reach += _APART
         tip = at[0] + reach * size * vector[0], at[1] + reach * size * vector[1]
         tail = at[0] - reach * size * vector[0], at[1] - reach * size * vector[1]
         drawing.line(
@@ -255,28 +302,20 @@ def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: 
     drawing.label(place, who(index, side.before), (0.0, 1.0), colour)
 
 
-def _draw_velocities(
-    drawing: Drawing, place: Place, index: int, side: Side, moment: str, labels: Units, share: float, size: float
+def _draw_velocity(
+    drawing: Drawing, place: Place, index: int, state: Vehicle, when: str, labels: Units, share: float, lanes: _Lanes
 ) -> None:
-    """The velocity before ends at the centre of mass, the one after starts there; beside it where it goes straight back."""
-    before, after = side.before, side.after
+    """The velocity before ends at the centre of mass, the one after starts there."""
     letter, colour = SIDES[index], COLOURS[index]
-    product = before.speed * after.speed
-    turned_back = product > 0.0 and before.vx * after.vx + before.vy * after.vy < -0.98 * product
-    for state in _states(side, moment):
-        when = "before" if state is before else "after"
-        text = f"{'AB'[index]} {when}: {labels.text(state.speed, 'm/s')}"
-        if state.yaw_rate:
-            text += f"\nyaw {labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
-        vector = state.vx * share, state.vy * share
-        aside = 0.0, 0.0
-        if when == "after" and moment == "both" and turned_back:
-            aside = -0.03 * size * after.vy / after.speed, 0.03 * size * after.vx / after.speed
-        start = (place[0] - vector[0], place[1] - vector[1]) if when == "before" else (place[0] + aside[0], place[1] + aside[1])
-        tip = start[0] + vector[0], start[1] + vector[1]
-        style: Any = (0, (4, 2)) if when == "before" else "-"
-        drawing.arrow(start, tip, f"{letter}.{when}", colour=colour, style=style, width=2.0)
-        outer = start if when == "before" else tip
-        away = (outer[0] - place[0], outer[1] - place[1]) if state.speed else (0.0, -1.0)
-        if state.speed or state.yaw_rate or not math.isinf(state.mass):
-            drawing.label(outer, text, away, colour)
+    text = f"{'AB'[index]} {when}: {labels.text(state.speed, 'm/s')}"
+    if state.yaw_rate:
+        text += f"\nyaw {labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
+    vector = float(state.vx) * share, float(state.vy) * share
+    start = (place[0] - vector[0], place[1] - vector[1]) if when == "before" else place
+    ((start, vector),) = lanes.free([(start, vector)])
+    tip = start[0] + vector[0], start[1] + vector[1]
+    style: Any = (0, (4, 2)) if when == "before" else "-"
+    drawing.arrow(start, tip, f"{letter}.{when}", colour=colour, style=style, width=2.0)
+    away = (0.0, -1.0) if not state.speed else vector if when == "after" else (-vector[0], -vector[1])
+    if state.speed or state.yaw_rate or not math.isinf(state.mass):
+        drawing.label(start if when == "before" else tip, text, away, colour)
