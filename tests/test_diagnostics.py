@@ -1,9 +1,11 @@
 """Findings: each made to appear and to vanish, its measure against a number worked out by hand, limits, and refusals."""
 
+import importlib
 import math
 import random
 import re
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pint
@@ -14,6 +16,7 @@ from collisions import reconstruct, reference
 from collisions.diagnostics import LIMITS, Finding, diagnose
 from scenes import FAMILIES, LAWS, RULES, draw, solved
 
+PACK = Path(__file__).resolve().parent.parent / "validation"
 CAR = {"mass": 1500.0, "yaw_inertia": 2600.0, "heading": 0.0}
 OTHER = {"mass": 1200.0, "yaw_inertia": 2100.0, "heading": math.pi / 2}
 
@@ -44,10 +47,31 @@ def test_nothing_is_said_of_an_ordinary_impact():
 
 
 def silent(make):
-    """An impact whose energy gain was said when it was made."""
+    """An answer of which something was said when it was made."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", col.EnergyGainWarning)
+        warnings.simplefilter("ignore", col.CollisionsWarning)
         return make()
+
+
+def balance(course_a="0 deg", course_b="90 deg", after_a="40 deg", after_b="45 deg", **more):
+    """Two cars by planar momentum, that meet at right angles and part with a restitution of 0.01 along x."""
+    known = {"speed_a_after": 9.0, "speed_b_after": 10.0, "heading_a": course_a, "heading_b": course_b, "normal": 0.0, **more}
+    courses = {"course_a": course_a, "course_b": course_b, "course_a_after": after_a, "course_b_after": after_b}
+    return silent(lambda: reconstruct.momentum(1500.0, 1200.0, **courses, **known))
+
+
+def found(**known):
+    """Impacts by speeds, of the two cars that meet off their centres, with courses 150 degrees apart."""
+    a, b = (vehicle.replace(vx=0.0, vy=0.0) for vehicle in (square().a.before, square(b={"y": -1.0}).b.before))
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.1, "friction": 0.5}
+    return reconstruct.speeds(a, b, course_a=0.0, course_b="150 deg", **contact, **known)
+
+
+def two():
+    """By delta-V and energy, which two pairs of speeds share."""
+    b = {"y": -1.0, "vx": 8.0 * math.cos(math.radians(150.0)), "vy": 8.0 * math.sin(math.radians(150.0))}
+    truth = square(a={"vx": 14.0, "vy": 0.0}, b=b)
+    return found(delta_v_a=truth.a.delta_v, energy_loss=truth.energy_loss)
 
 
 def planar(restitution):
@@ -64,6 +88,12 @@ def least(yaw_rate, tolerance=9.0):
     return col.solve(a, b, 0.0, normal=0.0, point=(0.0, 0.5), friction=0.0, tolerance=tolerance)
 
 
+def into_a_wall(friction):
+    """Slip that ends and turns round while the car turns."""
+    car = col.Vehicle(**CAR, vx=15.6, vy=2.0, x=-2.2, y=0.3)
+    return col.eccentric(car, col.Vehicle.barrier(), 0.15, normal=0.0, point=(0.0, 0.0), friction=friction)
+
+
 SLIDING = {"vy": -8.0}
 RECTANGLES = {"outline_a": (4.4, 1.8), "outline_b": (4.4, 1.8)}
 # By code: an impact that shows it and one that does not, with the arguments of diagnose.
@@ -73,14 +103,20 @@ CASES = {
         lambda: (square(b=SLIDING, friction=None, impulse_ratio=0.1), {}),
     ),
     "momentum_energy": (
+        lambda: (square(), {"crush_energy": 1.6 * square().energy_loss}),
+        lambda: (square(), {"crush_energy": 1.4 * square().energy_loss}),
+    ),
+    "rounding": (
         lambda: (square(a={"vx": 1e9 + 20.0}, b={"vx": 1e9}), {}),
         lambda: (square(a={"vx": 1e5 + 20.0}, b={"vx": 1e5}), {}),
     ),
     "restitution": (lambda: (square(restitution=0.31), {}), lambda: (square(restitution=0.29), {})),
+    "restitution_negative": (lambda: (balance(after_a="30 deg"), {}), lambda: (balance(), {})),
     "impulse_ratio": (
-        lambda: (square(b=SLIDING, friction=None, critical_fraction=1.0, restitution=0.0), {"limits": {"impulse_ratio": 0.99}}),
+        lambda: (square(b=SLIDING, friction=None, impulse_ratio=3.13 * square(b=SLIDING).critical_impulse_ratio), {}),
         lambda: (square(b=SLIDING, friction=None, critical_fraction=1.0, restitution=0.0), {}),
     ),
+    "friction_gain": (lambda: (into_a_wall(0.3), {}), lambda: (into_a_wall(0.0), {})),
     "jamming": (
         lambda: (silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-1.0)), {}),
         lambda: (silent(lambda: square(a={"y": 2.5}, b={"vy": 28.0}, friction=None, impulse_ratio=-0.5)), {}),
@@ -88,9 +124,29 @@ CASES = {
     "contact_points_approach": (lambda: (least(-1.0), {}), lambda: (least(1.0), {})),
     "outlines_interpenetrate": (
         lambda: (square(b={"y": -1.0}, a={"vy": 0.0}, friction=0.0, restitution=0.0), RECTANGLES),
-        lambda: (square(restitution=0.1), RECTANGLES),
+        lambda: (square(b={"y": -0.5}), RECTANGLES),
     ),
-    "yaw_against_lever": (lambda: (square(b={"y": 0.1, "vy": -8.0}), {}), lambda: (square(b={"y": 0.1, "vy": 20.0}), {})),
+    "outlines_overlap": (
+        lambda: (square(a={"x": -0.35}, b={"x": 0.35}), RECTANGLES),
+        lambda: (square(a={"x": -1.9}, b={"x": 0.4}), RECTANGLES),
+    ),
+    "outlines_gap": (
+        lambda: (square(a={"x": -2.7}), RECTANGLES),
+        lambda: (square(a={"x": -2.4}), RECTANGLES),
+    ),
+    "normal_against_positions": (
+        lambda: (square(a={"x": 2.2}, b={"x": -0.9}), {}),
+        lambda: (square(a={"x": 0.05}, b={"x": -0.05}), {}),
+    ),
+    "yaw_against_lever": (
+        lambda: (square(a={"y": 0.5}, friction=0.0), {"damage_pdof_a": "45 deg"}),
+        lambda: (square(a={"y": 0.5}, friction=0.0), {"damage_pdof_a": "15 deg"}),
+    ),
+    "pdof_off_damage": (lambda: (square(), {"damage_pdof_a": "-11 deg"}), lambda: (square(), {"damage_pdof_a": "351 deg"})),
+    "delta_v_off_damage": (
+        lambda: (square(), {"damage_delta_v_b": 1.11 * square().b.delta_v}),
+        lambda: (square(), {"damage_delta_v_b": 1.09 * square().b.delta_v}),
+    ),
     "impulse_off_normal": (
         lambda: (square(b={"vy": -60.0}, friction=1.1), {}),
         lambda: (square(b={"vy": -60.0}, friction=0.9), {}),
@@ -100,18 +156,31 @@ CASES = {
         lambda: (square(), {"outline_a": (4.3, 1.8)}),
     ),
     "near_collinear": (
-        lambda: (square(b={"vx": -10.0, "vy": -2.5}, a={"vy": 8.0}), {}),
-        lambda: (square(b={"vx": -10.0, "vy": -1.5}, a={"vy": 8.0}), {}),
+        lambda: (balance(course_b="9 deg", after_a="4 deg", after_b="4.5 deg"), {}),
+        lambda: (balance(course_b="11 deg", after_a="4 deg", after_b="4.5 deg"), {}),
     ),
     "ill_conditioned": (lambda: (planar(0.1), {}), lambda: (planar(0.2), {})),
+    "not_unique": (
+        lambda: (two()[0], {}),
+        lambda: (found(speed_b=8.0, delta_v_a=two()[0].a.delta_v)[0], {}),
+    ),
+    "speed_backwards": (lambda: (balance(course_a="180 deg"), {}), lambda: (balance(), {})),
     "tyre_impulse": (lambda: (square(a={"vx": 3.0}), {}), lambda: (square(a={"vx": 3.0}), {"duration": "10 ms"})),
     "model": (lambda: (central(a={"y": 1.0}), {}), lambda: (central(), {})),
     "law": (
-        lambda: (square(b=SLIDING, restitution=0.3, friction=math.inf), {}),
-        lambda: (square(b=SLIDING, restitution=0.0, friction=math.inf), {}),
+        lambda: (square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf), {}),
+        lambda: (square(b={"y": -1.0, "vy": -15.0}, restitution=0.0, friction=math.inf), {}),
+    ),
+    "law_yaw": (
+        lambda: (square(b={"y": -0.5, "vy": -8.0}, restitution=0.3, friction=math.inf), {}),
+        lambda: (square(b={"y": -0.5, "vy": -8.0}, restitution=0.0, friction=math.inf), {}),
     ),
     "normal": (
         lambda: (square(b=SLIDING, friction=0.1), {}),
+        lambda: (square(b=SLIDING, friction=math.inf, law="kudlich-slibar"), {}),
+    ),
+    "normal_yaw": (
+        lambda: (square(a={"vy": 0.0}, b={"vy": 0.0}, friction=0.0), {}),
         lambda: (square(b=SLIDING, friction=math.inf, law="kudlich-slibar"), {}),
     ),
     "friction_low": (lambda: (square(b=SLIDING, friction=0.29), {}), lambda: (square(friction=0.1), {})),
@@ -121,13 +190,13 @@ CASES = {
     ),
     "suspect_mass": (
         lambda: (square(a={"mass": 1.5, "yaw_inertia": 2.6}), {}),
-        lambda: (square(a={"mass": 60.0, "yaw_inertia": 100.0}), {}),
+        lambda: (square(a={"mass": 160.0, "yaw_inertia": 100.0}), {}),
     ),
     "suspect_heavy": (
         lambda: (square(b={"mass": 1e6, "yaw_inertia": 1e7}), {}),
         lambda: (square(b={"mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0}), {}),
     ),
-    "suspect_speed": (lambda: (square(a={"vx": 80.0}), {}), lambda: (square(a={"vx": 60.0}), {})),
+    "suspect_speed": (lambda: (square(a={"vx": 45.0}), {}), lambda: (square(a={"vx": 43.0}), {})),
     "suspect_yaw_rate": (lambda: (square(a={"yaw_rate": "25 rad/s"}), {}), lambda: (square(a={"yaw_rate": 15.0}), {})),
     "suspect_inertia_low": (lambda: (square(a={"yaw_inertia": 2.6}), {}), lambda: (square(a={"yaw_inertia": 260.0}), {})),
     "suspect_inertia_high": (
@@ -135,6 +204,12 @@ CASES = {
         lambda: (square(a={"yaw_inertia": math.inf}), {}),
     ),
     "suspect_lever": (lambda: (square(a={"x": -12.0}), {}), lambda: (square(a={"x": -9.0}), {})),
+    "suspect_angle": (
+        lambda: (silent(lambda: square(a={"heading": 90.0})), {}),
+        lambda: (square(a={"heading": "360 deg"}), {}),
+    ),
+    "suspect_duration": (lambda: (square(), {"duration": "1.1 s"}), lambda: (square(), {"duration": "900 ms"})),
+    "model_unknown": (lambda: (central(a={"x": None, "y": None}), {}), lambda: (central(), {})),
 }
 
 
@@ -158,7 +233,7 @@ def test_every_finding_appears(code):
         assert finding.measured != finding.limit
         assert len(finding.sentence) > 30
         assert finding.vehicle in ("", "a", "b")
-        assert {"energy_gain": 0.0}.get(code, finding.limit) >= 0.0
+        assert finding.limit >= 0.0
 
 
 @pytest.mark.parametrize("code", LIMITS)
@@ -207,14 +282,14 @@ def test_energy_and_momentum_by_hand():
     )
     (finding,) = of("energy_gain", impact)
     assert finding.measured == pytest.approx(states, rel=1e-12)
-    impact, _ = CASES["momentum_energy"][0]()
-    assert "kinetic energies before and after" in of("momentum_energy", impact)[0].sentence
+    impact, _ = CASES["rounding"][0]()
+    assert "kinetic energies before and after" in of("rounding", impact)[0].sentence
 
 
 def test_an_infinite_mass_that_moves_has_no_energy_to_compare():
     """A wall that comes along: nothing is measured but momentum."""
     b = {"mass": math.inf, "yaw_inertia": math.inf, "vx": -5.0, "vy": 0.0}
-    assert of("momentum_energy", square(b=b)) == []
+    assert of("rounding", square(b=b)) == []
 
 
 def test_restitution_is_held_against_the_reference():
@@ -273,22 +348,183 @@ def test_outlines_that_run_into_each_other():
     assert of("outlines_interpenetrate", impact, outline_a=(4.4, 1.8)) == []
 
 
-def test_yaw_against_the_lever_is_what_the_normal_alone_would_not_do():
-    """Frictionless it turns the other way."""
-    impact, _ = CASES["yaw_against_lever"][0]()
-    (finding,) = of("yaw_against_lever", impact)
-    assert finding.vehicle == "b"
-    assert finding.measured == abs(impact.b.delta_yaw_rate)
-    without = square(b={"y": 0.1, "vy": -8.0}, friction=0.0)
-    assert without.b.delta_yaw_rate * impact.b.delta_yaw_rate < 0.0
-    assert of("yaw_against_lever", without) == []
+def test_the_tangential_impulse_adds_energy():
+    """By hand: minus the work of the mean slip, (before + after)/2, on the impulse, as a share of what compression took up."""
+    impact = into_a_wall(0.3)
+    work = impact.tangential_impulse * 0.5 * (impact.slip_before + impact.slip_after)
+    (finding,) = of("friction_gain", impact)
+    # A difference of 2 m/s from 0: a few roundings.
+    assert finding.measured == pytest.approx(work / (0.5 * impact.closing_speed * impact.compression_impulse), rel=1e-10)
+    assert f"adds {work:.6g} J" in finding.sentence
 
 
-def test_a_pinned_body_turns_about_its_pivot():
-    """Its lever is from there."""
+def test_the_lever_of_the_force_that_the_damage_shows():
+    """A force from 45 degrees to the right on a front left corner turns it left; the impulse turned it right."""
+    impact, options = CASES["yaw_against_lever"][0]()
+    (finding,) = of("yaw_against_lever", impact, **options)
+    assert finding.vehicle == "a"
+    assert finding.measured == abs(impact.a.delta_yaw_rate)
+    # (2.2, -0.5) x (-1, 1)/sqrt(2)
+    assert f"({(2.2 - 0.5) / math.sqrt(2.0):.2f} m)" in finding.sentence
+    for pdof in ("-45 deg", "0 deg"):
+        assert of("yaw_against_lever", impact, damage_pdof_a=pdof) == []
+    # Friction may turn a car against the lever of the normal: that is no contradiction.
+    turned = square(b={"y": 0.1, "vy": -8.0})
+    assert turned.b.delta_yaw_rate * square(b={"y": 0.1, "vy": -8.0}, friction=0.0).b.delta_yaw_rate < 0.0
+    assert of("yaw_against_lever", turned) == of("yaw_against_lever", turned, damage_pdof_b=turned.b.pdof) == []
+    # A body that is pinned turns about its pivot, which has the force on the other side.
+    pinned = square(a={"y": 0.5, "pivot": (-2.2, -3.0), "vx": 0.0, "vy": 0.0}, b={"vx": -20.0}, friction=0.0)
+    assert pinned.a.delta_yaw_rate > 0.0
+    assert of("yaw_against_lever", pinned, damage_pdof_a="0 deg") == []
+    assert of("yaw_against_lever", pinned, damage_pdof_a="110 deg") == []
+    assert of("yaw_against_lever", pinned, damage_pdof_a="-110 deg") != []
+
+
+def test_damage_against_the_answer():
+    """Energy as a share of that lost, directions by the short way round, delta-V as a share; none without evidence."""
+    impact = square()
+    (finding,) = of("momentum_energy", impact, crush_energy=f"{impact.energy_loss / 4000.0!r} kJ")
+    assert finding.measured == pytest.approx(0.75, rel=1e-12)
+    assert of("momentum_energy", impact, crush_energy=impact.energy_loss) == []
+    elastic = square(restitution=1.0, friction=0.0, a={"vy": 8.0})
+    assert of("momentum_energy", elastic, crush_energy=1.0)[0].measured == math.inf
+    pdof = math.degrees(impact.a.pdof)
+    for off, seen in ((11.0, pdof + 11.0), (11.0, pdof + 349.0), (180.0, pdof + 180.0)):
+        (finding,) = of("pdof_off_damage", impact, damage_pdof_a=f"{seen!r} deg")
+        assert (finding.vehicle, math.degrees(finding.measured)) == ("a", pytest.approx(off, rel=1e-12))
+    assert of("pdof_off_damage", impact, damage_pdof_a=f"{pdof - 9.0!r} deg") == []
+    (finding,) = of("delta_v_off_damage", impact, damage_delta_v_b=2.0 * impact.b.delta_v)
+    assert (finding.vehicle, finding.measured) == ("b", pytest.approx(1.0, rel=1e-15))
+
+
+def test_the_tutorial_whose_damage_contradicts_its_momentum():
+    """EDCRASH, Visibility Study (M10): delta-V of 60.7 and 59.4 km/h by damage, 12.6 and 12.3 by momentum."""
+    known = {}
+    for side, heading, slip, forward, left in (("a", 195.0, -4.35, 16.56, 4.33), ("b", -90.0, 0.0, 33.19, -11.88)):
+        known[f"heading_{side}"] = f"{-heading!r} deg"
+        known[f"course_{side}"] = f"{-heading - slip!r} deg"
+        known[f"course_{side}_after"] = f"{-heading - math.degrees(math.atan2(left, forward))!r} deg"
+        known[f"speed_{side}_after"] = f"{math.hypot(forward, left)!r} km/h"
+    solution = reconstruct.momentum(1124.04, 1149.52, **known, normal=(-2.5, 0.75))
+    damage = {"damage_delta_v_a": "60.7 km/h", "damage_delta_v_b": "59.4 km/h"}
+    # The published values to half of their last digit.
+    for finding, (seen, had) in zip(of("delta_v_off_damage", solution, **damage), ((60.7, 12.6), (59.4, 12.3)), strict=True):
+        assert finding.measured == pytest.approx(seen / had - 1.0, rel=0.06 / had * seen / (seen - had))
+    assert of("delta_v_off_damage", solution, damage_delta_v_a="12.6 km/h", damage_delta_v_b="12.3 km/h") == []
+    assert of("pdof_off_damage", solution, damage_pdof_a="-30.6 deg", damage_pdof_b="74.4 deg") == []
+    assert [f.vehicle for f in of("pdof_off_damage", solution, damage_pdof_a="-45 deg", damage_pdof_b="60 deg")] == ["a", "b"]
+    # Two plastic bodies with these delta-Vs lose half the product of reduced mass and the square of the sum.
+    reduced = 1124.04 * 1149.52 / (1124.04 + 1149.52)
+    crush = 0.5 * reduced * ((60.7 + 59.4) / 3.6) ** 2
+    assert of("momentum_energy", solution, crush_energy=crush)[0].measured > 10.0
+    assert {f.code for f in diagnose(solution)} == {"tyre_impulse"}
+
+
+def test_momentum_is_diagnosed():
+    """The case of two courses 5 degrees apart: energy from nowhere, a condition of 22.9, and what moves the answers."""
+    courses = {"course_a": "0 deg", "course_b": "5 deg", "course_a_after": "2 deg", "course_b_after": "3 deg"}
+    solution = silent(lambda: reconstruct.momentum(1500.0, 1500.0, **courses, speed_a_after=10.0, speed_b_after=12.0))
+    findings = diagnose(solution)
+    assert [f.code for f in findings] == ["energy_gain", "near_collinear", "ill_conditioned", "tyre_impulse", "tyre_impulse"]
+    by_code = {f.code: f for f in findings}
+    before, after = (
+        0.5 * 1500.0 * sum(speed**2 for speed in speeds)
+        for speeds in ((solution.speed_a, solution.speed_b), (solution.speed_a_after, solution.speed_b_after))
+    )
+    assert by_code["energy_gain"].measured == pytest.approx(after - before, rel=1e-9)
+    assert by_code["near_collinear"].measured == pytest.approx(math.radians(5.0), rel=1e-12)
+    angle = math.radians(5.0)
+    assert by_code["ill_conditioned"].measured == pytest.approx((1.0 + math.cos(angle)) / math.sin(angle), rel=1e-12)
+    assert "per degree of course_b_after" in by_code["ill_conditioned"].sentence
+    # 0.7 g for 0.1 s
+    assert by_code["tyre_impulse"].measured == pytest.approx(0.7 * 9.80665 * 0.1 / solution.delta_v_b, rel=1e-12)
+    assert diagnose(balance()) == ()
+
+
+def test_the_restitution_of_momentum():
+    """Above what is plausible, below 0, and where the centres do not approach."""
+    assert of("restitution", balance(after_a="80 deg"))[0].measured > 0.3
+    negative = balance(after_a="30 deg")
+    assert of("restitution_negative", negative)[0].measured == -negative.restitution > 0.01
+    (finding,) = of("restitution_negative", balance(normal="180 deg"))
+    assert finding.measured == math.inf
+    assert "do not approach" in finding.sentence
+    assert of("restitution_negative", balance(normal=None)) == []
+
+
+def test_speeds_backwards_and_units_of_momentum():
+    """A course the wrong way round, km/h as m/s, slugs as kg, degrees as rad."""
+    (finding,) = of("speed_backwards", balance(course_a="180 deg"))
+    assert (finding.vehicle, finding.measured) == ("a", -balance(course_a="180 deg").speed_a)
+    fast = balance(speed_a_after=50.0, speed_b_after=60.0, course_a=90.0, heading_a=None)
+    assert {"suspect_speed", "suspect_angle"} <= {f.code for f in diagnose(fast)}
+    light = silent(
+        lambda: reconstruct.momentum(
+            103.0, 2e5, course_a=0.0, course_b=1.5, together=True, course_a_after=1.0, speed_a_after=9.0
+        )
+    )
+    assert [(f.code, f.vehicle) for f in diagnose(light) if f.code in ("suspect_mass", "suspect_heavy")] == [
+        ("suspect_mass", "a"),
+        ("suspect_heavy", "b"),
+    ]
+    # 0.108 s was published.
+    assert of("suspect_duration", balance(), duration="2.16 s")[0].measured == pytest.approx(20.0, rel=1e-15)
+
+
+def test_one_of_two_answers():
+    """Both say that there are two, also when replayed; the others of a batch are counted one by one."""
+    both = two()
+    assert len(both) == 2
+    for impact in both:
+        (finding,) = of("not_unique", impact)
+        assert finding.measured == 2.0
+        assert "reconstruct.speeds found 2 impacts" in finding.sentence
+        again = col.Impact.from_dict(impact.to_dict())
+        assert again.reconstruction == impact.reconstruction
+        assert of("not_unique", again) == [finding]
+    (alone,) = found(speed_b=8.0, delta_v_a=both[0].a.delta_v)
+    assert alone.reconstruction.answers == 1
+    energies = np.array([both[0].energy_loss, 0.0])
+    many = silent(lambda: found(delta_v_a=both[0].a.delta_v, energy_loss=energies))
+    assert many[0].reconstruction.answers.tolist() == [2, 0]
+    again = silent(lambda: col.Impact.from_dict(many[0].to_dict()))
+    assert again.reconstruction.answers.tolist() == [2, 0]
+    assert not again.reconstruction.answers.flags.writeable
+    assert many[0].to_columns()["reconstruction.answers"] == [2, 0]
+
+
+def test_a_record_without_the_number_of_answers_is_read_too():
+    """As it was written before there was one."""
+    record = two()[0].to_dict()
+    del record["results"]["reconstruction"]["answers"]
+    assert col.Impact.from_dict(record).reconstruction.answers == 1
+
+
+def test_a_normal_that_does_not_go_from_a_into_b():
+    """By the places of both centres; without a point by one another; a wall has its centre anywhere."""
+    findings = of("normal_against_positions", square(a={"x": 2.2}, b={"x": -0.9}))
+    assert [(f.vehicle, f.measured) for f in findings] == [("a", 2.2), ("b", 0.9)]
+    assert of("normal_against_positions", central(a={"x": 2.2}, b={"x": -0.9}))[0].measured == pytest.approx(3.1, rel=1e-15)
+    assert of("normal_against_positions", central()) == []
+    wall = {"mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0, "x": -5.0}
+    assert of("normal_against_positions", square(b=wall)) == []
+
+
+def test_outlines_that_lie_in_each_other_or_apart():
+    """2.4 m deep where the crush of 20 m/s takes 0.9 m; a gap by its width; neither with one outline alone."""
+    impact, _ = CASES["outlines_overlap"][0]()
+    (finding,) = of("outlines_overlap", impact, **RECTANGLES)
+    assert finding.measured == pytest.approx(2.4, rel=1e-12)
+    assert finding.limit == pytest.approx(col.left_out(impact).mutual_crush + 0.3, rel=1e-15)
+    (finding,) = of("outlines_gap", square(a={"x": -2.7}), **RECTANGLES)
+    assert finding.measured == pytest.approx(0.5, rel=1e-12)
+    assert of("outlines_gap", square(a={"x": -2.7}), outline_a=(4.4, 1.8)) == []
+
+
+def test_a_pinned_body_is_placed_by_its_pivot():
+    """Its outline too."""
     b = {"pivot": (0.9, -2.0), "vy": 0.0, "vx": 0.0}
-    assert of("yaw_against_lever", square(b=b, friction=0.0)) == []
-    assert diagnose(square(b=b), **RECTANGLES) is not None
+    assert of("outlines_overlap", square(b=b), **RECTANGLES) == of("outlines_gap", square(b=b), **RECTANGLES) == []
 
 
 def test_the_angle_between_impulse_and_normal():
@@ -304,19 +540,16 @@ def test_the_angle_between_impulse_and_normal():
 
 
 def test_near_collinear_is_head_on_too():
-    """Ten degrees from either course, and ten themselves; a vehicle at rest has no course."""
-    for speed, turn in ((15.0, 0.0), (-15.0, 180.0)):
-        for off, found in ((9.9, True), (10.1, False)):
-            course = math.radians(turn + off)
-            b = {"vx": 15.0 * math.cos(course), "vy": 15.0 * math.sin(course)}
-            findings = of("near_collinear", square(a={"vx": 20.0, "vy": 0.0}, b=b))
-            assert bool(findings) == found, (speed, off)
-            if found:
+    """Ten degrees from either course, and ten themselves; an impact that was not found by momentum has nothing of it."""
+    for turn in (0.0, 180.0):
+        for off, is_found in ((9.9, True), (10.0, True), (10.1, False)):
+            solution = balance(course_b=f"{turn + off!r} deg", after_a="4 deg", after_b="4.5 deg")
+            findings = of("near_collinear", solution)
+            assert bool(findings) == is_found, (turn, off)
+            if is_found:
                 assert findings[0].measured == pytest.approx(math.radians(off), rel=1e-9)
-    assert of("near_collinear", square(a={"vy": 0.0}, b={"vy": 0.0})) == []
-    line = square(a={"vx": 20.0, "vy": 0.0}, b={"vx": 5.0, "vy": 0.0})
-    assert of("near_collinear", line)[0].measured == 0.0
-    assert of("near_collinear", line, limits={"near_collinear": "0 deg"}) == []
+    assert of("near_collinear", balance(course_b="5 deg"), limits={"near_collinear": "0 deg"}) == []
+    assert of("near_collinear", square(a={"vx": 20.0, "vy": 0.0}, b={"vx": 5.0, "vy": 0.0})) == []
 
 
 def test_the_tyres_are_those_of_left_out():
@@ -328,13 +561,13 @@ def test_the_tyres_are_those_of_left_out():
 
 
 def test_a_model_of_which_nothing_is_known():
-    """Infinite, and it says what is missing; without levers in either vehicle there is nothing to know."""
+    """A note, which counts what is missing; without levers in either vehicle there is nothing to know."""
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1200.0), 0.1)
-    (finding,) = of("model", impact)
-    assert finding.measured == math.inf
+    (finding,) = diagnose(impact)
+    assert (finding.code, finding.measured) == ("model_unknown", 7.0)
     assert "a.yaw_inertia" in finding.sentence
     fixed = [col.Vehicle(mass=mass, vx=vx, yaw_inertia=math.inf) for mass, vx in ((1500.0, 20.0), (1200.0, 0.0))]
-    assert of("model", col.linear_central(*fixed, 0.1)) == []
+    assert diagnose(col.linear_central(*fixed, 0.1)) == ()
 
 
 def test_the_error_of_a_model_is_that_of_required_model():
@@ -349,16 +582,85 @@ def test_the_error_of_a_model_is_that_of_required_model():
 
 
 def test_the_other_law_and_the_turned_normal_are_solved_again():
-    """By the worse vehicle: magnitude of delta-V, and yaw times the radius of gyration."""
+    """By the worse vehicle: length of the change of the delta-V vector, and the change of yaw rate."""
     impact, _ = CASES["law"][0]()
-    other = square(b=SLIDING, restitution=0.3, friction=math.inf, law="kudlich-slibar")
-    moved = []
-    for one, two in ((impact.a, other.a), (impact.b, other.b)):
-        radius = math.sqrt(one.before.yaw_inertia / one.before.mass)
-        step = math.hypot(two.delta_v - one.delta_v, radius * (two.delta_yaw_rate - one.delta_yaw_rate))
-        moved.append(step / one.delta_v)
+    other = square(b={"y": -1.0, "vy": -15.0}, restitution=0.3, friction=math.inf, law="kudlich-slibar")
+    sides = ((impact.a, other.a), (impact.b, other.b))
+    moved = [math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy) / old.delta_v for old, new in sides]
     assert of("law", impact)[0].measured == pytest.approx(max(moved), rel=1e-12)
     assert "'kudlich-slibar' instead of 'brach'" in of("law", impact)[0].sentence
+    yaw = [(old.delta_yaw_rate, new.delta_yaw_rate) for old, new in sides]
+    share = max(abs(new - old) / max(abs(new), abs(old)) for old, new in yaw)
+    assert of("law_yaw", impact)[0].measured == pytest.approx(share, rel=1e-12)
+
+
+def test_a_force_that_turns_with_the_normal():
+    """Frictionless and head-on: delta-V keeps its size within 1.5 percent, and its direction goes with the normal, 10 degrees.
+
+    Of two vectors with the lengths 1 and c = cos(10 deg) and this angle between them, by the law of cosines.
+    """
+    fixed = {"yaw_inertia": math.inf, "vy": 0.0}
+    impact = square(a=fixed, b={**fixed, "vx": -20.0}, friction=0.0)
+    (finding,) = of("normal", impact)
+    c = math.cos(math.radians(10.0))
+    assert finding.measured == pytest.approx(math.sqrt(1.0 + c * c - 2.0 * c * c), rel=1e-9)
+    assert "its direction by 10.0 degrees" in finding.sentence
+    assert of("normal_yaw", impact) == []
+
+
+@pytest.mark.skipif(not (PACK / "run.py").is_file(), reason="this copy has no validation pack")
+def test_published_cases_have_no_false_alarm(monkeypatch):
+    """All that other people solved: nothing of units beside teaching toys, levers, normals or courses; E03 and E06 hang on the law.
+
+    Car 1 of E03 is turned by -31 or by -17 degrees/s, that of E06 by 40 or by 61, each to half a degree.
+    """
+    monkeypatch.syspath_prepend(str(PACK))
+    central_solutions, planar_solutions = (importlib.import_module(f"{kind}_solutions") for kind in ("central", "planar"))
+    impacts = []
+
+    def kept(solver):
+        def solve(*args, **options):
+            impacts.append(solver(*args, **options))
+            return impacts[-1]
+
+        return solve
+
+    for name in ("linear_central", "oblique_central", "eccentric"):
+        monkeypatch.setattr(col, name, kept(getattr(col, name)))
+    planar_solutions.nhtsa_oblique("4363", "E03")
+    planar_solutions.nhtsa_oblique("4474", "E06")
+    assert len(impacts) == 4
+    for impact, (was, now) in zip(impacts, ((-31, -17), (-17, -31), (40, 61), (61, 40)), strict=True):
+        (finding,) = diagnose(impact)
+        assert (finding.code, finding.vehicle) == ("law_yaw", "b")
+        assert finding.measured == pytest.approx(abs(now - was) / max(abs(now), abs(was)), abs=1.5 / 31)
+        assert f"by {now} degrees/s instead of {was}" in finding.sentence
+    central_solutions.cases()
+    planar_solutions.cases()
+    assert len(impacts) > 30
+    never = {
+        "yaw_against_lever", "normal_against_positions", "near_collinear", "friction_gain", "rounding", "suspect_angle",
+        "suspect_duration", "suspect_lever", "suspect_yaw_rate",
+    }  # fmt: skip
+    for impact in impacts:
+        codes = [finding.code for finding in diagnose(impact)]
+        assert not never & set(codes)
+        assert math.inf not in [finding.measured for finding in diagnose(impact) if finding.code == "model"]
+        assert codes.count("model_unknown") <= 1
+
+
+def test_a_yaw_rate_that_the_other_law_halves():
+    """Or turns round, which is above 1; below 6 deg/s it is none."""
+    impact, _ = CASES["law_yaw"][0]()
+    (finding,) = of("law_yaw", impact)
+    assert of("law", impact) == []
+    assert finding.measured > 0.25
+    turned = square(a={"y": 0.05, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
+    (finding,) = of("normal_yaw", turned)
+    assert finding.measured > 1.0
+    assert "the other way" in finding.sentence
+    slow = square(a={"vx": 0.6, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
+    assert of("normal_yaw", slow) == []
 
 
 def test_no_answer_under_a_turned_normal_is_infinite():
@@ -376,7 +678,7 @@ def test_a_reconstruction_is_diagnosed_as_the_impact_it_is():
     assert finding.measured == impact.reconstruction.condition
     assert "reconstruct.planar" in finding.sentence
     in_line = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
-    assert [f.code for f in diagnose(in_line)] == ["restitution", "model"]
+    assert [f.code for f in diagnose(in_line)] == ["restitution", "model_unknown"]
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -436,7 +738,7 @@ def test_the_outline_turns_with_the_vehicle():
 @pytest.mark.parametrize(
     ("options", "code", "said"),
     [
-        ({"impact": 3.0}, "not_an_impact", "impact must be an Impact, got float"),
+        ({"impact": 3.0}, "not_an_impact", "impact must be an Impact or a MomentumSolution, got float"),
         ({"impact": None}, "not_an_impact", "write diagnose(collisions.eccentric(...))"),
         ({"limits": {"nonsense": 1.0}}, "unknown_finding", "there is no finding 'nonsense'; known are energy_gain"),
         ({"limits": {3: 1.0}}, "unknown_finding", "there is no finding 3"),
@@ -461,6 +763,14 @@ def test_the_outline_turns_with_the_vehicle():
         ({"outline_a": [(2, 1), (0, 0.2), (-2, 1), (-2, -1), (2, -1)]}, "bad_outline", "has a dent"),
         ({"outline_a": [(2, 1), (-2, -1), (2, -1), (-2, 1)]}, "bad_outline", "sides that cross"),
         ({"outline_a": [(2, 1), (2, 1), (-2, 1), (-2, -1)]}, "bad_outline", "a corner twice"),
+        ({"impact": balance(), "outline_a": (4.0, 1.8)}, "not_an_impact", "need positions, which a MomentumSolution has not"),
+        ({"impact": balance(), "duration": -0.1}, "negative_duration", "duration must be >= 0"),
+        ({"impact": balance(), "drag": np.array([0.1, 0.2])}, "bad_shape", "diagnose takes one case"),
+        ({"impact": balance(heading_a=None), "damage_pdof_a": 0.0}, "missing_heading", "give heading_a='30 deg'"),
+        ({"damage_pdof_a": "5 m"}, "bad_units", "damage_pdof_a"),
+        ({"damage_pdof_b": np.array([0.1])}, "bad_shape", "damage_pdof_b takes one value"),
+        ({"damage_delta_v_a": -1.0}, "negative_speed", "damage_delta_v_a must be >= 0"),
+        ({"crush_energy": "-3 kJ"}, "negative_energy", "crush_energy must be >= 0"),
         ({"duration": -0.1}, "negative_duration", "duration must be >= 0"),
         ({"drag": "x"}, "bad_units", "drag"),
         ({"duration": np.array([0.1, 0.2])}, "bad_shape", "diagnose takes one case"),
@@ -500,6 +810,18 @@ def test_a_batch_and_a_refused_case_are_refused():
     assert caught.value.code == "refused_impact"
 
 
+def test_momentum_in_a_batch_or_refused_and_a_fit_are_refused():
+    """As for an impact; of a fit the impact is to be diagnosed."""
+    with pytest.raises(col.ShapeError, match=re.escape("batch of shape (2,)")):
+        diagnose(balance(speed_a_after=np.array([9.0, 10.0])))
+    with pytest.raises(col.InputError, match="nothing to diagnose") as caught:
+        diagnose(balance(course_b="0 deg", on_failure="nan"))
+    assert caught.value.code == "refused_impact"
+    with pytest.raises(col.InputError, match="which holds unknowns and no impact; diagnose the impact of your model") as caught:
+        diagnose(object.__new__(reconstruct.Fit))
+    assert caught.value.code == "not_an_impact"
+
+
 @pytest.mark.parametrize(("name", "code"), [("heading", "missing_heading")])
 def test_an_outline_needs_to_be_placed(name, code):
     """The vehicle and the outline are named."""
@@ -524,4 +846,4 @@ def test_every_limit_says_where_it_is_from(code):
     limit = LIMITS[code]
     assert limit.source.startswith("set here: ") or re.search(r"EDCRASH|reference\.|paper|Coulomb", limit.source)
     assert re.search(r"above|below", limit.measured)
-    assert (limit.default is None) == (code == "restitution")
+    assert (limit.default is None) == (code in ("restitution", "outlines_overlap"))

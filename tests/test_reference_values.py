@@ -258,3 +258,22 @@ def test_refusals(call, code, said):
     with pytest.raises(col.InputError, match=re.escape(said)) as caught:
         call()
     assert caught.value.code == code
+
+
+def test_values_and_formulas_with_their_units():
+    """Each number as a Quantity, by pint itself; a value that is not there stays None."""
+    registry = pint.get_application_registry()
+    duration = reference.CONTACT_DURATION.q
+    assert duration.low == registry.Quantity(108.0, "ms")
+    assert duration.high.m_as("ms") == pytest.approx(108.0, rel=1e-15)
+    assert duration.typical is None
+    assert duration.source == reference.CONTACT_DURATION.source
+    assert reference.INTER_VEHICLE_FRICTION.q.typical == registry.Quantity(0.55, "dimensionless")
+    low, high, unit = reference.RESTITUTION_FIT.q.ranges["closing_speed"]
+    # 0.44704 m/s is a mile per hour exactly.
+    assert (low.m_as("mph"), high.m_as("mph")) == (pytest.approx(2.0, rel=1e-15), pytest.approx(15.0, rel=1e-15))
+    assert unit == "m/s"
+    for fit in reference.FITS:
+        assert fit.q.ranges.keys() == fit.ranges.keys()
+        for name, ends in fit.q.ranges.items():
+            assert tuple(end.m_as(fit.ranges[name][2]) for end in ends[:2]) == fit.ranges[name][:2]

@@ -30,11 +30,14 @@ class Reconstruction:
         impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out what is not known
         of friction, restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e
         where e was given, or the jump between both ways to slide over the slip where that is larger.
+    answers : int or array of int
+        How many impacts fit what was given, of which this is one.
     """
 
     method: str
     known: tuple[str, ...]
     condition: Value
+    answers: Any = 1
 
 
 class ByModel(Mapping[str, Any]):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .errors import InputError, Status
-from .fields import attributes
+from .fields import attributes, lock
 from .kernels import codes
 from .provenance import ModelChoice, Reconstruction
 from .side import Side
@@ -57,7 +57,8 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
         origin = record["results"]["reconstruction"]
         if origin is not None:
             known = tuple(str(name) for name in origin["known"])
-            origin = Reconstruction(method=str(origin["method"]), known=known, condition=_number(origin["condition"]))
+            condition, answers = _number(origin["condition"]), _count(origin.get("answers", 1))
+            origin = Reconstruction(method=str(origin["method"]), known=known, condition=condition, answers=answers)
             status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
         for side in "ab":
             state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
@@ -105,6 +106,7 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
             columns[f"{name}.{axis}"] = part
     elif isinstance(value, Reconstruction):
         columns[f"{name}.condition"] = value.condition
+        columns[f"{name}.answers"] = value.answers
     elif isinstance(value, ModelChoice):
         columns[f"{name}.tolerance"] = value.tolerance
         columns |= {f"{name}.errors.{model}": error for model, error in value.errors.items()}
@@ -147,6 +149,13 @@ def _strict(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
     return value
+
+
+def _count(value: Any) -> Any:
+    """A whole number, or a batch of them, as ``_strict`` wrote it."""
+    if isinstance(value, Mapping):
+        return lock(np.array([int(count) for count in value["values"]], dtype=np.int64).reshape(value["shape"]))
+    return int(value)
 
 
 def _number(value: Any) -> Any:

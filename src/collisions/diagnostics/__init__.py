@@ -1,6 +1,7 @@
 """What is odd about an impact: findings, each with what was measured, the limit it passes, and where the limit is from."""
 
 from .diagnosis import diagnose
-from .finding import LIMITS, Finding, Limit
+from .finding import Finding
+from .limits import LIMITS, Limit
 
 __all__ = ["LIMITS", "Finding", "Limit", "diagnose"]

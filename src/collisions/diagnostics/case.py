@@ -1,31 +1,47 @@
-"""One impact under examination, with what was given about it."""
+"""One answer under examination, with what was given about it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..idealisation import LeftOut
 from ..impact import Impact
+from ..reconstruct import MomentumSolution
 from ..side import Side
-from .finding import LIMITS, Finding
+from .finding import Finding
+from .limits import LIMITS
+
+
+class Told(NamedTuple):
+    """What an answer says of a vehicle that damage may contradict."""
+
+    who: str
+    delta_v: float
+    pdof: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Case:
-    """An impact, the outlines by vehicle label, what the impulse leaves out, and the limits."""
+class Evidence:
+    """What the damage says, apart from the answer: its energy, and by vehicle label direction of force and delta-V."""
 
-    impact: Impact
-    outlines: dict[str, Any]
-    left_out: LeftOut
+    crush_energy: float | None
+    pdof: dict[str, float]
+    delta_v: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Examined:
+    """What every answer has to be held against: evidence and limits."""
+
     limits: dict[str, float | None]
-
-    @property
-    def sides(self) -> tuple[tuple[str, Side], tuple[str, Side]]:
-        """Both vehicles with their labels."""
-        return ("a", self.impact.a), ("b", self.impact.b)
+    evidence: Evidence
+    energy_lost: float
+    told: dict[str, Told]
+    duration: float
+    drag: float
 
     def above(self, code: str, measured: float, sentence: str, vehicle: str = "", limit: float = math.nan) -> Iterator[Finding]:
         """The finding, if what was measured is above its limit; ``limit`` is the default of one that depends on the case."""
@@ -56,10 +72,38 @@ class Case:
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case(Examined):
+    """An impact, the outlines by vehicle label, and what the impulse leaves out."""
+
+    impact: Impact
+    outlines: dict[str, Any]
+    left_out: LeftOut
+
+    @property
+    def sides(self) -> tuple[tuple[str, Side], tuple[str, Side]]:
+        """Both vehicles with their labels."""
+        return ("a", self.impact.a), ("b", self.impact.b)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Balance(Examined):
+    """A reconstruction by planar momentum."""
+
+    solution: MomentumSolution
+
+
 def named(label: str, side: Side) -> str:
     """The vehicle as a sentence calls it."""
     name = side.before.name
     return f"vehicle {label.upper()} ({name})" if name else f"vehicle {label.upper()}"
+
+
+def share(part: float, whole: float) -> float:
+    """The quotient; infinite where there is nothing to compare with, or no number to compare."""
+    if part == 0.0:
+        return 0.0
+    return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
 
 
 def kmh(speed: float) -> str:

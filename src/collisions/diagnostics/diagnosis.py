@@ -3,32 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
-from ..errors import InputError, ShapeError
+from ..amounts import at_least_zero
+from ..errors import InputError, ShapeError, Status
 from ..idealisation import left_out
 from ..impact import Impact
-from ..units import Door, Input
-from . import inputs, physics, robustness
-from .case import Case
-from .finding import LIMITS, Finding, read_limits
 from ..outlines import read_outline
+from ..reconstruct import Fit, MomentumSolution
+from ..travel.reading import one_value, read_drag
+from ..units import Door, Input
+from . import balance, evidence, inputs, physics, robustness
+from .case import Balance, Case, Examined, Told, named
+from .finding import Finding, read_limits
+from .limits import LIMITS
 
-_CHECKS: tuple[Callable[[Case], Iterator[Finding]], ...] = (
+_Examined = TypeVar("_Examined", bound=Examined)
+_EVIDENCE: tuple[Callable[[Examined], Iterator[Finding]], ...] = (
+    evidence.momentum_energy,
+    evidence.pdof_off_damage,
+    evidence.delta_v_off_damage,
+    inputs.suspect_duration,
+)
+_IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     physics.energy_gain,
-    physics.momentum_energy,
+    physics.rounding,
     physics.restitution,
     physics.impulse_ratio,
+    physics.friction_gain,
     physics.jamming,
     physics.contact_points,
     physics.outlines,
-    physics.yaw_against_lever,
+    physics.normal_against_positions,
+    evidence.yaw_against_lever,
     physics.impulse_off_normal,
     physics.point_outside,
-    physics.near_collinear,
     physics.ill_conditioned,
+    physics.not_unique,
     physics.tyre_impulse,
     physics.reference_range,
     robustness.model,
@@ -36,16 +49,30 @@ _CHECKS: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     robustness.normal,
     inputs.suspect_inputs,
 )
+_BALANCE: tuple[Callable[[Balance], Iterator[Finding]], ...] = (
+    balance.energy_gain,
+    balance.restitution,
+    balance.near_collinear,
+    balance.ill_conditioned,
+    balance.speed_backwards,
+    balance.tyre_impulse,
+    balance.suspect_inputs,
+)
 
 
 def diagnose(
-    impact: Impact,
+    impact: Impact | MomentumSolution,
     *,
     outline_a: Any = None,
     outline_b: Any = None,
     duration: Input = 0.1,
     drag: Input = 0.7,
     limits: Mapping[str, Any] | None = None,
+    crush_energy: Input | None = None,
+    damage_pdof_a: Input | None = None,
+    damage_pdof_b: Input | None = None,
+    damage_delta_v_a: Input | None = None,
+    damage_delta_v_b: Input | None = None,
 ) -> tuple[Finding, ...]:
     """What is odd about an impact, forward or reconstructed: findings, an energy gain first.
 
@@ -54,10 +81,12 @@ def diagnose(
 
     Parameters
     ----------
-    impact : Impact
-        One case, of any solver; also one that ``reconstruct`` found.
+    impact : Impact or MomentumSolution
+        One case, of any solver; also one that ``reconstruct`` found, or the answer of ``reconstruct.momentum``, whose courses,
+        speeds, energy and evidence are judged.
     outline_a, outline_b : tuple or list, optional
-        Outline of a vehicle as seen from its centre of mass, for ``point_outside`` and, with both, ``outlines_interpenetrate``:
+        Of an Impact: outline of a vehicle as seen from its centre of mass, for ``point_outside`` and, with both,
+        ``outlines_overlap``, ``outlines_gap`` and ``outlines_interpenetrate``:
         (length, width); (length, width, offset) [m] with the centre of mass so far ahead of the middle; or the corners of a
         convex outline, (forward, left) [m] one after another. The vehicle then needs x, y and heading.
     duration : float, str or Quantity [s]
@@ -67,6 +96,13 @@ def diagnose(
     limits : dict of str to float, str or Quantity, optional
         Limits other than the default by code, units allowed, such as ``{"near_collinear": "15 deg"}``; inf switches a finding
         of what is above its limit off, 0 one of what is below.
+    crush_energy : float, str or Quantity [J], optional
+        Energy that the damage of both vehicles together takes, as by ``reconstruct.crush_energy``, for ``momentum_energy``.
+    damage_pdof_a, damage_pdof_b : angle [rad], optional
+        Direction of force that the damage of a vehicle shows, 0 from straight ahead, positive clockwise, for
+        ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a heading.
+    damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], optional
+        Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``.
 
     Returns
     -------
@@ -76,15 +112,17 @@ def diagnose(
     Raises
     ------
     InputError
-        An argument that cannot be used, a code that is none, a batch (``ShapeError``), or an impact that was refused.
+        An argument that cannot be used, a code that is none, a batch (``ShapeError``), an answer that was refused, outlines for
+        one of planar momentum, which has no positions, or a ``reconstruct.Fit``: diagnose the impact at its values.
     MissingInputError
-        An outline without a position or heading of its vehicle.
+        An outline without a position or heading of its vehicle, a PDOF of the damage without a heading.
 
     Notes
     -----
     Left out where it cannot be measured: levers without a contact point, courses of a vehicle at rest. Contact points and
     restitution cannot disagree in an answer of the eccentric model, so ``contact_points_approach`` appears for answers of
-    ``solve`` by a smaller one only. A linear impact has no tangential direction to judge.
+    ``solve`` by a smaller one only; and an answer cannot turn a vehicle against its own impulse, so ``yaw_against_lever`` needs
+    the direction of force that the damage shows. A linear impact has no tangential direction to judge.
 
     Examples
     --------
@@ -102,50 +140,109 @@ def diagnose(
     ()
     """
     # A limit beyond what is plausible is one on purpose.
-    door = Door(trusted=("limits['suspect_yaw_rate']",))
-    _check(door, impact)
+    door = Door(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
+    _check(impact)
     outlines = {
         label: read_outline(door, given, f"outline_{label}")
         for label, given in (("a", outline_a), ("b", outline_b))
         if given is not None
     }
-    allowed = read_limits(limits, door)
-    door.close()
-    found = left_out(impact, duration=duration, drag=drag)
-    if isinstance(found.duration, np.ndarray) or isinstance(found.drag, np.ndarray):
-        raise ShapeError(
-            "duration and drag take one value each: diagnose takes one case", code="bad_shape", argument="duration"
+    if isinstance(impact, MomentumSolution) and outlines:
+        door.refuse(
+            InputError(
+                "outline_a and outline_b need positions, which a MomentumSolution has not; leave them out, or diagnose the "
+                "impact of collisions.eccentric at its speeds",
+                code="not_an_impact",
+                argument="outline_a" if "a" in outlines else "outline_b",
+            )
         )
-    case = Case(impact=impact, outlines=outlines, left_out=found, limits=allowed)
+    allowed = read_limits(limits, door)
+    found = evidence.read_evidence(
+        door,
+        impact,
+        crush_energy,
+        {"a": damage_pdof_a, "b": damage_pdof_b},
+        {"a": damage_delta_v_a, "b": damage_delta_v_b},
+    )
+    if isinstance(impact, MomentumSolution):
+        time = one_value(door, duration, "s", "duration")
+        time = at_least_zero(door, time, duration, "duration", "negative_duration", "it is the time from touching to parting")
+        pull = read_drag(door, drag, "drag")
+        door.close()
+        _check_single(time, pull)
+        solved = Balance(
+            solution=impact,
+            limits=allowed,
+            evidence=found,
+            energy_lost=impact.translational_energy_loss,
+            told={
+                label: Told(f"vehicle {label.upper()}", getattr(impact, f"delta_v_{label}"), getattr(impact, f"pdof_{label}"))
+                for label in "ab"
+            },
+            duration=time,
+            drag=pull,
+        )
+        return _sorted([*_each(_EVIDENCE, solved), *_each(_BALANCE, solved)])
+    door.close()
+    left = left_out(impact, duration=duration, drag=drag)
+    _check_single(left.duration, left.drag)
+    case = Case(
+        impact=impact,
+        outlines=outlines,
+        left_out=left,
+        limits=allowed,
+        evidence=found,
+        energy_lost=impact.energy_loss,
+        told={label: Told(named(label, side), side.delta_v, side.pdof) for label, side in (("a", impact.a), ("b", impact.b))},
+        duration=left.duration,
+        drag=left.drag,
+    )
+    return _sorted([*_each(_EVIDENCE, case), *_each(_IMPACT, case)])
+
+
+def _each(checks: tuple[Callable[[_Examined], Iterator[Finding]], ...], case: _Examined) -> Iterator[Finding]:
+    for check in checks:
+        yield from check(case)
+
+
+def _sorted(findings: list[Finding]) -> tuple[Finding, ...]:
     order = {code: at for at, code in enumerate(LIMITS)}
-    findings = [finding for check in _CHECKS for finding in check(case)]
     return tuple(sorted(findings, key=lambda finding: (order[finding.code], finding.vehicle)))
 
 
-def _check(door: Door, impact: Any) -> None:
-    """Refuses what is not one impact with an answer."""
-    if not isinstance(impact, Impact):
-        door.refuse(
-            InputError(
-                f"impact must be an Impact, got {type(impact).__name__}; write diagnose(collisions.eccentric(...))",
-                code="not_an_impact",
-                argument="impact",
-            )
+def _check_single(duration: Any, drag: Any) -> None:
+    if isinstance(duration, np.ndarray) or isinstance(drag, np.ndarray):
+        raise ShapeError(
+            "duration and drag take one value each: diagnose takes one case", code="bad_shape", argument="duration"
         )
-    elif isinstance(impact.status, np.ndarray):
-        door.refuse(
-            ShapeError(
-                f"impact is a batch of shape {impact.status.shape}, and diagnose takes one case: ask the solver again with the "
-                f"numbers of that case, such as mass=float(masses[0])",
-                code="bad_shape",
-                argument="impact",
-            )
+
+
+def _check(impact: Any) -> None:
+    """Refuses what is not one answer; at once, for nothing else can be read beside it."""
+    if isinstance(impact, Fit):
+        raise InputError(
+            "impact is a Fit, which holds unknowns and no impact; diagnose the impact of your model at its values, such as "
+            "diagnose(collisions.eccentric(...)) with fit.values",
+            code="not_an_impact",
+            argument="impact",
         )
-    elif impact.refused:
-        door.refuse(
-            InputError(
-                f"impact was refused, so there is nothing to diagnose: {impact.status.sentence}",
-                code="refused_impact",
-                argument="impact",
-            )
+    if not isinstance(impact, (Impact, MomentumSolution)):
+        raise InputError(
+            f"impact must be an Impact or a MomentumSolution, got {type(impact).__name__}; write "
+            f"diagnose(collisions.eccentric(...))",
+            code="not_an_impact",
+            argument="impact",
+        )
+    if isinstance(impact.status, np.ndarray):
+        raise ShapeError(
+            f"impact is a batch of shape {impact.status.shape}, and diagnose takes one case: ask the solver again with the "
+            f"numbers of that case, such as mass=float(masses[0])",
+            code="bad_shape",
+            argument="impact",
+        )
+    if impact.status > Status.ENERGY_GAIN:
+        raise InputError(
+            f"impact was refused, so there is nothing to diagnose: {impact.status.sentence}",
+            code="refused_impact",
+            argument="impact",
         )

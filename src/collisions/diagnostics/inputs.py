@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from .case import Case, named
+from ..reference import CONTACT_DURATION
+from .case import Case, Examined, named
 from .finding import Finding
 
 
 def suspect_inputs(case: Case) -> Iterator[Finding]:
-    """Masses, speeds, yaw rates, inertias and levers that no road vehicle has."""
+    """Masses, speeds, yaw rates, inertias, levers and headings that no road vehicle has."""
     for label, side in case.sides:
         vehicle, who = side.before, named(label, side)
         mass, inertia = vehicle.mass, vehicle.yaw_inertia
-        yield from case.below("suspect_mass", mass, f"{who} has a mass of {mass:.6g} kg; were tonnes meant?", label)
+        yield from case.below("suspect_mass", mass, f"{who} has a mass of {mass:.6g} kg; were tonnes or slugs meant?", label)
         if not math.isinf(mass):
             sentence = f"{who} has a mass of {mass:.6g} kg; were grams meant, or an immovable body (inf)?"
             yield from case.above("suspect_heavy", mass, sentence, label)
@@ -32,3 +33,16 @@ def suspect_inputs(case: Case) -> Iterator[Finding]:
             lever = math.hypot(point[0] - vehicle.x, point[1] - vehicle.y)
             sentence = f"the contact point is {lever:.3g} m from the centre of mass of {who}; check units and origin"
             yield from case.above("suspect_lever", lever, sentence, label)
+        if vehicle.heading is not None:
+            turns = abs(vehicle.heading) / math.tau
+            sentence = f"{who} has a heading of {vehicle.heading:.6g} rad, {turns:.3g} turns; were degrees meant?"
+            yield from case.above("suspect_angle", abs(vehicle.heading), sentence, label)
+
+
+def suspect_duration(case: Examined) -> Iterator[Finding]:
+    """A contact that lasts longer than any."""
+    times = case.duration / CONTACT_DURATION.high
+    sentence = (
+        f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was published; were milliseconds meant?"
+    )
+    yield from case.above("suspect_duration", times, sentence)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..outlines import distance_outside, overlap, placed
 from ..reference import restitution_range
 from ..side import Side
-from .case import Case, degrees, kmh, named
+from .case import Case, degrees, kmh, named, share
 from .finding import Finding
-from ..outlines import distance_outside, overlap, placed
 
-# A shorter lever turns a car by nothing that could be seen.
-_NO_LEVER = 0.01
+# Of positions and outlines together.
+_READ_TO = 0.3
 # Ratios that round to the critical one have not passed it.
 _ROUNDING = 1e-9
 
@@ -25,31 +25,24 @@ def energy_gain(case: Case) -> Iterator[Finding]:
         yield from case.above("energy_gain", gain, f"the impact ends with {gain:.6g} J more than it began with; none can")
 
 
-def momentum_energy(case: Case) -> Iterator[Finding]:
+def rounding(case: Case) -> Iterator[Finding]:
     """The balances a reader would check by hand, from the speeds, against the impulse."""
     impact = case.impact
     impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
-    share: float = _share(impact.momentum_residual, impulse)
-    what = f"momentum changes by {share:.2g} of the impulse"
+    off: float = share(impact.momentum_residual, impulse)
+    what = f"momentum changes by {off:.2g} of the impulse"
     sides = (impact.a, impact.b)
     if not any(_moves_for_ever(side) for side in sides):
         before, after = (sum(_energy(side, which) for side in sides) for which in (0, 1))
         by_work = max(abs(impact.energy_loss), impact.energy_absorbed)
-        by_speeds = _share(abs((before - after) - impact.energy_loss), by_work)
-        if by_speeds > share:
-            share = by_speeds
+        by_speeds = share(abs((before - after) - impact.energy_loss), by_work)
+        if by_speeds > off:
+            off = by_speeds
             what = (
                 f"kinetic energies before and after differ by {before - after:.6g} J, and the impulse takes "
                 f"{impact.energy_loss:.6g} J"
             )
-    yield from case.above("momentum_energy", share, f"{what}: rounding of speeds that are large against the closing speed")
-
-
-def _share(part: float, whole: float) -> float:
-    """The quotient; infinite where there is nothing to compare with, or no number to compare."""
-    if part == 0.0:
-        return 0.0
-    return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
+    yield from case.above("rounding", off, f"{what}: rounding of speeds that are large against the closing speed")
 
 
 def _moves_for_ever(side: Side) -> bool:
@@ -85,14 +78,27 @@ def impulse_ratio(case: Case) -> Iterator[Finding]:
     ratio, critical = impact.impulse_ratio, impact.critical_impulse_ratio
     if ratio == 0.0 or impact.model == "linear_central":
         return
-    share = math.inf if critical == 0.0 else ratio / critical
-    if share < 0.0:
-        share = math.inf
+    part = math.inf if critical == 0.0 else ratio / critical
+    if part < 0.0:
+        part = math.inf
         what = f"drives the slip instead of ending it: the critical one is {critical:.3g}; check its sign"
     else:
-        share = 1.0 if abs(share - 1.0) <= _ROUNDING else share
-        what = f"is {share:.2f} of the critical one, {critical:.3g}, which already ends the slip"
-    yield from case.above("impulse_ratio", share, f"the impulse ratio {ratio:.3g} {what}")
+        part = 1.0 if abs(part - 1.0) <= _ROUNDING else part
+        what = f"is {part:.2f} of the critical one, {critical:.3g}, which already ends the slip"
+    yield from case.above("impulse_ratio", part, f"the impulse ratio {ratio:.3g} {what}")
+
+
+def friction_gain(case: Case) -> Iterator[Finding]:
+    """A tangential impulse that puts energy in."""
+    impact = case.impact
+    gain = -impact.energy_loss_tangential
+    part = share(gain, impact.energy_absorbed) if gain > 0.0 else 0.0
+    yield from case.above(
+        "friction_gain",
+        part,
+        f"the tangential impulse adds {gain:.6g} J, {part:.1%} of the energy absorbed, where friction can only take it: the "
+        f"slip turns round during the contact, which one impulse ratio does not tell",
+    )
 
 
 def jamming(case: Case) -> Iterator[Finding]:
@@ -103,12 +109,12 @@ def jamming(case: Case) -> Iterator[Finding]:
     plain = impact.effective_mass * impact.closing_speed
     if not plain > 0.0:
         return
-    share = 1.0 - plain / impact.compression_impulse
+    part = 1.0 - plain / impact.compression_impulse
     yield from case.above(
         "jamming",
-        share,
+        part,
         f"the tangential impulse makes the normal one {impact.compression_impulse / plain:.2f} times as large: the ratio is "
-        f"{share:.2f} of the one at which the bodies jam",
+        f"{part:.2f} of the one at which the bodies jam",
     )
 
 
@@ -128,42 +134,61 @@ def contact_points(case: Case) -> Iterator[Finding]:
 
 
 def outlines(case: Case) -> Iterator[Finding]:
-    """Outlines that move into each other after."""
+    """Outlines that lie in each other or apart at the impact, or move into each other after."""
     if len(case.outlines) < 2:
         return
-    duration = case.left_out.duration
     now, later = (
         overlap(*(placed(case.outlines[label], side.after, label, time) for label, side in case.sides))
-        for time in (0.0, duration)
+        for time in (0.0, case.duration)
     )
-    grown = later - max(now, 0.0)
+    depth = max(now, 0.0)
+    grown = later - depth
     yield from case.above(
         "outlines_interpenetrate",
         grown,
-        f"{duration:.3g} s after separation the outlines overlap by {later:.2f} m, {grown:.2f} m more than at the impact "
-        f"({max(now, 0.0):.2f} m)",
+        f"{case.duration:.3g} s after separation the outlines overlap by {later:.2f} m, {grown:.2f} m more than at the impact "
+        f"({depth:.2f} m)",
+    )
+    crush = case.left_out.mutual_crush
+    yield from case.above(
+        "outlines_overlap",
+        depth,
+        f"at the impact the outlines overlap by {depth:.2f} m, and the impact crushes both together by {crush:.2f} m in "
+        f"{case.duration:.3g} s; check positions and headings",
+        limit=crush + _READ_TO,
+    )
+    yield from case.above(
+        "outlines_gap", -now, f"at the impact there is a gap of {-now:.2f} m between the outlines; check positions and headings"
     )
 
 
-def yaw_against_lever(case: Case) -> Iterator[Finding]:
-    """A vehicle that turns against what the normal impulse alone would do."""
+def normal_against_positions(case: Case) -> Iterator[Finding]:
+    """A normal that does not point from A into B."""
     impact = case.impact
-    if impact.point is None:
-        return
-    (nx, ny), (px, py) = impact.normal, impact.point
-    for (label, side), sign in zip(case.sides, (-1.0, 1.0), strict=True):
-        before = side.before
-        centre = before.pivot if before.pivot is not None else (before.x, before.y)
-        if centre[0] is None or centre[1] is None:
-            continue
-        lever = sign * ((px - centre[0]) * ny - (py - centre[1]) * nx)
-        against = -math.copysign(1.0, lever) * side.delta_yaw_rate
-        if abs(lever) > _NO_LEVER:
+    (nx, ny), point = impact.normal, impact.point
+    centres = [
+        None if vehicle.x is None or vehicle.y is None or math.isinf(vehicle.mass) else (vehicle.x, vehicle.y)
+        for vehicle in (impact.a.before, impact.b.before)
+    ]
+    if point is None:
+        a, b = centres
+        if a is not None and b is not None:
+            behind = nx * (a[0] - b[0]) + ny * (a[1] - b[1])
             yield from case.above(
-                "yaw_against_lever",
-                against,
-                f"{named(label, side)} is turned by {math.degrees(side.delta_yaw_rate):.0f} degrees/s, against the lever of "
-                f"the normal impulse ({abs(lever):.2f} m): friction decides which way it turns",
+                "normal_against_positions",
+                behind,
+                f"along the normal, which points from A into B, the centre of B is {behind:.2f} m behind that of A; check the "
+                f"normal and the positions",
+            )
+        return
+    for (label, side), sign, centre in zip(case.sides, (1.0, -1.0), centres, strict=True):
+        if centre is not None:
+            behind = sign * (nx * (centre[0] - point[0]) + ny * (centre[1] - point[1]))
+            yield from case.above(
+                "normal_against_positions",
+                behind,
+                f"the normal, which points from A into B, points {'away from B' if label == 'b' else 'back into A'}: the "
+                f"centre of {named(label, side)} is {behind:.2f} m on the wrong side of the contact point",
                 label,
             )
 
@@ -193,22 +218,6 @@ def point_outside(case: Case) -> Iterator[Finding]:
                 f"the contact point is {distance:.2f} m outside the outline of {named(label, side)}",
                 label,
             )
-
-
-def near_collinear(case: Case) -> Iterator[Finding]:
-    """Courses along one line, across which momentum tells nothing."""
-    a, b = case.impact.a.before, case.impact.b.before
-    if not (a.speed > 0.0 and b.speed > 0.0) or math.isinf(a.mass) or math.isinf(b.mass):
-        return
-    # Scaled first: the product of two speeds may overflow.
-    (ax, ay), (bx, by) = ((vehicle.vx / vehicle.speed, vehicle.vy / vehicle.speed) for vehicle in (a, b))
-    angle = math.atan2(abs(ax * by - ay * bx), abs(ax * bx + ay * by))
-    yield from case.below(
-        "near_collinear",
-        angle,
-        f"the courses before are {degrees(angle)} from one line: across it, momentum tells little of the speeds",
-        or_at=True,
-    )
 
 
 def tyre_impulse(case: Case) -> Iterator[Finding]:
@@ -252,4 +261,16 @@ def ill_conditioned(case: Case) -> Iterator[Finding]:
             origin.condition,
             f"reconstruct.{origin.method}: one percent in what was given ({', '.join(origin.known)}) may become "
             f"{origin.condition:.3g} percent of the closing speed in the speeds before",
+        )
+
+
+def not_unique(case: Case) -> Iterator[Finding]:
+    """An answer beside which another fits as well."""
+    origin = case.impact.reconstruction
+    if origin is not None:
+        yield from case.above(
+            "not_unique",
+            origin.answers,
+            f"reconstruct.{origin.method} found {origin.answers} impacts that fit what was given "
+            f"({', '.join(origin.known)}), of which this is one: other evidence must tell which",
         )

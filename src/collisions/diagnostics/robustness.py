@@ -11,10 +11,12 @@ from ..impact import Impact
 from ..kernels import codes
 from ..quiet import quietly
 from ..scene import required_model
-from .case import Case, kmh
+from ..side import Side
+from .case import Case, degrees, kmh, named, share
 from .finding import Finding
 
 _TURN = 10.0  # degrees
+_SEEN = 0.1  # rad/s; a difference of yaw rates below this shows in no rest position
 
 
 def model(case: Case) -> Iterator[Finding]:
@@ -39,9 +41,11 @@ def model(case: Case) -> Iterator[Finding]:
     error = choice.errors[impact.model]
     if math.isnan(error):
         missing = choice.missing["eccentric"]
-        why = f"{', '.join(missing)} would tell" if missing else "the eccentric model has no answer here"
-        sentence = f"nothing tells what {impact.model} errs by: {why}"
-        yield from case.above("model", math.inf, sentence)
+        told = f"nothing tells what {impact.model} errs by"
+        if missing:
+            yield from case.above("model_unknown", len(missing), f"{told}: {', '.join(missing)} would tell")
+        else:
+            yield from case.above("model", math.inf, f"{told}: the eccentric model has no answer here")
         return
     delta_v = min((side.delta_v for _, side in case.sides if side.delta_v > 0.0), default=math.inf)
     yield from case.above(
@@ -57,12 +61,7 @@ def law(case: Case) -> Iterator[Finding]:
     if impact.law is None or impact.model == "linear_central":
         return
     other = next(name for name in codes.LAWS if name != impact.law)
-    moved = _moved(impact, law=other)
-    if math.isinf(moved):
-        sentence = f"under the law {other!r} there is no answer"
-    else:
-        sentence = f"delta-V and yaw move by {moved:.0%} of delta-V if the law is {other!r} instead of {impact.law!r}"
-    yield from case.above("law", moved, sentence)
+    yield from _told(case, "law", [(f"under the law {other!r} instead of {impact.law!r}", _again(impact, law=other))])
 
 
 def normal(case: Case) -> Iterator[Finding]:
@@ -74,28 +73,64 @@ def normal(case: Case) -> Iterator[Finding]:
     turned = []
     for angle in (-_TURN, _TURN):
         c, s = from_degrees(angle)
-        turned.append((_moved(impact, normal=(c * nx - s * ny, s * nx + c * ny)), angle))
-    moved, angle = max(turned)
-    if math.isinf(moved):
-        sentence = f"with the normal turned by {angle:+.0f} degrees there is no answer"
-    else:
-        sentence = f"delta-V and yaw move by {moved:.0%} of delta-V if the normal is turned by {angle:+.0f} degrees"
-    yield from case.above("normal", moved, sentence)
+        how = f"with the normal turned by {angle:+.0f} degrees"
+        turned.append((how, _again(impact, normal=(c * nx - s * ny, s * nx + c * ny))))
+    yield from _told(case, "normal", turned)
 
 
-def _moved(impact: Impact, **changes: Any) -> float:
-    """How far the magnitude of delta-V and, times the radius of gyration, the yaw rate move; for the worse vehicle."""
+def _again(impact: Impact, **changes: Any) -> Impact:
+    """The question again; what is to be said of it was said the first time."""
     with quietly():
-        again = impact._again(**changes)
-    if again.refused:
-        return math.inf
-    worst = 0.0
-    for old, new in ((impact.a, again.a), (impact.b, again.b)):
-        if old.delta_v == 0.0:
-            continue
-        inertia, mass = old.before.yaw_inertia, old.before.mass
-        turns = inertia is not None and not math.isinf(inertia) and not math.isinf(mass)
-        radius = math.sqrt(inertia / mass) if turns and inertia is not None else 0.0
-        step = math.hypot(new.delta_v - old.delta_v, radius * (new.delta_yaw_rate - old.delta_yaw_rate))
-        worst = max(worst, step / old.delta_v)
-    return worst
+        return impact._again(**changes)
+
+
+def _told(case: Case, code: str, answers: list[tuple[str, Impact]]) -> Iterator[Finding]:
+    """The worst of what other answers make of delta-V and of yaw."""
+    moves = [
+        (how, label, old, new)
+        for how, answer in answers
+        if not answer.refused
+        for (label, old), new in zip(case.sides, (answer.a, answer.b), strict=True)
+    ]
+    lost = [how for how, answer in answers if answer.refused]
+    if lost:
+        yield from case.above(code, math.inf, f"{lost[0]} there is no answer")
+    elif moves:
+        how, label, old, new = max(moves, key=lambda move: _vector(*move[2:]))
+        moved = _vector(old, new)
+        yield from case.above(
+            code,
+            moved,
+            f"{how} delta-V of {named(label, old)} moves by {moved:.0%} of itself, from {kmh(old.delta_v)} to "
+            f"{kmh(new.delta_v)}, and its direction by {degrees(_turn(old, new))}",
+            label,
+        )
+    if moves:
+        how, label, old, new = max(moves, key=lambda move: _yaw(*move[2:]))
+        was, now = (math.degrees(side.delta_yaw_rate) for side in (old, new))
+        other_way = ", the other way" if was * now < 0.0 else ""
+        yield from case.above(
+            f"{code}_yaw",
+            _yaw(old, new),
+            f"{how} the impact turns {named(label, old)} by {now:.0f} degrees/s instead of {was:.0f}{other_way}",
+            label,
+        )
+
+
+def _vector(old: Side, new: Side) -> float:
+    """Length of the change of delta-V, as a share of it; none for a body that nothing moves."""
+    length = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
+    return share(length, old.delta_v) if old.delta_v > 0.0 else 0.0
+
+
+def _turn(old: Side, new: Side) -> float:
+    """Angle between both delta-Vs."""
+    was, now = (math.atan2(side.delta_vy, side.delta_vx) for side in (old, new))
+    return abs(math.remainder(now - was, math.tau))
+
+
+def _yaw(old: Side, new: Side) -> float:
+    """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other sign."""
+    was, now = old.delta_yaw_rate, new.delta_yaw_rate
+    step = abs(now - was)
+    return share(step, max(abs(was), abs(now))) if step > _SEEN else 0.0

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from ..errors import InputError, OutOfRangeWarning
 from ..quiet import warn_of_cases
-from ..units import Door, shown
+from ..units import Door, shown, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 
@@ -53,6 +53,12 @@ class Published:
     domain: str
     quality: str
 
+    @property
+    def q(self) -> Any:
+        """The same attributes, the numbers as pint Quantities."""
+        given = {name: getattr(self, name) for name in ("low", "high", "typical")}
+        return replace(self, **{name: to_quantity(value, self.unit) for name, value in given.items() if value is not None})
+
     def __contains__(self, value: float) -> bool:
         """Whether a number in the SI unit lies in the range."""
         return self.low <= value <= self.high
@@ -83,6 +89,14 @@ class Fit:
     source: str
     domain: str
     quality: str
+
+    @property
+    def q(self) -> Any:
+        """The same attributes, the ends of the ranges as pint Quantities."""
+        ranges: Any = {
+            name: (to_quantity(low, unit), to_quantity(high, unit), unit) for name, (low, high, unit) in self.ranges.items()
+        }
+        return replace(self, ranges=ranges)
 
 
 def check_outside(door: Door, outside: Any) -> None:
