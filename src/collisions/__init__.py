@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from . import plot, reconstruct, reference, travel, uncertainty
     from .derivation import explain
     from .diagnostics import diagnose
-    from .reporting import report
     from .idealisation import left_out
     from .provenance import ModelChoice
+    from .reporting import report
     from .scene import required_model, solve
 
 __version__ = "0.1.0"
