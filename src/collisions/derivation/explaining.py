@@ -22,11 +22,10 @@ from .linear import linear
 from .oblique import oblique
 from .origin import chosen, found
 from .page import Page
-from .rounding import SYSTEMS, System
+from .rounding import SI_UNITS, SYSTEMS, System
 
 _FORMS = ("markdown", "text")
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
-_SI = {"speed": "m/s", "angle": "rad", "yaw rate": "rad/s", "number": "", "impulse": "N*s", "energy": "J"}
 
 
 def explain(
@@ -198,7 +197,7 @@ def _deviations(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> dict[
     door = Door()
     found = {}
     for name, value in uncertainty.items():
-        read = door.number(value, _SI[kind_of(known[name])], name)
+        read = door.number(value, SI_UNITS[kind_of(known[name])], name)
         found[known[name]] = at_least_zero(door, read, value, name, "negative_deviation", "give the standard deviation")
     door.close()
     for name, value in found.items():

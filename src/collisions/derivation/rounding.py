@@ -13,13 +13,14 @@ Powers: TypeAlias = tuple[tuple[str, float], ...]
 
 # The unit inside the package, and how each system prints it.
 SYSTEMS = ("si", "metric", "us")
-_SI = {
+SI_UNITS = {
     "number": "",
     "mass": "kg",
     "speed": "m/s",
     "angle": "rad",
     "yaw rate": "rad/s",
     "length": "m",
+    "time": "s",
     "inertia": "kg*m**2",
     "impulse": "N*s",
     "angular momentum": "kg*m**2/s",
@@ -27,9 +28,9 @@ _SI = {
     "per mass": "1/kg",
 }
 _UNITS = {
-    "si": {**_SI},
+    "si": {**SI_UNITS},
     "metric": {
-        **_SI,
+        **SI_UNITS,
         "speed": "km/h",
         "angle": "deg",
         "yaw rate": "deg/s",
@@ -38,7 +39,7 @@ _UNITS = {
         "energy": "kJ",
     },
     "us": {
-        **_SI,
+        **SI_UNITS,
         "mass": "lb",
         "speed": "mph",
         "angle": "deg",
@@ -84,7 +85,7 @@ class System:
 
     def scale(self, kind: str) -> float:
         """What an SI value of this kind is multiplied by."""
-        return _scale(_SI[kind], self.label(kind))
+        return _scale(SI_UNITS[kind], self.label(kind))
 
     def working(self, value: float, kind: str) -> str:
         """A number in the working: as it is if six figures hold it, else four figures or the decimals of an answer."""

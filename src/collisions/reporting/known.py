@@ -6,14 +6,14 @@ import math
 from typing import Any
 
 from ..derivation.answers import NAMES, kind_of
-from ..derivation.rounding import _SI
+from ..derivation.rounding import SI_UNITS
 from ..errors import InputError
 from ..impact import Impact
 from ..uncertainty import Output, Propagation
 from ..units import shown
 from .blocks import Sheet, plain
 
-_KINDS = {unit: kind for kind, unit in _SI.items()}
+_KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
 _ANSWERS = {**{name.replace(".", "_"): name for name in NAMES}, **{name: name for name in NAMES}}
 
 
@@ -25,7 +25,7 @@ class Known:
         self.outputs: dict[str, Output] = {}
         for output in () if uncertainty is None else uncertainty.outputs.values():
             name = _ANSWERS.get(output.name)
-            if name is not None and output.unit in (None, _SI[kind_of(name)]):
+            if name is not None and output.unit in (None, SI_UNITS[kind_of(name)]):
                 self.outputs[name] = output
 
     @property

@@ -9,7 +9,7 @@ from typing import Any
 
 from .. import reference
 from ..derivation import answers, origin
-from ..derivation.rounding import _SI
+from ..derivation.rounding import SI_UNITS
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import read_limits
 from ..errors import Status
@@ -61,7 +61,7 @@ _REGIMES = {
     "sticking": "slip ends before the vehicles part, with less than the friction given",
     "given": "by the ratio that was given, not by a law of friction",
 }
-_KINDS = {unit: kind for kind, unit in _SI.items()}
+_KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
 _RANGE = (
     reference.RESTITUTION_FIT,
     reference.RESTITUTION_LOW_SPEED,
