@@ -183,3 +183,18 @@ def test_a_velocity_too_small_for_float32_is_none():
     pinned = col.Vehicle(mass=300.0, vx=1e-200, yaw_rate=spin, yaw_inertia=200.0, x=0.0, y=1.0, pivot=(0.0, 0.0))
     assert pinned.vx.tolist() == [-1.0, -2.0]
     assert pinned == pinned.replace()
+
+
+@pytest.mark.parametrize("cases", [3, 20000])
+def test_an_answer_beyond_float32_is_refused(cases):
+    """Plain numbers beside float32 arrays may be worked on in float64; what float32 cannot hold is out of range all the same."""
+    speed = np.full(cases, 10.0, dtype=np.float32)
+    speed[1] = 1.51e18  # 0.5 * 300 kg * v**2 is 3.42e38, and the largest float32 is 3.40e38
+    a = col.Vehicle(mass=300.0, yaw_inertia=200.0, vx=speed, x=0.0, y=0.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "on_failure": "nan"}
+    impact = col.eccentric(a, col.Vehicle.barrier(x=0.0, y=0.0), 0.0, **contact)
+    assert impact.energy_loss.dtype == np.float32
+    assert [col.Status(code).label for code in impact.status[:3]] == ["ok", "out_of_range", "ok"]
+    for name in ("energy_loss", "energy_loss_normal", "normal_impulse", "compression_impulse", "effective_mass", "slip_before"):
+        assert np.isnan(getattr(impact, name)[1]), name
+        assert np.isfinite(getattr(impact, name)[[0, 2]]).all(), name

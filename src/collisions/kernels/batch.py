@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .codes import ENERGY_GAIN, OK, OUTPUTS
+from .codes import ENERGY_GAIN, OK, OUT_OF_RANGE, OUTPUTS
 from .replay import Replay, aligned, record
 from .select import select
 
@@ -37,6 +37,8 @@ FIRST = (
     "delta_yaw_rate_b",
 )
 LATER = ("status", *(name for name in OUTPUTS if name not in FIRST))
+# What a kernel sees to it that it is finite, in the precision it works in.
+_FINITE = frozenset(name for name in OUTPUTS if name.startswith(("energy_loss", "slip_after", "delta_")))
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -115,7 +117,17 @@ class Answers:
             return tuple(self)[index]
         name = OUTPUTS[index]
         if name not in self._found:
-            self._found = {**self._solve(LATER), **self._found}
+            later, refused = self._solve(LATER), self._found["status"] > ENERGY_GAIN
+            if np.any(refused & (later["status"] <= ENERGY_GAIN)):
+                # Refused for an answer that is not among these.
+                later = {
+                    key: np.where(refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value)
+                    for key, value in later.items()
+                    if key != "status"
+                }
+                for value in later.values():
+                    value.setflags(write=False)
+            self._found = {**later, **self._found}
         return self._found[name]
 
     def __iter__(self) -> Iterator[Any]:
@@ -169,6 +181,19 @@ def _solved(
         return block.stop - block.start
 
     each_block(solve, range(0, size, length), size, threads, progress)
+    return settled(outputs, shape, dtype)
+
+
+def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[str, Any]:
+    """The outputs by name, locked; of float32 without the cases whose answers only the float64 of plain numbers could hold."""
+    if dtype == np.float32:
+        beyond = np.zeros(outputs[0].shape, dtype=bool)
+        for name, output in zip(OUTPUTS, outputs, strict=True):
+            if output is not None and name in _FINITE:
+                beyond |= np.isinf(output)
+        beyond &= outputs[0] <= ENERGY_GAIN
+        if beyond.any():
+            blank([np.where(beyond, np.uint8(OUT_OF_RANGE), np.uint8(OK))], outputs)
     found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
     for output in found.values():
         output.setflags(write=False)

@@ -26,6 +26,7 @@ from .batch import (
     faults_of,
     flat,
     part,
+    settled,
 )
 from .codes import OK, OUTPUTS
 from .replay import Replay, aligned, record
@@ -139,10 +140,7 @@ def _solved(
                 output[some] = answer
 
     each_block(solve, range(0, size, stretch), size, threads, progress)
-    found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
-    for output in found.values():
-        output.setflags(write=False)
-    return found
+    return settled(outputs, shape, dtype)
 
 
 class _Work(NamedTuple):
