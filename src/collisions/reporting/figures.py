@@ -7,6 +7,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterator
 from functools import partial
+from importlib import import_module
 from html import escape
 from typing import Any
 
@@ -29,7 +30,7 @@ _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 def figures(impact: Impact, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: str) -> Iterator[Block]:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
-        import matplotlib.figure  # noqa: F401
+        import_module("matplotlib.figure")
     except ImportError:
         yield Paragraph("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
         return
