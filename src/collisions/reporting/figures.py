@@ -7,8 +7,8 @@ import re
 import warnings
 from collections.abc import Callable, Iterator
 from functools import partial
-from importlib import import_module
 from html import escape
+from importlib import import_module
 from typing import Any
 
 from .. import plot
