@@ -592,3 +592,21 @@ def test_the_common_velocity_is_that_of_the_model_taken():
     many = col.solve(a, b, **contact, tolerance=np.array([9.0, 0.0]))
     assert list(many.model) == ["linear_central", "eccentric"]
     assert many.common_velocity == pytest.approx([linear.common_velocity, full.common_velocity], rel=1e-15)
+
+
+def test_the_work_on_each_vehicle_is_that_of_the_model_taken():
+    """Each body's change of kinetic energy, of its yaw too where the model turns it; together what was lost, with the sign turned."""
+    a = col.Vehicle(mass=1500.0, vx=14.0, yaw_rate=0.05, x=-2.2, y=0.6, yaw_inertia=2500.0)
+    b = col.Vehicle(mass=1200.0, vx=3.0, yaw_rate=-0.04, x=2.0, y=-0.1, yaw_inertia=1900.0)
+    impact = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.1), friction=0.3, tolerance=np.array([9.0, 0.0]))
+    assert list(impact.model) == ["linear_central", "eccentric"]
+
+    def energy(vehicle):
+        return 0.5 * vehicle.mass * vehicle.speed**2 + 0.5 * vehicle.yaw_inertia * vehicle.yaw_rate**2
+
+    for side in (impact.a, impact.b):
+        # Differences of energies of 150 kJ, rounded a few times.
+        assert side.kinetic_energy_change == pytest.approx(energy(side.after) - energy(side.before), abs=1e-15 * 8 * 150e3)
+    assert impact.a.kinetic_energy_change + impact.b.kinetic_energy_change == pytest.approx(
+        -impact.energy_loss, abs=1e-15 * 8 * 150e3
+    )

@@ -7,14 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .directions import from_radians
+from .directions import angle_of, from_radians
+from .door import Door, broadcast
 from .fields import Quantities, attributes, derived, hypot, returns, show, table
 from .kernels import codes
-from .units import Door, Pair, Value, broadcast
-from .vehicle import Vehicle, angle_of
+from .kernels.select import select
+from .units import Pair, Value
+from .vehicle import Vehicle
 
 if TYPE_CHECKING:
     from .impact import Asked
+    from .provenance import ModelChoice
 
 
 class Side:
@@ -24,13 +27,14 @@ class Side:
     PDOF. Values are floats, or arrays in a batch.
     """
 
-    __slots__ = ("_asked", "_cache", "_index", "_raw")
+    __slots__ = ("_asked", "_cache", "_choice", "_index", "_raw")
 
-    def __init__(self, asked: Asked, raw: tuple[Any, ...], index: int) -> None:
+    def __init__(self, asked: Asked, raw: tuple[Any, ...], index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
         self._asked = asked
         self._raw = raw
         self._index = index
+        self._choice = choice
         self._cache: dict[str, Any] = {}
 
     def _change(self) -> tuple[Value, Value, Value]:
@@ -134,10 +138,7 @@ class Side:
     @derived("J")
     def kinetic_energy_change(self) -> Value:
         """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
-        before, dv = self.before, self._change()
-        place = self._asked.point
-        ux, uy = (before.vx, before.vy) if place is None else before.velocity_at(place)
-        dux, duy = (dv[0], dv[1]) if place is None else self.delta_v_at(place)
+        ux, uy, dux, duy = self._at_contact()
         return self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
 
     @derived("N*s")
@@ -167,6 +168,18 @@ class Side:
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._raw[codes.AT["impulse_x"]], self._raw[codes.AT["impulse_y"]]
         return (x, y) if self._index else (-x, -y)
+
+    def _at_contact(self) -> tuple[Value, Value, Value, Value]:
+        """Velocity before, and its change, of what the impulse acts on: the contact point, in a central model the centre."""
+        before, place = self.before, self._asked.point
+        motion = before.vx, before.vy, self.delta_vx, self.delta_vy
+        # ``solve`` keeps the point it was given, also where it took a central model.
+        turns = True if self._choice is None else self._choice.model == "eccentric"
+        if place is None or not np.any(turns):
+            return motion
+        there = *before.velocity_at(place), *self.delta_v_at(place)
+        vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
+        return vx, vy, dvx, dvy
 
     def _own_axes(self, x: Value, y: Value) -> tuple[Value | None, Value | None]:
         if self.before.heading is None:
