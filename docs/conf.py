@@ -62,7 +62,7 @@ def render_examples(source: Path, target: Path) -> None:
     for stale in target.glob("*.ipynb"):
         if stale.name not in wanted:
             stale.unlink()
-    titles = {}
+    told = {}
     for script in scripts:
         notebook = jupytext.read(script, fmt="py:percent")
         for index, cell in enumerate(notebook.cells):
@@ -70,32 +70,67 @@ def render_examples(source: Path, target: Path) -> None:
         notebook.metadata = NotebookNode(
             kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
         )
-        titles[script.stem] = title_of(notebook, script.stem)
+        told[script.stem] = title_and_caption(notebook, script.stem)
         write(target / f"{script.stem}.ipynb", jupytext.writes(notebook, fmt="ipynb"))
     for folder in source.glob("*/"):
         if not folder.name.startswith((".", "_")):
             shutil.copytree(folder, target / folder.name, dirs_exist_ok=True)
-    write(target / "index.md", list_of(titles))
+    write(target / "index.md", gallery_of(told))
 
 
-def title_of(notebook: NotebookNode, otherwise: str) -> str:
-    """The first heading of a notebook."""
-    lines = (line for cell in notebook.cells if cell.cell_type == "markdown" for line in cell.source.splitlines())
-    return next((line[2:].strip() for line in lines if line.startswith("# ")), otherwise)
+def title_and_caption(notebook: NotebookNode, otherwise: str) -> tuple[str, str]:
+    """The first heading of a notebook, and the paragraph under it."""
+    title, _, rest = notebook.cells[0].source.partition("\n")
+    caption = rest.strip().split("\n\n")[0].replace("\n", " ")
+    return (title[2:].strip(), caption) if title.startswith("# ") else (otherwise, "")
 
 
-def list_of(titles: dict[str, str]) -> str:
-    """The page that lists the examples."""
+# Where an example stands in the gallery; one that is named nowhere stops the build.
+GALLERY = {
+    "The paper and published cases": ("paper_examples", "published_solutions", "pivoted_vehicle", "us_units"),
+    "Configurations": (
+        "crossroads",
+        "eccentric_types",
+        "barrier",
+        "chain_of_three",
+        "truck_against_car",
+        "sideswipe",
+        "pole_impact",
+    ),
+    "From what was found to the speeds before": (
+        "example_2_backwards",
+        "intersection_reconstruction",
+        "in_line_by_momentum_and_ees",
+        "rear_end_from_recorder",
+    ),
+    "Many cases": ("million_cases", "table_of_cases", "study_over_processes", "study_with_dask"),
+}
+
+
+def gallery_of(told: dict[str, tuple[str, str]]) -> str:
+    """The page that shows the examples: a card each, with a picture where there is one."""
     page = ["# Worked examples", ""]
-    if not titles:
+    if not told:
         return "\n".join([*page, "There are none in this copy of the sources.", ""])
+    placed = [stem for stems in GALLERY.values() for stem in stems]
+    if sorted(placed) != sorted(told):
+        raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
-        "Each example is a script in `examples/`. It ends with checks of the published answer.",
-        "Here it was run when these pages were built. Take it along as a notebook:",
+        "Each example is a script in `examples/` and ends with checks of its answers. Here it was run when these pages were built.",
         "",
     ]
-    page += [f"- {{doc}}`{title} <{stem}>`: {{download}}`{stem}.ipynb <{stem}.ipynb>`" for stem, title in titles.items()]
-    page += ["", "```{toctree}", ":hidden:", ":glob:", "", "*", "```", ""]
+    for group, stems in GALLERY.items():
+        page += [f"## {group}", "", "::::{grid} 1 2 2 2", ":gutter: 3", ""]
+        for stem in stems:
+            title, caption = told[stem]
+            picture = HERE / "_static" / "gallery" / f"{stem}.png"
+            page += [f":::{{grid-item-card}} {title}", f":link: {stem}", ":link-type: doc"]
+            page += [f":img-top: ../_static/gallery/{stem}.png", f":img-alt: {title}"] if picture.exists() else []
+            page += ["", caption, ":::", ""]
+        page += ["::::", ""]
+    page += ["## To take along", "", "As notebooks:", ""]
+    page += [f"- {{download}}`{stem}.ipynb <{stem}.ipynb>`: {told[stem][0]}" for stem in placed]
+    page += ["", "```{toctree}", ":hidden:", "", *placed, "```", ""]
     return "\n".join(page)
 
 

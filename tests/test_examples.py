@@ -34,12 +34,25 @@ def run(script, cwd):
 def test_there_are_examples():
     """The folder is not empty, so the tests below mean something."""
     expected = {
+        "barrier",
+        "chain_of_three",
+        "crossroads",
+        "eccentric_types",
         "example_2_backwards",
         "in_line_by_momentum_and_ees",
         "intersection_reconstruction",
+        "million_cases",
         "paper_examples",
+        "pivoted_vehicle",
+        "pole_impact",
         "published_solutions",
         "rear_end_from_recorder",
+        "sideswipe",
+        "study_over_processes",
+        "study_with_dask",
+        "table_of_cases",
+        "truck_against_car",
+        "us_units",
     }
     assert expected <= {script.stem for script in EXAMPLES}
 

@@ -1,0 +1,90 @@
+# %% [markdown]
+# # A large study over several processes
+#
+# A hundred thousand side impacts with drawn speeds, masses and contact points, solved in blocks by worker processes. Every
+# block is an ordinary batch: `executor.map` calls the solver itself on one pair of vehicles after the other. Workers look for
+# nothing in this file, so the same lines run in a script, in a notebook and where processes are started by spawn. At the end
+# the blocks are compared with one batch in one process: they are the same to the last bit.
+
+# %%
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from operator import attrgetter
+
+import numpy as np
+
+import collisions as col
+
+CASES, BLOCK = 100_000, 20_000
+
+
+# %% [markdown]
+# Every case is drawn before the work is divided, so the study does not depend on the number of blocks or workers.
+
+
+# %%
+def drawn(cases, seed):
+    """Both vehicles, the restitution and the contact point of every case."""
+    rng = np.random.default_rng(seed)
+    a = {
+        "mass": rng.normal(1500.0, 100.0, cases),
+        "vx": rng.normal(14.0, 1.0, cases),
+        "yaw_inertia": rng.normal(2400.0, 150.0, cases),
+        "x": np.full(cases, -2.0),
+        "y": rng.uniform(-0.5, 0.5, cases),
+    }
+    b = {
+        "mass": rng.normal(1200.0, 80.0, cases),
+        "vy": rng.normal(11.0, 1.0, cases),
+        "yaw_inertia": rng.normal(1700.0, 100.0, cases),
+        "x": np.full(cases, 0.8),
+        "y": rng.uniform(-1.5, 0.0, cases),
+    }
+    return a, b, rng.uniform(0.0, 0.3, cases)
+
+
+def vehicles(fields, blocks):
+    """One vehicle a block, each holding many cases."""
+    return [col.Vehicle(**{name: values[block] for name, values in fields.items()}) for block in blocks]
+
+
+# %% [markdown]
+# The options that all cases share are bound to the solver by `partial`. A refused case is NaN with a status, as in any batch.
+# Where processes are started by spawn, each imports this file anew: the line with `__main__` keeps it from starting the study
+# again.
+
+# %%
+solve = partial(col.eccentric, normal=0.0, point=(0.0, 0.0), friction=0.5, on_failure="nan")
+
+if __name__ == "__main__":
+    a, b, restitution = drawn(CASES, seed=8)
+    blocks = [slice(start, start + BLOCK) for start in range(0, CASES, BLOCK)]
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(max_workers=min(2, os.cpu_count() or 1), mp_context=context) as executor:
+        found = list(executor.map(solve, vehicles(a, blocks), vehicles(b, blocks), [restitution[block] for block in blocks]))
+
+    delta_v = np.concatenate([impact.a.delta_v for impact in found])
+    low, middle, high = np.quantile(delta_v, [0.025, 0.5, 0.975]) * 3.6
+    print(f"delta-V of A: {middle:.1f} km/h, 95 of 100 cases from {low:.1f} to {high:.1f} km/h")
+    print(f"{np.mean([np.mean(impact.regime == 'sticking') for impact in found]):.0%} of the contacts stop slipping")
+
+# %% [markdown]
+# ## Checks
+#
+# Bit for bit, because every case is worked out by itself: what else is in its block decides nothing.
+
+# %%
+if __name__ == "__main__":
+    whole = solve(col.Vehicle(**a), col.Vehicle(**b), restitution)
+    impacts = ("status", "regime", "normal_impulse", "tangential_impulse", "energy_loss", "slip_after")
+    sides = ("delta_v", "delta_vx", "delta_vy", "delta_yaw_rate", "impulse_direction")
+    columns = [attrgetter(name) for name in (*impacts, *(f"{side}.{name}" for side in "ab" for name in sides))]
+    compared = [np.array_equal(np.concatenate([column(impact) for impact in found]), column(whole)) for column in columns]
+    if not all(compared):
+        raise AssertionError("the blocks do not hold the answers of the whole")
+    if not whole.ok.all():
+        raise AssertionError("a case of this study was refused")
+    print(f"{len(compared)} columns of {CASES} cases, the same bits")
+    print("all checks passed")
