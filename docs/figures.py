@@ -1,4 +1,4 @@
-"""The figures of the pages: the signs of the three impacts, and of reverse reconstruction.
+"""The figures of the pages: the signs of the three impacts and of one vehicle, and those of reverse reconstruction.
 
 ``python docs/figures.py [folder] [svg|png]`` writes them, by default again to docs/_static/ as SVG.
 """
@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 
+import collisions as col
 from collisions import travel
 
 INK, A, B, FORCE, FRAME, GREY = "#1a1a1a", "#1f5fa8", "#b3541e", "#a01040", "#2b7a3d", "#777777"
@@ -261,6 +262,195 @@ def eccentric():
     return fig
 
 
+def contact():
+    """Closing speed and slip of a case, with the velocities of its contact points; drawn from the library's own answer."""
+    normal = 20.0
+    n, t = unit(normal), turned(unit(normal))
+    centre_a, centre_b = -2.2 * n - 0.35 * t, 0.9 * n - 0.9 * t
+    a = col.Vehicle.from_speed(
+        mass=1500.0, yaw_inertia=2500.0, x=centre_a[0], y=centre_a[1], speed=3.2, course="-12 deg", yaw_rate=0.45
+    )
+    b = col.Vehicle.from_speed(
+        mass=1200.0, yaw_inertia=1900.0, x=centre_b[0], y=centre_b[1], speed=1.8, course="110 deg", yaw_rate=-0.35
+    )
+    impact = col.eccentric(a, b, 0.1, normal=f"{normal} deg", point=(0.0, 0.0), friction=0.3)
+    u_a, u_b = (np.array(vehicle.velocity_at((0.0, 0.0))) for vehicle in (a, b))
+    fig, (ax, seen) = plt.subplots(1, 2, figsize=(11.5, 5.4), width_ratios=(1.45, 1))
+    canvas(ax, (-5.6, 4.6), (-4.4, 4.4))
+    car(ax, centre_a, normal, A, "A", name_at=(-1.7, 0.0))
+    car(ax, centre_b, normal + 90.0, B, "B", name_at=(-1.8, 0.0))
+    for centre, spin, colour, vehicle in ((centre_a, 1, A, a), (centre_b, -1, B, b)):
+        velocity = np.array([vehicle.vx, vehicle.vy])
+        arrow(ax, centre, centre + 0.62 * velocity, colour, 1.5, 11)
+        start = -130.0 if spin > 0 else -35.0
+        turn(ax, centre, 1.25, start, start + 85.0 * spin, colour)
+    label(ax, centre_a + 0.62 * np.array([a.vx, a.vy]) + [-0.45, -0.3], "$v_A$", A)
+    label(ax, centre_b + 0.62 * np.array([b.vx, b.vy]) + [0.35, 0.1], "$v_B$", B)
+    label(ax, centre_a + 1.62 * unit(-75), r"$\omega_A > 0$", A)
+    label(ax, centre_b + 1.75 * unit(-22) + [0.45, 0.0], r"$\omega_B < 0$", B)
+    ax.add_patch(Circle((0, 0), 0.1, color=INK, zorder=7))
+    label(ax, 0.45 * t + 0.2 * n, "C", fontsize=12)
+    contact_frame(ax, np.zeros(2), n, 2.6, 2.9, -0.35 * t, -0.3 * n)
+    scene_axes(ax, (-5.0, 2.4), 1.1)
+    label(
+        ax,
+        (-5.4, -3.9),
+        "the velocities of the two bodies at C differ\nfrom those of their centres: they turn",
+        fontsize=10,
+        ha="left",
+    )
+
+    canvas(seen, (-3.3, 4.3), (-3.6, 4.2))
+    seen.plot(*np.array([-2.9 * n, 4.2 * n]).T, color=GREY, lw=0.9, ls=(0, (6, 4)), zorder=0)
+    seen.plot(*np.array([-2.6 * t, 3.4 * t]).T, color=GREY, lw=0.9, ls=(0, (2, 3)), zorder=0)
+    label(seen, 4.0 * n + 0.3 * t, "$n$", FRAME, fontsize=14)
+    label(seen, 3.4 * t + 0.3 * n, "$t$", FRAME, fontsize=14)
+    for velocity, colour, name, at in ((u_a, A, "$u_A$", [0.35, -0.1]), (u_b, B, "$u_B$", [0.35, 0.1])):
+        arrow(seen, (0, 0), velocity, colour, 2.2)
+        label(seen, velocity + at, name, colour, fontsize=13)
+        for axis in (n, t):
+            seen.plot(*np.array([velocity, velocity @ axis * axis]).T, color=colour, lw=1.0, ls=":")
+    # What lies between the components: the closing speed along n, the slip along t.
+    beside_n, beside_t = -2.35 * t, -1.6 * n
+    arrow(seen, u_b @ n * n + beside_n, u_a @ n * n + beside_n, INK, 1.6, 11)
+    label(
+        seen,
+        0.5 * (u_a + u_b) @ n * n + beside_n - 0.62 * t + [0.45, 0.0],
+        f"closing speed\n$g = (u_A-u_B)\\cdot n$ = {impact.closing_speed:.1f} m/s",
+        fontsize=10,
+    )
+    arrow(seen, u_a @ t * t + beside_t, u_b @ t * t + beside_t, INK, 1.6, 11)
+    label(seen, u_b @ t * t + beside_t + 0.62 * t, f"slip\n$s = (u_B-u_A)\\cdot t$ = {impact.slip_before:.1f} m/s", fontsize=10)
+    seen.set_title("velocities at C", fontsize=11.5)
+    fig.tight_layout()
+    return fig
+
+
+def one_vehicle():
+    """Heading, course and yaw rate; a place on a vehicle; a pivot."""
+    fig, (moving, place, pinned) = plt.subplots(1, 3, figsize=(13.5, 5.2))
+    heading, course = 55.0, 20.0
+    canvas(moving, (-3.4, 4.6), (-3.4, 4.6))
+    moving.set_title("where it points, where it moves", fontsize=11.5)
+    car(moving, (0, 0), heading, B, "")
+    moving.plot([0, 4.2], [0, 0], color=INK, lw=0.8)
+    label(moving, (4.2, -0.3), "$+x$", fontsize=10)
+    arrow(moving, 2.2 * unit(heading), 4.3 * unit(heading), B, 1.6, ls=(0, (4, 2)))
+    label(moving, 4.3 * unit(heading) + [-0.75, 0.1], "heading", B)
+    arrow(moving, (0, 0), 3.4 * unit(course), A, 2.2)
+    label(moving, 3.4 * unit(course) + [0.15, 0.45], "$v$, course", A)
+    turn(moving, (0, 0), 2.6, 0, course, A)
+    turn(moving, (0, 0), 3.1, 0, heading, B)
+    label(moving, 2.5 * unit(9) + [-0.5, 0.0], "+20°", A, fontsize=10)
+    label(moving, 3.55 * unit(38), "+55°", B, fontsize=10)
+    turn(moving, (0, 0), 1.5, 150, 250, INK)
+    label(moving, 1.95 * unit(180), r"$+\omega$", fontsize=13)
+    label(moving, (-3.3, -3.0), "crab angle = heading less course = +35°", fontsize=10, ha="left")
+
+    canvas(place, (-3.4, 4.6), (-3.4, 4.6))
+    place.set_title("a place on it: vehicle.point(...)", fontsize=11.5)
+    heading, forward, left = 25.0, 1.9, 0.9
+    distance, angle = np.hypot(forward, left), np.degrees(np.arctan2(left, forward))
+    car(place, (0, 0), heading, B, "")
+    vehicle = col.Vehicle(mass=1200.0, x=0.0, y=0.0, heading=f"{heading} deg")
+    spot = np.array(vehicle.point(forward=forward, left=left))
+    np.testing.assert_allclose(spot, vehicle.point(distance=distance, angle=f"{angle} deg"), rtol=0.0, atol=1e-12)
+    ahead = forward * unit(heading)
+    place.plot(*np.array([ahead, 4.4 * unit(heading)]).T, color=GREY, lw=0.9, ls=":")
+    arrow(place, (0, 0), ahead, FRAME, 2.0)
+    arrow(place, ahead, spot, FRAME, 2.0)
+    arrow(place, (0, 0), spot, INK, 1.5, 11)
+    place.add_patch(Circle(spot, 0.1, color=INK, zorder=7))
+    label(place, 0.62 * ahead + [0.4, -0.55], "forward", FRAME, rotation=heading)
+    label(place, 0.5 * (ahead + spot) + [0.5, -0.02], "left", FRAME, fontsize=10)
+    label(place, (-2.6, 2.6), "distance", INK)
+    place.plot([-1.9, 0.45 * spot[0]], [2.45, 0.45 * spot[1]], color=GREY, lw=0.8)
+    turn(place, (0, 0), 3.2, heading, heading + angle, INK)
+    place.plot(*np.array([spot, 3.3 * unit(heading + angle)]).T, color=GREY, lw=0.9, ls=":")
+    label(place, 3.55 * unit(heading + 0.5 * angle) + [0.3, 0.25], "+angle", ha="left")
+    label(place, (-3.3, -3.0), "to the right: left < 0, angle < 0", fontsize=10, ha="left")
+
+    canvas(pinned, (-3.4, 4.6), (-3.4, 4.6))
+    pinned.set_title("a body that turns about a pivot", fontsize=11.5)
+    heading = 65.0
+    pivot = np.array([-1.0, -2.0])
+    centre, struck = pivot + 2.1 * unit(heading), pivot + 4.1 * unit(heading)
+    body = col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=centre[0], y=centre[1], pivot=tuple(pivot))
+    other = col.Vehicle.from_speed(
+        mass=900.0, yaw_inertia=np.inf, x=struck[0], y=struck[1], speed=10.0, course=np.radians(heading - 90.0)
+    )
+    side = col.eccentric(other, body, 0.2, normal=np.radians(heading - 90.0), point=tuple(struck), friction=0.0).b
+    car(pinned, centre, heading, B, "")
+    pinned.add_patch(Circle(pivot, 0.17, fc="white", ec=INK, lw=2.0, zorder=7))
+    label(pinned, beside(pivot, -0.4, -0.62), "pivot O", INK)
+    arrow(pinned, pivot + 0.17 * unit(heading), centre, INK, 1.4, 10)
+    label(pinned, 0.5 * (pivot + centre) + [-0.3, 0.2], "arm", INK, fontsize=10)
+    velocity = np.array([side.after.vx, side.after.vy])
+    arrow(pinned, centre, centre + 0.55 * velocity, B, 2.2)
+    label(pinned, centre + 0.55 * velocity + [0.15, -0.35], "velocity after", B, fontsize=10)
+    turn(pinned, pivot, 3.6, heading - 12.0, heading - 42.0, INK)
+    label(pinned, pivot + 4.1 * unit(heading - 33.0), r"$\omega < 0$", fontsize=13)
+    for place_of, impulse in (
+        (struck, np.array([side.impulse_x, side.impulse_y])),
+        (pivot, np.array([side.pivot_impulse_x, side.pivot_impulse_y])),
+    ):
+        arrow(pinned, place_of - 6e-4 * impulse - 0.2 * unit(heading - 90.0), place_of - 0.2 * unit(heading - 90.0), FORCE, 2.2)
+    label(pinned, beside(struck, -1.7, 1.7), "$P$ on B", FORCE)
+    label(pinned, beside(pivot, -1.6, 1.35), "pivot\nimpulse", FORCE, fontsize=10)
+    fig.tight_layout()
+    return fig
+
+
+def seen_from_vehicle():
+    """PDOF on the clock face, and delta-V in the axes of a vehicle and of a recorder; drawn from the library's own answer."""
+    a = col.Vehicle(mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg")
+    b = col.Vehicle(mass="1200 kg", yaw_inertia="1700 kg*m**2", vy="40 km/h", x=0.8, y=-1.2, heading="90 deg")
+    side = col.eccentric(a, b, 0.1, normal="0 deg", point=(0.0, 0.0), friction=0.5).b
+    fig, (clock, change) = plt.subplots(1, 2, figsize=(11.5, 5.8))
+    canvas(clock, (-5.2, 5.2), (-4.9, 4.9))
+    clock.set_title("where the force comes from", fontsize=11.5)
+    clock.add_patch(Circle((0, 0), 3.0, fc="none", ec=GREY, lw=0.9))
+    for hour in range(1, 13):
+        degrees = (30 * hour + 180) % 360 - 180 or 0
+        at = unit(90 - 30 * hour)
+        clock.plot(*np.array([2.9 * at, 3.1 * at]).T, color=GREY, lw=1.2)
+        number = f"{degrees:+d}°".replace("-", "\N{MINUS SIGN}") if degrees % 180 else "180°" if degrees else "0"
+        label(clock, 3.6 * at, f"{hour}", fontsize=12, fontweight="bold")
+        label(clock, 4.45 * at, number, GREY, fontsize=9.5)
+    car(clock, (0, 0), 90, B, "", length=3.6, width=1.5)
+    came = unit(90 - np.degrees(side.pdof))
+    arrow(clock, 2.8 * came, 0.15 * came, FORCE, 2.4)
+    told = f"pdof {np.degrees(side.pdof):.0f}°\npdof_clock {side.pdof_clock}".replace("-", "\N{MINUS SIGN}")
+    label(clock, (0.0, -2.32), told, FORCE, fontsize=9.5)
+
+    canvas(change, (-5.2, 5.2), (-4.9, 4.9))
+    change.set_title("the same impact as delta-V of the vehicle", fontsize=11.5)
+    car(change, (0, 0), 90, B, "", length=3.6, width=1.5)
+    scale = 0.5
+    tip = scale * np.array([-side.delta_v_left, side.delta_v_forward])
+    arrow(change, (0, 0), tip, FORCE, 2.4)
+    change.plot(*np.array([(tip[0], 0), tip, (0, tip[1])]).T, color=FORCE, lw=1.0, ls=":")
+    label(change, beside(tip, 0.2, -0.4), f"delta_v {side.delta_v:.1f} m/s", FORCE, ha="left")
+    for end, text, at, colour in (
+        ((0, 3.4), "delta_v_forward", (0, 3.75), FRAME),
+        ((-3.0, 0), "delta_v_left", (-3.2, 0.45), FRAME),
+        ((3.0, 0), "recorder: lateral,\npositive to the right", (3.4, 0.75), GREY),
+    ):
+        arrow(change, (0, 0), end, colour, 1.8)
+        label(change, at, text, colour, fontsize=10.5)
+    change.text(
+        0.0,
+        -4.3,
+        f"delta_v_forward {side.delta_v_forward:+.1f} m/s, delta_v_left {side.delta_v_left:+.1f} m/s\n"
+        f"a recorder shows {side.delta_v_forward:+.1f} and {-side.delta_v_left:+.1f} m/s".replace("-", "\N{MINUS SIGN}"),
+        ha="center",
+        va="center",
+        fontsize=10.5,
+    )
+    fig.tight_layout()
+    return fig
+
+
 def crossing_courses():
     """The car of 1200 kg going south and the one of 1800 kg going east, with departure courses known to 5 degrees."""
     fig, (ax, firm) = plt.subplots(1, 2, figsize=(11.5, 5.0), width_ratios=(1.5, 1))
@@ -390,6 +580,9 @@ FIGURES = {
     "signs_linear_central": linear,
     "signs_oblique_central": oblique,
     "signs_eccentric": eccentric,
+    "signs_contact": contact,
+    "signs_vehicle": one_vehicle,
+    "signs_seen_from_vehicle": seen_from_vehicle,
     "reverse_courses": crossing_courses,
     "reverse_run_out": run_out,
 }

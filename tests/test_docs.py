@@ -1,0 +1,100 @@
+"""The pages: each is listed, the glossary names every attribute, and every convention of signs has its figure."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from collisions import Impact, Vehicle
+from collisions.fields import unit_of
+from collisions.side import Side
+
+DOCS = Path(__file__).resolve().parent.parent / "docs"
+KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle}
+
+pytestmark = pytest.mark.skipif(not DOCS.is_dir(), reason="the sdist has no docs")
+
+
+def page(name):
+    """The text of a page."""
+    return (DOCS / f"{name}.md").read_text(encoding="utf-8")
+
+
+def public(kind):
+    """Every public attribute and method of a class."""
+    return [name for name in dir(kind) if not name.startswith("_")]
+
+
+@pytest.fixture(scope="module")
+def entries():
+    """Attributes by class that the glossary's table has a row for, and the names it explains in words."""
+    (terms,) = re.findall(r"^TERMS = (\[.*?^\])", page("glossary"), re.DOTALL | re.MULTILINE)
+    rows = [row.elts[2].elts for row in ast.parse(terms, mode="eval").body.elts]
+    table = {(kind.id, name.value) for kind, *names in rows for name in names}
+    heads = re.findall(r"^(`.*`)\n: ", page("glossary"), re.MULTILINE)
+    return table, {name for head in heads for name in re.findall(r"`(\w+)`", head)}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_attribute_has_an_entry_in_the_glossary(kind, entries):
+    """Whatever carries a unit stands in the table; the rest is explained in words."""
+    table, words = entries
+    for name in public(KINDS[kind]):
+        if unit_of(KINDS[kind], name) is None:
+            assert name in words, f"{kind}.{name} has no words in docs/glossary.md"
+        else:
+            assert (kind, name) in table, f"{kind}.{name} has no row in docs/glossary.md"
+
+
+def test_the_glossary_names_nothing_that_is_not_there(entries):
+    """An attribute that was renamed leaves no entry behind."""
+    table, words = entries
+    for kind, name in table:
+        assert name in public(KINDS[kind]), f"{kind}.{name}"
+    for name in words:
+        assert any(name in public(kind) for kind in KINDS.values()), name
+
+
+def test_every_page_is_in_the_index():
+    """Pages outside the index are found by nobody."""
+    (tree,) = re.findall(r"```\{toctree\}\n:hidden:\n\n(.*?)```", page("index"), re.DOTALL)
+    listed = set(tree.split())
+    assert listed - {"examples/index"} == {path.stem for path in DOCS.glob("*.md")} - {"index"}
+
+
+def figures():
+    """Every figure that a page shows, with the page."""
+    return [
+        (path.stem, name)
+        for path in sorted(DOCS.glob("*.md"))
+        for name in re.findall(r"\{figure\} _static/(\S+)", path.read_text(encoding="utf-8"))
+    ]
+
+
+def test_every_figure_is_there_and_every_drawing_of_signs_is_shown():
+    """Those of docs/figures.py are committed, and no page asks for another."""
+    shown = {name for _, name in figures()}
+    for name in shown:
+        assert (DOCS / "_static" / name).is_file(), name
+    (drawn,) = re.findall(r"^FIGURES = \{(.*?)^\}", (DOCS / "figures.py").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    assert {f"{name}.svg" for name in re.findall(r'"(\w+)":', drawn)} <= shown
+
+
+def test_references_between_pages_lead_somewhere():
+    """Every page and heading that a page refers to is there."""
+    pages = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
+    labels = set(re.findall(r"^\(([\w-]+)\)=$", "\n".join(pages.values()), re.MULTILINE))
+    examples = {f"examples/{path.stem}" for path in (DOCS.parent / "examples").glob("*.py")} | {"examples/index"}
+    for name, text in pages.items():
+        for target in re.findall(r"\{doc\}`(?:[^`<]*<)?([\w/]+)>?`", text):
+            assert target in pages or target in examples, f"{name} refers to {target}"
+        for target in re.findall(r"\{ref\}`(?:[^`<]*<)?([\w-]+)>?`", text):
+            assert target in labels, f"{name} refers to {target}"
+
+
+def test_every_example_that_draws_has_its_picture_in_the_gallery():
+    """Made by ``python docs/gallery.py``; none is left of an example that is gone."""
+    scripts = (DOCS.parent / "examples").glob("*.py")
+    drawing = {path.stem for path in scripts if re.search(r"\bplt?\b|\bplot\.", path.read_text(encoding="utf-8"))}
+    assert {path.stem for path in (DOCS / "_static" / "gallery").glob("*.png")} == drawing
