@@ -1,0 +1,48 @@
+"""What may ``import collisions`` load?
+
+    python design/lazy_imports.py
+
+Every script pays the import, and most need only the solvers and plain numbers. Each line is processor time of a fresh
+interpreter, the best of three. ``benchmarks/speed.py`` measures the import against its budget; here is what each part would
+add.
+
+What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a quarter to importing numpy, a half with
+``uncertainty``, one and a half with ``report``; pint alone costs two more, and a first unit, for which pint builds its
+registry, four. Decided: pint when a unit first appears; the upper half of the package, ``kernels/batch.py``, ``records.py``
+and the thread pool when they are first asked for.
+"""
+
+import subprocess
+import sys
+
+import measuring
+
+BASE = "import numpy"
+ADDED = {
+    "collisions": "import collisions",
+    "... and a batch": "import collisions.kernels.batch",
+    "... and solve": "import collisions.scene",
+    "... and reconstruct": "import collisions.reconstruct",
+    "... and uncertainty": "import collisions.uncertainty",
+    "... and diagnose, explain": "import collisions.diagnostics, collisions.derivation",
+    "... and report": "import collisions.reporting",
+    "... and pint": "import collisions, pint",
+    "... and a first unit": "import collisions; collisions.Vehicle(mass='1500 kg')",
+}
+TIMED = "import sys, time; sys.path.insert(0, {!r}); t = time.process_time(); {}; print(time.process_time() - t)"
+
+
+def seconds(code):
+    """A fresh interpreter that runs the code and prints how long it took."""
+    code = TIMED.format(str(measuring.ROOT / "src"), code)
+    return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+
+
+if __name__ == "__main__":
+    best = {}
+    for _ in range(1 if measuring.QUICK else 3):
+        for name, code in {"numpy": BASE, **ADDED}.items():
+            best[name] = min(best.get(name, 1e9), seconds(code))
+    print("of importing numpy:")
+    for name, time in best.items():
+        print(f"  {name:30s} {time / best['numpy']:6.2f}")
