@@ -1,20 +1,166 @@
-"""What a typed caller writes; checked by mypy --strict, never run."""
+"""What a typed caller writes, with every public function and every kind of input; read by type checkers, never run."""
+
+# pyright: strict
+
+from typing import Any, assert_type
 
 import numpy as np
-import pint
+import numpy.typing as npt
 
 import collisions as col
+from collisions import plot, reconstruct, reference, travel, uncertainty
+from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform
 
-a = col.Vehicle(mass="1100 kg", vx=pint.Quantity(80, "km/h"), x=0, y=np.float64(0.0), yaw_inertia=1800)
-b = col.Vehicle(mass=950.0, vx=np.array([1.0, 2.0]))
+speed: Any = col.Vehicle(mass=1.0, vx="80 km/h").q.vx
+angles: npt.NDArray[np.float64] = np.array([0.0, 0.1])
+
+# A vehicle from a text, a Quantity, a whole number, a numpy number, a float, an array and a list.
+a = col.Vehicle(mass="1100 kg", vx=speed, x=0, y=np.float64(0.0), yaw_inertia=1800, heading=0.0, name="A")
+b = col.Vehicle(mass=950.0, vx=np.array([1.0, 2.0]), vy=[0.0, 0.1], x="2 m", y=0.4, yaw_inertia=np.float32(1500.0))
+wall = col.Vehicle.barrier(heading="90 deg")
+pinned = col.Vehicle(mass=900, yaw_inertia=1200, x=0, y=1, pivot=("1 m", 0.0))
+turned = col.Vehicle.from_speed(mass=900, speed=speed, course="90 deg").replace(
+    yaw_rate="10 deg/s", x=0.0, y=0.0, heading=angles
+)
+corner = turned.point(forward="2 m", left=-0.5)
+aside = turned.point(distance=2, angle=speed)
 
 
-def speed_after(restitution: float) -> float:
-    impact = col.linear_central(a, b, restitution)
-    return impact.a.after.vx * 3.6
+def of_a_vehicle(vehicle: col.Vehicle) -> dict[str, float]:
+    """Attributes need no cast."""
+    vx, vy = vehicle.velocity_at((1.0, "2 m"))
+    px, py = vehicle.momentum
+    return {"speed": vehicle.speed, "course": vehicle.course, "energy": vehicle.kinetic_energy, "vx": vx - vy, "p": px + py}
 
 
-def mean_loss() -> float:
-    impact = col.eccentric(a, b, 0.1, normal=(1, 0), point=("1 m", 0.0), friction=0.5, law="kudlich-slibar", threads=2)
+def of_an_impact(impact: col.Impact) -> float:
+    """Numbers as floats, whatever stands for many as it is asked for."""
+    nx, ny = impact.normal
+    own, other = impact.ees(0.5)
+    label: str = impact.model
+    status: int = impact.status
+    record: dict[str, Any] = impact.to_dict()
+    columns: dict[str, list[Any]] = impact.to_columns()
+    again = col.Impact.from_dict(record)
+    assert_type(again, col.Impact)
+    assert_type(impact.a.after, col.Vehicle)
+    forward = impact.a.delta_v_forward
+    quantity: Any = impact.q.energy_loss
     total: float = impact.energy_loss.mean() + impact.a.delta_v[0]
-    return total
+    lost = impact.energy_loss + 2.0 * impact.energy_loss_normal - impact.b.delta_v / 3.6
+    rest = -impact.closing_speed * nx * ny * (own + other)
+    if forward is None or status != col.Status.OK or not impact.ok:
+        raise col.InputError(label, code="mine", columns=columns, quantity=quantity)
+    return total + lost + rest + forward
+
+
+def forward_solvers() -> tuple[col.Impact, ...]:
+    """Every way to say the normal, the point and the tangent."""
+    in_line = col.linear_central(a, wall, "20 %", normal=0, on_failure="nan")
+    central = col.oblique_central(a, b, 0.1, normal=(1, 0), impulse_ratio=-0.2, progress=True)
+    full = col.eccentric(a, b, 0.1, normal=angles, point=("1 m", 0.0), friction=0.5, law="kudlich-slibar", threads=2)
+    least = col.solve(a, b, angles, normal="10 deg", point=corner, critical_fraction=1, tolerance="1 km/h")
+    choice = col.required_model(a, b, 0.2, normal=(0.6, 0.8), point=[0.0, 1.0], friction=np.inf, tolerance=0.1)
+    assert_type(choice, col.ModelChoice)
+    error: float = choice.errors["linear_central"]
+    return in_line, central, full, least, col.eccentric(full.a.after, wall, error, normal=full.normal, point=aside, friction=0)
+
+
+def around(impact: col.Impact) -> str:
+    """What can be said of an impact."""
+    schema: dict[str, Any] = col.impact_schema()
+    beside = col.left_out(impact, duration="100 ms", drag=0.7)
+    share: float = beside.b.tyre_share
+    sentences = [finding.sentence for finding in col.diagnose(impact, duration=0.1, drag=0.7)]
+    page: str = str(col.report(impact, title="Two cars", form="markdown", units="metric", duration="100 ms", share_a=0.5))
+    derivation: str = page + str(col.explain(impact, units="us", form="text"))
+    return derivation + str(share) + str(schema) + "".join(sentences)
+
+
+def backwards() -> float:
+    """The reverse solvers."""
+    line = reconstruct.central("1500 kg", 1200, va=speed, vb=0.0, restitution=0.1)
+    found = reconstruct.momentum(
+        1500,
+        1200.0,
+        course_a="0 deg",
+        course_b=angles,
+        course_a_after=0.3,
+        course_b_after="40 deg",
+        speed_a_after=8,
+        speed_b_after=speed,
+    )
+    before = reconstruct.planar(a, b, normal=0, point=(0, 0), restitution=0.2, friction=0.5)
+    several = reconstruct.speeds(
+        a, b, course_a=0, course_b=None, speed_b=0.0, delta_v_b="10 km/h", restitution=0.1, normal=0, point=(0, 0), friction=0.5
+    )
+    closing: float = reconstruct.inline_closing_speed(1500, 1200, 0.1, delta_v_b=speed)
+    energy: float = reconstruct.crush_energy(["1.5 m"], [[0.1, 0.2]], 35000.0, 450000.0)
+    e: float = reconstruct.restitution(a, b, a, b, normal=0)
+    mu: float = reconstruct.friction(a, b, a, b, normal=0, point=corner)
+    fitted = reconstruct.fit(dict[str, Any], {"speed": Interval(5, "90 km/h")}, {"after": Normal(8, 0.5)})
+    assert_type(fitted, reconstruct.Fit)
+    return line.closing_speed + found.speed_a + before.closing_speed + several[0].a.before.speed + closing + energy + e + mu
+
+
+def on_the_ground() -> float:
+    """What the ground takes."""
+    one: float = travel.speed("12 m", drag=0.7, grade="-2 %", end_speed=speed)
+    run_out = travel.path([(0.0, 0.0), (5.0, 1.0)], ["0 deg", 0.3], friction=0.7, lock=1)
+    lasts: float = travel.time(20, drag=0.7) + travel.distance(speed, drag="6.5 m/s**2")
+    return one + lasts + run_out.speed + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
+
+
+def ranges() -> tuple[float, float]:
+    """Every way to state an input."""
+    inputs = {
+        "course": Normal("25 deg", "3 deg"),
+        "drag": Uniform(0.6, 0.8),
+        "slide": Triangular(10, 12, "13 m"),
+        "lag": LogNormal.between("0.5 s", "2 s", 0.9),
+        "seen": Samples([0.68, 0.71, 0.74]),
+        "mass": Interval("1400 kg", 1650),
+        "fixed": 2.0,
+    }
+
+    def model(**given: Any) -> dict[str, Any]:
+        return {"speed": travel.speed(given["slide"], drag=given["drag"])}
+
+    found: uncertainty.Propagation = uncertainty.propagate(model, inputs, method="quasi_random", samples=256, seed=1)
+    low, high = found["speed"].interval(0.95)
+    mean: float = found["speed"].mean
+    return low + mean, high
+
+
+def published() -> float:
+    """Values with their sources, and pictures."""
+    value: float = reference.restitution(speed, outside="refuse")
+    low, high = reference.restitution_range("15 mph")
+    inertia: float = reference.yaw_inertia(1500, length="4.5 m", width=1.8)
+    surface: reference.Published = reference.drag_factor("asphalt", speed="50 mph")
+    print(surface, low + high + inertia, [known.name for known in reference.PUBLISHED])
+    return value
+
+
+def pictures(impact: col.Impact, known: uncertainty.Propagation) -> None:
+    """Every picture."""
+    axes = plot.momentum(impact, units="us")
+    plot.energy(impact, axes=axes)
+    plot.force_time(impact, "100 ms")
+    plot.impulse_plane(impact)
+    plot.scene(impact)
+    plot.contributions(known, "speed")
+    plot.distribution(known["speed"], bins=20)
+
+
+def refused() -> float | None:
+    """Errors and warnings carry what else is known."""
+    try:
+        of_an_impact(forward_solvers()[0])
+    except col.AmbiguousSolutionError as error:
+        return len(error.solutions)
+    except col.NoImpactError as error:
+        return error.closing_speed
+    except col.CollisionsError as error:
+        assert_type(error.code, str)
+    return None

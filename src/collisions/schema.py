@@ -1,0 +1,185 @@
+"""The JSON schema of the record of an impact, made from the attributes themselves so that the two cannot disagree."""
+
+from __future__ import annotations
+
+from dataclasses import Field, fields
+from inspect import getdoc
+from typing import Any
+
+from .errors import Status
+from .fields import attributes
+from .impact import SOLVERS, Asked, Impact
+from .kernels import codes
+from .provenance import MODELS, Reconstruction
+from .records import FORMAT
+from .side import Side
+from .vehicle import Vehicle
+
+__all__ = ["impact_schema"]
+
+_PRECISIONS = ["float32", "float64"]
+_KINDS = ["elastic", "elastoplastic", "plastic", ""]
+_REGIMES = ["frictionless", "sliding", "sticking", "given", ""]
+_TYPES: dict[str, dict[str, Any]] = {
+    "Value": {"$ref": "#/$defs/value"},
+    "tuple[Value, Value]": {"$ref": "#/$defs/pair"},
+    "ModelChoice": {"$ref": "#/$defs/choice"},
+    "Reconstruction": {"$ref": "#/$defs/reconstruction"},
+    "Vehicle": {"$ref": "#/$defs/vehicle"},
+    "str": {"type": "string"},
+}
+
+
+def impact_schema() -> dict[str, Any]:
+    """The JSON schema (draft 2020-12) of what ``Impact.to_dict`` gives, as a dict of its own that may be changed.
+
+    It covers every solver, single cases, batches and refused cases. An infinity and NaN stand in a record as the texts
+    "inf", "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor
+    that the results are those of the inputs; ``Impact.from_dict`` checks the first and works out the second anew.
+
+    Examples
+    --------
+    >>> schema = impact_schema()
+    >>> schema["properties"]["format"]
+    {'const': 'collisions impact 1'}
+    >>> schema["$defs"]["vehicle"]["properties"]["mass"]
+    {'$ref': '#/$defs/value', 'description': '[kg]'}
+    """
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:{FORMAT.replace(' ', ':')}",
+        "title": "Record of an impact",
+        "description": "What Impact.to_dict() gives: inputs to ask again from, and every result; SI, angles in radians.",
+        **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _results()}),
+        "$defs": {
+            "number": {
+                "description": "A number; an infinity and NaN by name.",
+                "anyOf": [{"type": "number"}, {"enum": ["inf", "-inf", "nan"]}],
+            },
+            "value": {
+                "description": "A number, or one for each case of a batch, in the order of C.",
+                "anyOf": [{"$ref": "#/$defs/number"}, _batch({"$ref": "#/$defs/number"}, {"enum": _PRECISIONS})],
+            },
+            "pair": {
+                "description": "The x and the y part.",
+                "type": "array",
+                "prefixItems": [{"$ref": "#/$defs/value"}, {"$ref": "#/$defs/value"}],
+                "items": False,
+                "minItems": 2,
+            },
+            "vehicle": _closed({f.name: _vehicle_field(f) for f in fields(Vehicle)}),
+            "side": _closed({name: _attribute(Side, name) for name in attributes(Side) if name != "before"}),
+            "choice": _closed(
+                {
+                    "model": _each({"enum": list(MODELS)}),
+                    "reason": {"type": "string"},
+                    "errors": _by_model({"$ref": "#/$defs/value"}),
+                    "missing": _by_model({"type": "array", "items": {"type": "string"}}),
+                    "tolerance": {"$ref": "#/$defs/value", "description": "[m/s]"},
+                }
+            ),
+            "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
+        },
+    }
+
+
+def _inputs() -> dict[str, Any]:
+    """The question: a law and a point are given for the models that know them, and only for those."""
+    value, pair, vehicle = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "vehicle"))
+    asked = {
+        "model": {"enum": sorted(SOLVERS), "description": "The solver that was asked."},
+        "a": vehicle,
+        "b": vehicle,
+        "restitution": value,
+        "normal": {**pair, "description": "Unit vector from A into B."},
+        "rule": {"enum": list(codes.RULES), "description": "What was said of the tangent, ..."},
+        "bound": {**value, "description": "... and its value."},
+        "law": {"enum": [*codes.LAWS, None]},
+        "point": {"anyOf": [pair, {"type": "null"}], "description": "Contact point [m]."},
+    }
+    question = _closed({name: asked[name] for name in Asked._fields})
+    question["properties"]["normal_given_as"] = {
+        **value,
+        "description": "The normal as an angle [rad], if given without a unit.",
+    }
+    return question | {
+        "allOf": [
+            _where("linear_central", {"law": {"type": "null"}}, {"law": {"type": "string"}}),
+            _where("eccentric", {"point": {"type": "array"}}, {}),
+            *(_where(model, {"point": {"type": "null"}}, {}) for model in ("linear_central", "oblique_central")),
+        ]
+    }
+
+
+def _results() -> dict[str, Any]:
+    """Every attribute of an impact that its inputs do not give already."""
+    side = {"$ref": "#/$defs/side"}
+    found = {name: _attribute(Impact, name) for name in attributes(Impact) if name not in Asked._fields}
+    return _closed(found | {"a": side, "b": side})
+
+
+def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
+    """What an attribute is written as; one that may be many things is listed by its name."""
+    attribute = vars(kind)[name]
+    declared = attribute.work_out.__annotations__["return"]
+    first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
+    return {**(_LISTED[name] if declared == "Any" else _declared(declared)), "description": first}
+
+
+def _vehicle_field(field: Field[Any]) -> dict[str, Any]:
+    found = _declared(str(field.type))
+    return {**found, "description": f"[{field.metadata['unit']}]"} if "unit" in field.metadata else found
+
+
+def _declared(declared: str) -> dict[str, Any]:
+    """What stands in a record for a type that an attribute is declared with."""
+    plain, _, optional = declared.partition(" | ")
+    found = _TYPES[plain]
+    return {"anyOf": [found, {"type": "null"}]} if optional else dict(found)
+
+
+def _closed(properties: dict[str, Any]) -> dict[str, Any]:
+    """An object with exactly these properties."""
+    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
+
+
+def _by_model(value: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "propertyNames": {"enum": list(MODELS)}, "additionalProperties": value}
+
+
+def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
+    """One value for each case of a batch: flat, beside the shape they have."""
+    size = {"type": "integer", "minimum": 0}
+    return _closed({"dtype": dtype, "shape": {"type": "array", "items": size}, "values": {"type": "array", "items": value}})
+
+
+def _each(value: dict[str, Any]) -> dict[str, Any]:
+    """A label, a count or a truth value, or one for each case of a batch."""
+    return {"anyOf": [value, _batch(value, {"type": "string"})]}
+
+
+def _where(model: str, then: dict[str, Any], otherwise: dict[str, Any]) -> dict[str, Any]:
+    condition = {"properties": {"model": {"const": model}}}
+    return {"if": condition, "then": {"properties": then}, "else": {"properties": otherwise}}
+
+
+_LISTED = {
+    "kind": _each({"enum": _KINDS}),
+    "regime": _each({"enum": _REGIMES}),
+    "status": _each({"enum": [int(status) for status in Status]}),
+    "ok": _each({"type": "boolean"}),
+    "refused": _each({"type": "boolean"}),
+    "pdof_clock": {
+        "anyOf": [
+            {"type": "integer", "minimum": 1, "maximum": 12},
+            {"$ref": "#/$defs/value"},
+            {"type": "null"},
+        ]
+    },
+}
+_RECONSTRUCTION = {
+    "method": {"type": "string"},
+    "known": {"type": "array", "items": {"type": "string"}},
+    "condition": {"$ref": "#/$defs/value"},
+    "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
+}
