@@ -260,6 +260,7 @@ def batch_works(effort: Effort) -> dict[str, Work]:
     works = {RENAMED[old][0]: Work(RENAMED[old][1], call, count) for old, call in batch_speed.works(count).items()}
     scene = speed_errors.traffic(count)
     mixed = batch_speed.states(scene)
+    choice = col.required_model(**mixed, tolerance=speed_errors.TOLERANCE)
     few = max(1, count // 50)
     floats = [tuple(map(float, case)) for case in np.array(speed_rivals.numbers(batch_speed.scenes(few))).T]
     points = {side: col.Vehicle(**{name: scene[side][name] for name in ("mass", "vx", "vy")}) for side in "ab"} | {
@@ -281,6 +282,11 @@ def batch_works(effort: Effort) -> dict[str, Work]:
         "solve": Work(
             "`solve`, a third of the cases for each model",
             lambda: nine(col.solve(**mixed, tolerance=speed_errors.TOLERANCE, on_failure="nan")),
+            count,
+        ),
+        "solve_known": Work(
+            "`solve`, the same without the prediction",
+            lambda: nine(col.solve(**mixed, tolerance=choice, on_failure="nan")),
             count,
         ),
         "left_out": Work("`left_out` of a batch", lambda: col.left_out(tenth), count // 10),

@@ -5,6 +5,7 @@ import math
 import pickle
 import re
 import sys
+import tracemalloc
 import warnings
 from pathlib import Path
 
@@ -315,6 +316,33 @@ def test_one_impact_of_many_durations_and_many_impacts_of_one():
         assert found.a.tyre_delta_v.shape == found.mutual_crush.shape == found.duration.shape == (2,)
         assert found.a.geometry_delta_v is None
         assert found.b.tyre_delta_v[1] == pytest.approx(MOST)
+
+
+@pytest.mark.parametrize("tolerance", [None, 0.5])
+def test_a_large_batch_is_worked_out_in_stretches(tolerance):
+    """What its cases give alone, and beyond inputs and answers no more memory than 10 MiB, which is no array of all cases.
+
+    The scratch of the solver for a stretch is 4096 cases times some 150 numbers of 8 bytes, 5 MiB, and again as much that is read.
+    """
+    size = 100_000
+    speeds = np.linspace(2.0, 20.0, size).reshape(2, -1)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=speeds, x=-2.2, y=np.linspace(0.0, 1.0, size // 2))
+    b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-0.2)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+    impact = col.eccentric(a, b, 0.1, **contact) if tolerance is None else col.solve(a, b, 0.1, tolerance=tolerance, **contact)
+    tracemalloc.start()
+    try:
+        found = col.left_out(impact, duration=0.12)
+        kept, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most - kept < 10 * 2**20
+    assert found.a.rotation.shape == (2, size // 2)
+    for row, column in ((0, 0), (0, 4095), (0, 4096), (1, size // 2 - 1)):
+        one = col.left_out(impact.case((row, column)), duration=0.12)
+        for name, value in numbers(one).items():
+            many = numbers(found)[name][row, column]
+            assert math.isnan(many) if value is None else many == pytest.approx(value, rel=1e-9, abs=1e-12), name
 
 
 def test_single_precision_stays():

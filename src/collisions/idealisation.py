@@ -10,10 +10,11 @@ import numpy as np
 
 from .amounts import at_least_zero
 from .directions import from_radians
+from .door import Door, broadcast
 from .errors import CollisionsWarning, InputError
 from .fields import Shown, hypot, lock, numeric
 from .impact import Impact
-from .kernels.batch import precision
+from .kernels.batch import flat, precision
 from .kernels.select import select
 from .kernels.turning import turning_velocity
 from .provenance import MODELS
@@ -21,7 +22,7 @@ from .quiet import quietly, warn_of_cases
 from .side import Side
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag, warn_if_above
-from .units import Door, Input, Value, broadcast, is_quantity
+from .units import Input, Value, is_quantity
 from .vehicle import Vehicle
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
@@ -30,6 +31,8 @@ _LONGEST = 1.0
 _PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
 # So little of the tyre impulse that sticking stays sticking; a power of 2, so that scaling it back rounds nothing.
 _LITTLE = 2.0**-6
+# Cases at a time: the solver is asked twice more for each, with scratch of its own.
+_STRETCH = 4096
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -193,31 +196,49 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())
     unusable = _unusable({"duration": time, "drag": pull})
+    if shape is None:
+        return _assembled(_estimated(impact, time, pull, unusable))
+    size = math.prod(shape)
+    if size <= _STRETCH:
+        found = _estimated(impact, time, pull, unusable)
+        return _assembled(
+            {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()}
+        )
+    whole: dict[str, Any] = {}
+    for start in range(0, size, _STRETCH):
+        block = slice(start, min(start + _STRETCH, size))
+
+        def cut(value: Any, block: slice = block) -> Any:
+            return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
+
+        for name, value in _estimated(impact._part(cut, on_failure="nan"), cut(time), cut(pull), cut(unusable)).items():
+            if name not in whole:
+                whole[name] = None if value is None else np.empty(size, dtype=dtype)
+            if value is not None:
+                whole[name][block] = value
+    return _assembled({name: value if value is None else value.reshape(shape) for name, value in whole.items()})
+
+
+def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
+    """What was left out, by the names of ``LeftOut``, those of its sides with "a." or "b." before them; NaN where refused."""
     # One case that was refused cannot be asked again, and has nothing that could be left out.
     lost = impact.refused is True
     point = impact.point
     with np.errstate(all="ignore"):
-        refused = impact.refused | unusable
-
-        def settled(found: Any) -> Any:
-            if found is None:
-                return None
-            answer = select(refused, math.nan, found)
-            return answer if shape is None else lock(np.array(np.broadcast_to(answer, shape), dtype=dtype))
-
         most = pull * GRAVITY * time
         states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
-        if shape is None and math.isinf(most + reach):
+        if isinstance(reach, float) and math.isinf(most + reach):
             raise out_of_range()
         kicks = (_Kick.of(impact.a, point, most), _Kick.of(impact.b, point, most))
         tyres = [math.nan] * 2 if lost else _with_tyres(impact, kicks)
         moved = _with_motion(impact, point, time)
-        sides = []
-        for side, kick, by_tyres, by_motion in zip((impact.a, impact.b), kicks, tyres, moved, strict=True):
+        found = {"duration": time, "drag": pull, **_whole(impact, time)}
+        for label, kick, by_tyres, by_motion in zip("ab", kicks, tyres, moved, strict=True):
+            side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
             mass = select(numeric(before.mass).isfinite(before.mass), before.mass, 0.0)
-            found = {
+            of_side = {
                 "tyre_impulse_bound": mass * most,
                 "tyre_delta_v_bound": kick.most,
                 "tyre_share_bound": _share(kick.most, delta_v),
@@ -230,14 +251,18 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
                 "geometry_delta_v": by_motion,
                 "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
             }
-            sides.append(LeftOutSide(**{name: settled(value) for name, value in found.items()}))
-        return LeftOut(
-            duration=settled(time),
-            drag=settled(pull),
-            **{name: settled(value) for name, value in _whole(impact, time).items()},
-            a=sides[0],
-            b=sides[1],
-        )
+            found |= {f"{label}.{name}": value for name, value in of_side.items()}
+        refused = impact.refused | unusable
+        return {name: None if value is None else select(refused, math.nan, value) for name, value in found.items()}
+
+
+def _assembled(found: dict[str, Any]) -> LeftOut:
+    """The result of what was found by name."""
+    a, b = (
+        LeftOutSide(**{name[2:]: lock(value) for name, value in found.items() if name.startswith(f"{label}.")})
+        for label in "ab"
+    )
+    return LeftOut(**{name: lock(value) for name, value in found.items() if "." not in name}, a=a, b=b)
 
 
 def _read_duration(door: Door, duration: Any) -> Any:
