@@ -198,3 +198,10 @@ def test_an_answer_beyond_float32_is_refused(cases):
     for name in ("energy_loss", "energy_loss_normal", "normal_impulse", "compression_impulse", "effective_mass", "slip_before"):
         assert np.isnan(getattr(impact, name)[1]), name
         assert np.isfinite(getattr(impact, name)[[0, 2]]).all(), name
+
+
+def test_a_batch_without_a_case_asks_for_what_one_with_cases_does():
+    """A spinning body of 300 kg has no velocity at the contact without its position, whatever is beside it."""
+    b = col.Vehicle(mass=300.0, yaw_rate=1.0, yaw_inertia=np.array([]))
+    with pytest.raises(col.MissingInputError, match="b has no x"):
+        col.eccentric(col.Vehicle.barrier(), b, 0.0, normal=0.0, point=(0.0, 0.0), friction=0.0)

@@ -248,3 +248,69 @@ def test_exact_zeros():
     wall = col.eccentric(A, col.Vehicle.barrier(vx=-2.0), 0.3, friction=0.4, **place)
     assert wall.b.delta_v == wall.b.delta_yaw_rate == 0.0
     assert wall.common_velocity == pytest.approx(-2.0 * math.cos(0.1), rel=1e-15)
+
+
+@pytest.mark.parametrize("impact", SCENES, ids=[f"{i}-{s.model}" for i, s in enumerate(SCENES)])
+def test_one_case_of_a_batch_is_that_case_alone(impact):
+    """Every case of a batch; to 1e-13 of its scale, as the arithmetic of one case and of many may round differently."""
+    if not isinstance(impact.status, np.ndarray):
+        with pytest.raises(col.ShapeError, match="is one case") as caught:
+            impact.case(0)
+        assert caught.value.code == "bad_shape"
+        return
+    for place in np.ndindex(impact.status.shape):
+        one = impact.case(place if len(place) > 1 else place[0])
+        assert isinstance(one.normal_impulse, float)
+        assert one.model == impact.model
+        for name in ("closing_speed", "slip_before", "normal_impulse", "tangential_impulse", "energy_loss"):
+            many = getattr(impact, name)
+            assert getattr(one, name) == pytest.approx(many[place], rel=1e-13, abs=1e-13 * float(abs(many).max()))
+        assert one == col.Impact.from_dict(one.to_dict())
+
+
+def test_a_case_of_solve_is_answered_by_its_own_model():
+    """Also where the choice was made for other inputs and is taken again."""
+    a, b = A.replace(vx=np.array([20.0, 9.0]), x=-1.0), B.replace(x=2.0)
+    contact = {"normal": 0.1, "point": (1.0, 0.3), "friction": 0.2}
+    choice = col.required_model(a, b, 0.1, tolerance=np.array([99.0, 0.0]), **contact)
+    many = col.solve(a.replace(vy=5.0), b, 0.1, tolerance=choice, **contact)
+    assert list(many.model) == ["linear_central", "eccentric"]
+    for place in (0, 1, -1):
+        one = many.case(place)
+        assert one.model == many.model[place]
+        assert one.a.delta_v == pytest.approx(many.a.delta_v[place], rel=1e-13)
+
+
+def test_a_case_that_was_refused_says_why():
+    """The error that the solver raises of it alone, also for what only a batch may hold."""
+    a = col.Vehicle(mass=np.array([1500.0, 1500.0, -1.0]), vx=np.array([9.0, -9.0, 9.0]))
+    many = col.linear_central(a, col.Vehicle(mass=1200.0), 0.1, on_failure="nan")
+    with pytest.raises(col.NoImpactError) as caught:
+        many.case(1)
+    assert caught.value.closing_speed == -9.0
+    with pytest.raises(col.InputError, match="mass must be") as wrong:
+        many.case(2)
+    assert wrong.value.fields["argument"] == "mass"
+
+
+def test_a_case_of_a_reverse_solver_keeps_how_it_was_found():
+    """With its own condition; a refused one names the solver that tells more."""
+    ends = np.array([0.1, 0.0])
+    place = {"normal": 0.1, "point": (1.7, 0.3)}
+    impact = col.eccentric(A, B, ends, friction=0.05, **place)
+    found = col.reconstruct.planar(impact.a.after, impact.b.after, restitution=ends, friction=0.05, on_failure="nan", **place)
+    one = found.case(0)
+    assert one.reconstruction.method == "planar"
+    assert one.reconstruction.condition == found.reconstruction.condition[0]
+    assert one.a.before.vx == pytest.approx(20.0, rel=1e-12)
+    with pytest.raises(col.NoSolutionError, match=r"case 1 has no answer.*reconstruct\.planar") as caught:
+        found.case(1)
+    assert caught.value.code == col.Status(found.status[1]).label
+
+
+@pytest.mark.parametrize("index", [5, -6, 1.0, True, (0, 0), None, "0", (), np.array([0])], ids=str)
+def test_an_index_that_is_no_case_is_refused(index):
+    """Named, with what to write."""
+    with pytest.raises(col.InputError, match=r"got .*write impact\.case\(0\)") as caught:
+        SCENES[1].case(index)
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_index", "index")

@@ -184,7 +184,7 @@ def test_axes_given_are_drawn_on_by_pictures_of_an_uncertainty():
 @pytest.mark.parametrize("picture", DRAWN)
 def test_a_batch_is_refused_with_advice(picture):
     batch = col.linear_central(col.Vehicle(mass=1000.0, vx=np.array([10.0, 20.0])), col.Vehicle(mass=900.0), 0.1)
-    with pytest.raises(col.ShapeError, match=rf"batch of shape \(2,\), and plot.{picture} draws one case") as caught:
+    with pytest.raises(col.ShapeError, match=rf"batch of shape \(2,\), and plot.{picture} takes one case") as caught:
         DRAWN[picture](batch)
     assert caught.value.code == "bad_shape"
     assert "plot.distribution" in str(caught.value)
@@ -196,7 +196,7 @@ def test_a_refused_impact_is_refused_with_its_reason(picture):
     refused = col.linear_central(col.Vehicle(mass=1000.0, vx=-10.0), col.Vehicle(mass=900.0), 0.1, on_failure="nan")
     with pytest.raises(col.InputError, match="move apart along the normal") as caught:
         DRAWN[picture](refused)
-    assert caught.value.code == "refused_cases"
+    assert caught.value.code == "refused_impact"
     assert caught.value.fields["status"] == "separating"
     assert not plt.get_fignums()
 

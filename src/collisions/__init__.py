@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from .provenance import ModelChoice
     from .reporting import report
     from .scene import required_model, solve
+    from .schema import impact_schema
 
 __version__ = "0.1.0"
 
@@ -62,6 +63,7 @@ __all__ = [
     "diagnose",
     "eccentric",
     "explain",
+    "impact_schema",
     "left_out",
     "linear_central",
     "oblique_central",
@@ -81,6 +83,7 @@ _LATER = {
     "ModelChoice": "provenance",
     "diagnose": "diagnostics",
     "explain": "derivation",
+    "impact_schema": "schema",
     "left_out": "idealisation",
     "report": "reporting",
     "required_model": "scene",

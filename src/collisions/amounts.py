@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from .door import Door
 from .errors import InputError
-from .units import Door, shown
+from .units import shown
 
 _CODES = {"m/s": "negative_speed", "J": "negative_energy", "m": "negative_length", "N/m": "negative_stiffness"}
 

@@ -1,48 +1,29 @@
-"""The arguments the solvers share: read and checked; then one case is solved, or many."""
+"""The arguments the solvers share: read and checked."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from .directions import direction, from_radians
-from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
-from .impact import Asked, Impact, build
-from .kernels import checks, codes
-from .kernels.select import verdict
-from .progress import reporter
-from .quiet import warn_of_cases
-from .refusals import refusal
-from .units import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, Door, broadcast, shown
-from .vehicle import DOMAINS, Vehicle
-
-if TYPE_CHECKING:
-    from .kernels.batch import Check
+from .door import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Door
+from .errors import InputError
+from .fields import lock
+from .kernels import codes
+from .provenance import BareAngle
+from .units import has_unit, is_quantity, shown
+from .vehicle import Vehicle, not_a_vehicle
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
-# What finds the motion that a model cannot hold, and the values it looks at.
-Scope: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
 
 # A NamedTuple made from a tuple costs a third of one made from arguments.
-_as_asked: Callable[..., Asked] = tuple.__new__
 _as_read: Callable[..., Read] = tuple.__new__
 _ALONG_X = (1.0, 0.0)
-_TANGENTIAL_DOMAINS = {codes.FRICTION: NOT_NEGATIVE, codes.IMPULSE_RATIO: FINITE, codes.CRITICAL_FRACTION: UNIT_INTERVAL}
-# By domain: what is wrong with a value, its status, and what tells that an array has none.
-_FAULTS: dict[str, tuple[tuple[tuple[int, Callable[..., Any]], ...], Callable[..., bool]]] = {
-    FINITE: (((codes.NOT_FINITE, checks.not_finite),), checks.all_finite),
-    POSITIVE: (
-        ((codes.NOT_FINITE, checks.not_a_number), (codes.NOT_POSITIVE, checks.not_positive)),
-        checks.all_positive,
-    ),
-    UNIT_INTERVAL: (((codes.BAD_FRACTION, checks.outside_unit_interval),), checks.all_in_unit_interval),
-    NOT_NEGATIVE: (((codes.BAD_FRICTION, checks.negative),), checks.all_not_negative),
-}
+TANGENTIAL_DOMAINS = {codes.FRICTION: NOT_NEGATIVE, codes.IMPULSE_RATIO: FINITE, codes.CRITICAL_FRACTION: UNIT_INTERVAL}
 
 
 class Read(NamedTuple):
@@ -97,15 +78,9 @@ def read(
     door.problems.extend(known)
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
-            door.refuse(
-                InputError(
-                    f"{label} must be a Vehicle, got {type(vehicle).__name__}; write collisions.Vehicle(mass=...)",
-                    code="not_a_vehicle",
-                    argument=label,
-                )
-            )
+            door.refuse(not_a_vehicle(label, vehicle))
     e = door.number(restitution, "", "restitution", UNIT_INTERVAL)
-    unit = direction(door, normal, "normal")
+    unit = _normal(door, normal)
     contact = None if point is None else door.pair(point, "m", "point")
     rule, bound = _tangential(door, (friction, impulse_ratio, critical_fraction))
     if not isinstance(law, str) or law not in codes.LAWS:
@@ -121,12 +96,27 @@ def read(
     return Read(e, unit, rule, bound, contact, np.ndarray not in map(type, (e, bound, *unit, *(contact or ()))))
 
 
+def _normal(door: Door, given: Any) -> tuple[Any, Any]:
+    """The unit normal, which of numbers of more than a turn keeps them: they may have been meant in degrees."""
+    unit = direction(door, given, "normal")
+    if isinstance(given, BareAngle):
+        return BareAngle(unit, given.radians)
+    if door.problems or isinstance(given, tuple) or has_unit(given):
+        return unit
+    radians: Any = np.array(given.magnitude if is_quantity(given) else given, dtype=np.asarray(unit[0]).dtype)
+    low, high = (bound.reduce(radians, axis=None, initial=0.0) for bound in (np.fmin, np.fmax))
+    if low >= -math.tau and high <= math.tau:
+        return unit
+    kept: Any = lock(radians) if radians.ndim else float(radians)
+    return BareAngle(unit, kept)
+
+
 def _tangential(door: Door, values: tuple[Any, Any, Any]) -> tuple[str, Any]:
     """Which of the three ways to say what happens along the tangent was used, and its value."""
     given = [(rule, value) for rule, value in zip(codes.RULES, values, strict=True) if value is not None]
     if len(given) == 1:
         rule, value = given[0]
-        return rule, door.number(value, "", rule, _TANGENTIAL_DOMAINS[rule])
+        return rule, door.number(value, "", rule, TANGENTIAL_DOMAINS[rule])
     found = "none" if not given else " and ".join(f"{name}=" for name, _ in given)
     door.refuse(
         InputError(
@@ -152,178 +142,6 @@ def pivots(model: str, a: Any, b: Any) -> Sequence[InputError]:
         for label, vehicle in (("a", a), ("b", b))
         if getattr(vehicle, "pivot", None) is not None
     ]
-
-
-def answer(
-    kernel: Callable[..., tuple[Any, ...]],
-    inputs: tuple[Any, ...],
-    settings: tuple[Any, ...],
-    asked: tuple[Any, ...],
-    plain: bool,
-    scope: Scope | None,
-    on_failure: Any,
-    threads: Any,
-    progress: Any,
-) -> Impact:
-    """The Impact of one case or of a batch: the kernel called with its inputs and its settings.
-
-    ``scope`` finds the motion that the model cannot hold; every other value has been checked at the door.
-    """
-    if on_failure is not None or type(threads) is not int or threads != 1 or progress is not None:
-        check_options(on_failure, threads, progress)
-    question = _as_asked(Asked, asked)
-    if not (plain and question.a._given is None and question.b._given is None):
-        shape = broadcast(dict(numbers_of(question)))
-        if shape is not None:
-            raw = solved(kernel, inputs, settings, question, scope, shape, threads, progress)
-            return concluded(question, raw, on_failure)
-    raw = kernel(*inputs, *settings)
-    fault = scope[0](*scope[1]) if scope is not None else codes.OK
-    if fault or raw[0]:
-        raw = (fault or raw[0], *raw[1:])
-        if raw[0] > codes.ENERGY_GAIN:
-            if on_failure != "nan":
-                raise refusal(question, raw)
-            raw = (raw[0], *(False if name == "sticks" else math.nan for name in codes.OUTPUTS[1:]))
-        else:
-            gain = -raw[codes.OUTPUTS.index("energy_loss")]
-            _warn_of_gain(f"the impact gains {gain:.6g} J of energy", gain)
-    return build(question, raw)
-
-
-def solved(
-    kernel: Callable[..., tuple[Any, ...]],
-    inputs: tuple[Any, ...],
-    settings: tuple[Any, ...],
-    asked: Asked,
-    scope: Scope | None,
-    shape: tuple[int, ...],
-    threads: int,
-    progress: Any,
-) -> Any:
-    """The outputs of the cases of a batch."""
-    # Adds a twentieth to the import of the package, and single cases never come here.
-    from .kernels.batch import Scoped, precision, solve_lanes
-
-    dtype = precision(value for _, value in numbers_of(asked))
-    eps = float(np.finfo(dtype).eps)
-    if scope is not None:
-        kernel = Scoped(kernel, scope[0], len(inputs), len(scope[1]))
-        inputs = (*inputs, *scope[1])
-    checked = value_checks(asked, eps)
-    return solve_lanes(kernel, (*settings, eps), inputs, checked, shape, dtype, threads, reporter(progress))
-
-
-def concluded(asked: Asked, raw: Any, on_failure: Any, **options: Any) -> Impact:
-    """The Impact of a batch, after what is to be said of its refused and its gaining cases.
-
-    ``options`` are what else a case is asked with alone.
-    """
-    status = raw[0]
-    if np.any(status > codes.ENERGY_GAIN):
-        if on_failure == "raise":
-            raise _first_refusal(asked, status, options)
-        if on_failure is None:
-            warn_of_refusals(status)
-    gaining = status == codes.ENERGY_GAIN
-    if gaining.any():
-        most = float(-raw[codes.OUTPUTS.index("energy_loss")][gaining].min())
-        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
-    return build(asked, raw)
-
-
-def numbers_of(asked: Asked) -> list[tuple[str, Any]]:
-    """Every number of the question by the name the caller knows it by."""
-    found = [("restitution", asked.restitution), (asked.rule, asked.bound)]
-    found += [(f"normal[{i}]", part) for i, part in enumerate(asked.normal)]
-    if asked.point is not None:
-        found += [(f"point[{i}]", part) for i, part in enumerate(asked.point)]
-    for label, vehicle in (("a", asked.a), ("b", asked.b)):
-        found += [(f"{label}.{name}", getattr(vehicle, name)) for name in DOMAINS]
-        if vehicle.pivot is not None:
-            found += [(f"{label}.pivot[{i}]", part) for i, part in enumerate(vehicle.pivot)]
-    return found
-
-
-def value_checks(asked: Asked, eps: float) -> list[Check]:
-    """What the door checks of scalars, for the arrays of the question."""
-    from .kernels.batch import Check
-
-    found: list[Check] = []
-
-    def add(passes: Callable[..., bool] | None, values: tuple[Any, ...], *findings: tuple[int, Callable[..., Any]]) -> None:
-        found.append(Check(lambda *block: verdict(*((at_fault(*block), code) for code, at_fault in findings)), values, passes))
-
-    for label, value in numbers_of(asked):
-        if not isinstance(value, np.ndarray):
-            continue
-        if label == "restitution":
-            add(checks.all_in_unit_interval, (value,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
-            continue
-        domain = _TANGENTIAL_DOMAINS[asked.rule] if label == asked.rule else DOMAINS.get(label.partition(".")[2], FINITE)
-        findings, passes = _FAULTS[domain]
-        add(passes, (value,), *findings)
-    if any(isinstance(part, np.ndarray) for part in asked.normal):
-        add(checks.all_with_length, asked.normal, (codes.ZERO_NORMAL, checks.without_length))
-    for vehicle in (asked.a, asked.b):
-        if vehicle.pivot is not None:
-            add(None, (vehicle.mass, vehicle.yaw_inertia), (codes.PINNED_INFINITE, checks.either_infinite))
-            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
-            add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
-    return found
-
-
-def _first_refusal(asked: Asked, status: Any, options: dict[str, Any]) -> CollisionsError:
-    """The error of the first refused case, found by asking for it alone."""
-    index, place = first_refused(status)
-
-    def lane(value: Any) -> Any:
-        if isinstance(value, tuple):
-            return tuple(lane(part) for part in value)
-        return float(np.broadcast_to(value, status.shape)[index]) if isinstance(value, np.ndarray) else value
-
-    def lane_of(vehicle: Vehicle) -> Vehicle:
-        return vehicle.replace(**{name: lane(getattr(vehicle, name)) for name in (*DOMAINS, "pivot")})
-
-    try:
-        one = asked._replace(
-            a=lane_of(asked.a),
-            b=lane_of(asked.b),
-            restitution=lane(asked.restitution),
-            normal=lane(asked.normal),
-            bound=lane(asked.bound),
-            point=lane(asked.point),
-        )
-        one.ask(**{name: lane(value) for name, value in options.items()})
-    except CollisionsError as error:
-        return type(error)(place + str(error), code=error.code, **error.fields)
-    outcome = Status(status[index])
-    return InputError(place + outcome.sentence, code=outcome.label)
-
-
-def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
-    """Where in a batch the first refused case stands, and how a message says so."""
-    index = tuple(int(i) for i in np.argwhere(status > codes.ENERGY_GAIN)[0])
-    return index, f"case {index if len(index) != 1 else index[0]}: "
-
-
-def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
-    """One warning that counts the refused cases of a batch by their kind."""
-    refused = int(np.count_nonzero(status > codes.ENERGY_GAIN))
-    kinds = {
-        Status(int(code)).label: int(np.count_nonzero(status == code)) for code in np.unique(status[status > codes.ENERGY_GAIN])
-    }
-    listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
-    text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
-    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds))
-
-
-def _warn_of_gain(what: str, gain: float) -> None:
-    text = (
-        f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
-        f"restitution or the ratio, or take law='kudlich-slibar' with friction="
-    )
-    warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:

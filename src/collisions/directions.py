@@ -1,4 +1,4 @@
-"""Directions in the road plane as unit vectors, from an angle or from a vector."""
+"""Directions in the road plane: unit vectors from an angle or a vector, and the angle of a vector."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .door import Door, broadcast
 from .errors import InputError, ShapeError
-from .units import Door, broadcast
+from .kernels.select import select
+from .units import Value
 
 
 class Angle(NamedTuple):
@@ -113,6 +115,16 @@ def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
         # A part that is not finite makes the whole vector NaN.
         finite = np.where(np.isfinite(vx) & np.isfinite(vy), 0.0, np.nan).astype(length.dtype)
         return np.where(keep, vx, scaled_x / divisor) + finite, np.where(keep, vy, scaled_y / divisor) + finite
+
+
+def angle_of(x: Any, y: Any) -> Value:
+    """Direction of a vector [rad] in (-pi, pi]; NaN without a length. Adding 0 turns -0 into 0, which would give -pi."""
+    if isinstance(x, float) and isinstance(y, float):
+        atan2: Any = math.atan2
+    else:
+        atan2 = np.arctan2
+    angle: Value = select((x == 0.0) & (y == 0.0), math.nan, atan2(y + 0.0, x))
+    return angle
 
 
 def from_radians(angle: Any) -> tuple[Any, Any]:

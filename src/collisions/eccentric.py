@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .arguments import Law, OnFailure, answer, read
+from .answering import answer
+from .arguments import Law, OnFailure, read
 from .errors import InputError, MissingInputError
 from .impact import SOLVERS, Impact
 from .kernels.eccentric import eccentric as kernel
@@ -129,7 +130,8 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
         if type(body) is not Vehicle or _is_complete(body):
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
-        fixed = np.all(np.isinf(body.mass) & np.isinf(inertia) & np.equal(body.yaw_rate, 0.0))
+        # One by one: beside an array without a case, a plain number still says that the body moves.
+        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and np.all(np.equal(body.yaw_rate, 0.0))
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
         found += [(label, name) for name in needed if getattr(body, name) is None]
     return found

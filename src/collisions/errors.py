@@ -7,23 +7,6 @@ from typing import Any
 
 from .kernels import codes
 
-__all__ = [
-    "AmbiguousSolutionError",
-    "CollisionsError",
-    "CollisionsWarning",
-    "EnergyGainWarning",
-    "IllConditionedWarning",
-    "InputError",
-    "MissingInputError",
-    "NoImpactError",
-    "NoSolutionError",
-    "OutOfRangeWarning",
-    "ShapeError",
-    "Status",
-    "SuspectUnitsWarning",
-    "UnitsError",
-]
-
 
 class _Carrying(BaseException):
     """Carries a label and named fields beside the message, through pickling too."""

@@ -153,7 +153,7 @@ def show(value: Any, unit: str | None = None) -> str:
 def same(one: Any, other: Any) -> bool:
     """Equality by value for numbers, arrays, pairs and None, NaN equal to itself."""
     if isinstance(one, tuple) or isinstance(other, tuple):
-        return type(one) is type(other) and len(one) == len(other) and all(map(same, one, other))
+        return isinstance(one, tuple) and isinstance(other, tuple) and len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         if one is None or other is None or np.shape(one) != np.shape(other):
             return False

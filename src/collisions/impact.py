@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .errors import InputError, Status
+from .directions import angle_of
+from .door import UNIT_INTERVAL, Door, broadcast
+from .errors import InputError, NoSolutionError, Status
 from .fields import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
 from .side import Side
-from .units import UNIT_INTERVAL, Door, Input, Value, broadcast, shown
-from .vehicle import Vehicle, angle_of
+from .units import Input, Value, shown
+from .vehicle import Vehicle
 
 if TYPE_CHECKING:
     from .provenance import ModelChoice, Reconstruction
@@ -73,12 +75,12 @@ class Impact:
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self._asked, self._raw, 0)
+        return Side(self._asked, self._raw, 0, self._cache.get("choice"))
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self._asked, self._raw, 1)
+        return Side(self._asked, self._raw, 1, self._cache.get("choice"))
 
     @derived()
     def model(self) -> Any:
@@ -195,17 +197,10 @@ class Impact:
 
         Of a central model that of the centres of mass, as for ``closing_speed``.
         """
-        (nx, ny), place = self.normal, self.point
-        # ``solve`` keeps the point it was given, also where it took a central model.
-        turns = self.model == "eccentric"
+        nx, ny = self.normal
         found = []
         for side in (self.a, self.b):
-            before = side.before
-            ux, uy, dux, duy = before.vx, before.vy, side.delta_vx, side.delta_vy
-            if place is not None and np.any(turns):
-                there, change = before.velocity_at(place), side.delta_v_at(place)
-                ux, uy = select(turns, there[0], ux), select(turns, there[1], uy)
-                dux, duy = select(turns, change[0], dux), select(turns, change[1], duy)
+            ux, uy, dux, duy = side._at_contact()
             found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
         # Built on the body that changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
@@ -340,6 +335,55 @@ class Impact:
         """The answer of the same model to the same question with some of it changed, NaN where it is refused."""
         options = {} if self.choice is None else {"tolerance": self.choice}
         return self._asked._replace(**changes).ask(on_failure="nan", **options)
+
+    def case(self, index: int | tuple[int, ...]) -> Impact:
+        """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
+
+        The case is asked again by itself, so it agrees with the batch within the accuracy promised, and a case that was refused
+        raises the error that says why.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Which case, as an index of the arrays of the batch.
+
+        Raises
+        ------
+        CollisionsError
+            There is no such case, or it has no answer.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> import numpy as np
+        >>> speeds = np.array([20.0, 15.0, -1.0])
+        >>> many = col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1200.0), 0.1, on_failure="nan")
+        >>> many.case(1).b.after
+        Vehicle(mass=1200 kg, vx=9.16667 m/s)
+        """
+        from .cases import place_of
+
+        place = place_of(index, self.status.shape if isinstance(self.status, np.ndarray) else None)
+        if self.reconstruction is not None and self.refused[place]:
+            status = Status(self.status[place])
+            raise NoSolutionError(
+                f"case {index} has no answer: {status.sentence}; ask reconstruct.{self.reconstruction.method} for it alone to "
+                f"see what would decide",
+                code=status.label,
+            )
+        return self._part(lambda value: np.broadcast_to(value, self.status.shape)[place].item())
+
+    def _part(self, take: Callable[[Any], Any], **options: Any) -> Impact:
+        """Some cases of a batch, asked again: those that ``take`` takes of every array."""
+        from .cases import part_of
+
+        asked, origin = part_of(self._asked, take), self.reconstruction
+        if self.choice is not None:
+            options["tolerance"] = part_of(self.choice, take)
+        impact: Impact = asked.ask(**options)
+        if origin is None:
+            return impact
+        return found_by(part_of(origin, take), asked, impact._raw, take(self.status))
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""

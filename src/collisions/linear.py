@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .arguments import OnFailure, answer, pivots, read
+from .answering import answer
+from .arguments import OnFailure, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels import codes
 from .kernels.linear import linear_central as kernel

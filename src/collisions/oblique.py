@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .arguments import Law, OnFailure, answer, pivots, read
+from .answering import answer
+from .arguments import Law, OnFailure, pivots, read
 from .impact import SOLVERS, Impact
 from .kernels.oblique import oblique_central as kernel
 from .kernels.oblique import outside_central

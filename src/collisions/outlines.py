@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from .directions import from_radians
+from .door import POSITIVE, Door
 from .errors import InputError, ShapeError
-from .units import POSITIVE, Door, is_quantity, shown
-from .vehicle import Vehicle, missing
+from .units import is_quantity, shown
+from .vehicle import Vehicle
 
 # Sines of corners closer to straight than this are no dents.
 _STRAIGHT = 1e-9
@@ -106,7 +107,7 @@ def _polygon(door: Door, corners: Any, argument: str) -> Any:
 
 def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Any:
     """The corners in the scene, where the vehicle is after so many seconds of its motion."""
-    x, y, heading = (_need(vehicle, name, label) for name in ("x", "y", "heading"))
+    x, y, heading = (vehicle._need(name, f"outline_{label}", label) for name in ("x", "y", "heading"))
     turn = vehicle.yaw_rate * after
     if vehicle.pivot is None:
         x, y = x + vehicle.vx * after, y + vehicle.vy * after
@@ -116,13 +117,6 @@ def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> An
         x, y = px + c * (x - px) - s * (y - py), py + s * (x - px) + c * (y - py)
     c, s = from_radians(heading + turn)
     return np.stack([x + c * outline[:, 0] - s * outline[:, 1], y + s * outline[:, 0] + c * outline[:, 1]], axis=1)
-
-
-def _need(vehicle: Vehicle, name: str, label: str) -> Any:
-    value = getattr(vehicle, name)
-    if value is None:
-        raise missing(vehicle, name, f"outline_{label}", label)
-    return value
 
 
 def distance_outside(corners: Any, point: tuple[float, float]) -> float:

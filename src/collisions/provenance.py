@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -31,13 +32,35 @@ class Reconstruction:
         of friction, restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e
         where e was given, or the jump between both ways to slide over the slip where that is larger.
     answers : int or array of int
-        How many impacts fit what was given, of which this is one.
+        How many impacts fit what was given, of which this is one; infinite at the end of a range of them.
     """
 
     method: str
     known: tuple[str, ...]
     condition: Value
     answers: Any = 1
+
+    @property
+    def _fitting(self) -> str:
+        """How many impacts fit, as a sentence says it."""
+        return "a whole range of impacts" if self.answers == math.inf else f"{self.answers} impacts"
+
+
+class BareAngle(tuple[Value, Value]):
+    """The unit vector of an angle that was given as a number without a unit, which it keeps, for what is to be said of it.
+
+    Otherwise a pair like any other, and equal to one with the same numbers.
+    """
+
+    radians: Value
+
+    def __new__(cls, vector: tuple[Value, Value], radians: Value) -> BareAngle:
+        made = super().__new__(cls, vector)
+        made.radians = radians
+        return made
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return tuple(self), self.radians
 
 
 class ByModel(Mapping[str, Any]):

@@ -9,20 +9,23 @@ from typing import Any
 
 import numpy as np
 
+from .directions import from_radians
 from .errors import InputError, Status
 from .fields import attributes, lock
 from .kernels import codes
-from .provenance import ModelChoice, Reconstruction
+from .provenance import BareAngle, ModelChoice, Reconstruction
 from .side import Side
 from .units import shown
 from .vehicle import NAMES, Vehicle
 
-_FORMAT = "collisions impact 1"
+FORMAT = "collisions impact 1"
 _NOTHING = dict.fromkeys(NAMES)
 _NUMBERS = ("restitution", "normal", "bound", "point")
 _MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
+_BARE = "normal_given_as"  # a number without a unit
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
+_SAME = 1e-5  # between cosines and sines of one angle, also in float32
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
@@ -30,9 +33,11 @@ def to_record(impact: Any) -> dict[str, Any]:
     """Inputs to ask it again from, and every result to read."""
     asked = impact._asked
     inputs = {name: _strict(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
+    if isinstance(asked.normal, BareAngle):
+        inputs[_BARE] = _strict(asked.normal.radians)
     results = {name: _strict(value) for name, value in _results(impact) if name not in inputs}
     return {
-        "format": _FORMAT,
+        "format": FORMAT,
         "inputs": {**inputs, "a": _state(asked.a), "b": _state(asked.b)},
         "results": {**results, "a": _side(impact.a), "b": _side(impact.b)},
     }
@@ -41,12 +46,14 @@ def to_record(impact: Any) -> dict[str, Any]:
 def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], Reconstruction | None, Any]:
     """The question of a record by its parts, the options to ask it with, what found it, and its status."""
     try:
-        if not isinstance(record["format"], str) or record["format"] != _FORMAT:
-            raise bad_record(f"its format is {shown(record['format'])} and not {_FORMAT!r}")
+        if not isinstance(record["format"], str) or record["format"] != FORMAT:
+            raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
         inputs = record["inputs"]
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
             raise bad_record(f"its model is {shown(question['model'])} and its rule {shown(question['rule'])}")
+        if _BARE in inputs:
+            question["normal"] = _bare(question["normal"], _number(inputs[_BARE]))
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
@@ -68,6 +75,13 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
     return question, options, origin, status
+
+
+def _bare(normal: Any, radians: Any) -> BareAngle:
+    """A normal and the number it was given as, which must have its direction."""
+    if not np.allclose(normal, from_radians(radians), rtol=0.0, atol=_SAME, equal_nan=True):
+        raise bad_record(f"its normal, {shown(normal)}, is not that of {shown(radians)} rad, as which it was given")
+    return BareAngle(normal, lock(radians))
 
 
 def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
@@ -155,7 +169,7 @@ def _count(value: Any) -> Any:
     """A whole number, or a batch of them, as ``_strict`` wrote it."""
     if isinstance(value, Mapping):
         return lock(np.array([int(count) for count in value["values"]], dtype=np.int64).reshape(value["shape"]))
-    return int(value)
+    return math.inf if value == "inf" else int(value)
 
 
 def _number(value: Any) -> Any:

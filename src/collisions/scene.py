@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .amounts import amount
-from .arguments import Law, OnFailure, answer, check_options, concluded, numbers_of, read, solved, value_checks
+from .answering import answer, concluded, numbers_of, solved, value_checks
+from .arguments import Law, OnFailure, check_options, read
+from .door import Door, broadcast
 from .eccentric import body_numbers, lacking, missing_numbers
 from .errors import InputError
 from .impact import SOLVERS, Asked, Impact
@@ -18,7 +20,7 @@ from .kernels.oblique import oblique_central as oblique_kernel
 from .kernels.shortfall import ECCENTRIC, LACKING, LINEAR, Known, least_model, linear_carried
 from .progress import Progress, reporter
 from .provenance import MODELS, ModelChoice
-from .units import Door, Input, Pair, broadcast
+from .units import Input, Pair
 from .vehicle import Vehicle
 
 _LINEAR, _OBLIQUE, _ECCENTRIC = MODELS

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from .directions import direction, from_radians
+from .directions import angle_of, direction, from_radians
+from .door import FINITE, POSITIVE, Door, broadcast
 from .errors import InputError, MissingInputError
 from .fields import Quantities, derived, hypot, lock, returns, same, show, table
-from .kernels.checks import not_about_pivot
 from .kernels.select import select
 from .kernels.turning import turning_velocity
-from .units import FINITE, POSITIVE, Door, Input, Pair, Value, broadcast, shown
+from .units import Input, Pair, Value, shown
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
@@ -332,11 +332,11 @@ class Vehicle(_Written):
         """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
         return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
-    def _need(self, name: str, purpose: str) -> Any:
+    def _need(self, name: str, purpose: str, label: str = "the vehicle") -> Any:
         """The value of an optional field, or a MissingInputError that says what it is needed for."""
         value = getattr(self, name)
         if value is None:
-            raise missing(self, name, purpose)
+            raise missing(self, name, purpose, label)
         return value
 
     def __eq__(self, other: object) -> bool:
@@ -405,14 +405,13 @@ def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle
     )
 
 
-def angle_of(x: Any, y: Any) -> Value:
-    """Direction of a vector [rad] in (-pi, pi]; NaN without a length. Adding 0 turns -0 into 0, which would give -pi."""
-    if isinstance(x, float) and isinstance(y, float):
-        atan2: Any = math.atan2
-    else:
-        atan2 = np.arctan2
-    angle: Value = select((x == 0.0) & (y == 0.0), math.nan, atan2(y + 0.0, x))
-    return angle
+def not_a_vehicle(label: str, given: Any) -> InputError:
+    """The refusal of what is no Vehicle where one is needed."""
+    return InputError(
+        f"{label} must be a Vehicle, got {type(given).__name__}; write collisions.Vehicle(mass=...)",
+        code="not_a_vehicle",
+        argument=label,
+    )
 
 
 def _product(weight: Value, motion: Value) -> Value:
@@ -456,49 +455,8 @@ def _through_the_door(
     named = dict(zip(NAMES, read, strict=False))
     broadcast(named if pin is None else {**named, "pivot[0]": pin[0], "pivot[1]": pin[1]})
     if pin is not None:
-        read[1], read[2] = _pinned(pin, *read[:7])
+        # Few vehicles have a pivot, and none is needed to import the package.
+        from .pinned import pinned_velocity
+
+        read[1], read[2] = pinned_velocity(pin, *read[:7])
     return (*read, pin, name, door.texts)
-
-
-def _pinned(
-    pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any
-) -> tuple[Any, Any]:
-    """The velocity of a body that can only turn about the pin; scalars are checked here, arrays by the solver."""
-    for label, value in (("mass", mass), ("yaw_inertia", yaw_inertia)):
-        if isinstance(value, float) and math.isinf(value):
-            raise InputError(
-                f"{label} is inf and pivot is given; a pinned body turns, so give its {label}, or use Vehicle.barrier()",
-                code="pinned_infinite",
-                argument=label,
-            )
-    for label, value in (("x", x), ("y", y)):
-        if value is None:
-            raise MissingInputError(
-                f"{label} is missing; a pivot needs the position of the centre of mass (x, y)",
-                code="missing_position",
-                argument=label,
-            )
-    with np.errstate(all="ignore"):
-        wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
-        if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
-            if not _isfinite(wanted_x + wanted_y):
-                raise InputError(
-                    "the velocity of this pinned body is too large for a float: check x, y, pivot and yaw_rate",
-                    code="out_of_range",
-                    argument="yaw_rate",
-                )
-            if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
-                raise InputError(
-                    f"vx, vy = ({vx:g}, {vy:g}) m/s cannot be the velocity of a body that turns about its pivot: yaw rate "
-                    f"times arm gives ({wanted_x + 0.0:.10g}, {wanted_y + 0.0:.10g}) m/s; leave vx and vy out, or correct "
-                    f"yaw_rate",
-                    code="pinned_velocity",
-                    argument="vx",
-                )
-            return wanted_x, wanted_y
-        # In the precision they are kept in: what is too small for it counts as not given.
-        vx, vy = (np.asarray(v, dtype=np.result_type(v, wanted)) for v, wanted in ((vx, wanted_x), (vy, wanted_y)))
-        resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
-        moved_x, moved_y = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
-    moved: tuple[Any, Any] = lock((moved_x.copy(), moved_y.copy()))
-    return moved

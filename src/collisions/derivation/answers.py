@@ -8,6 +8,7 @@ from typing import Any
 
 from ..impact import Impact
 from ..kernels import codes
+from ..provenance import BareAngle
 from ..vehicle import Vehicle
 from .expressions import Function
 from .letters import Contact, letter
@@ -63,8 +64,10 @@ def given(page: Page, impact: Impact) -> None:
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
         name = f"{label} ({page.name(vehicle.name)})" if vehicle.name and vehicle.name != label else label
         rows += [(name, what, text) for what, text in _vehicle(page, vehicle)]
-    angle = impact.normal_angle
-    rows.append(("contact", "normal, direction from A into B", page.number(angle, "angle")))
+    direction = page.number(impact.normal_angle, "angle")
+    if isinstance(impact.normal, BareAngle):
+        direction += f", given as {impact.normal.radians:.6g} without a unit"
+    rows.append(("contact", "normal, direction from A into B", direction))
     if impact.point is not None and impact.model == "eccentric":
         rows.append(("contact", "contact point (x, y)", ", ".join(page.number(part, "length") for part in impact.point)))
     rows.append(("contact", "restitution e", page.number(impact.restitution, "number")))

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from ..amounts import at_least_zero
+from ..door import Door
 from ..errors import InputError, ShapeError, Status
 from ..impact import Impact
-from ..kernels import codes
+from ..one_case import need_one_case
 from ..reconstruct import MomentumSolution
 from ..reconstruct.outcome import plain_error
 from ..uncertainty.result import Propagation
-from ..units import Door, shown
+from ..units import shown
 from . import answers, momentum
 from .eccentric import eccentric
 from .linear import linear
@@ -88,14 +89,7 @@ def explain(
     """
     _allowed("units", units, SYSTEMS)
     _allowed("form", form, _FORMS)
-    if not isinstance(impact, (Impact, MomentumSolution)):
-        raise InputError(
-            f"impact must be the answer of a solver (an Impact, or a MomentumSolution), got {type(impact).__name__}; a fit or "
-            f"a single number has no steps of its own",
-            code="not_an_impact",
-            argument="impact",
-        )
-    _one_case(impact)
+    need_one_case(impact, (Impact, MomentumSolution), "explain", refused=plain_error)
     system = System(units)
     if isinstance(impact, MomentumSolution):
         page = Page(system, form == "markdown", _deviations(uncertainty, momentum.NAMES, momentum.kind_of))
@@ -155,23 +149,6 @@ def _allowed(argument: str, value: Any, allowed: tuple[str, ...]) -> None:
             code="bad_option",
             argument=argument,
         )
-
-
-def _one_case(impact: Impact | MomentumSolution) -> None:
-    """Refuses a batch, and a case that has no numbers."""
-    status = impact.status
-    if isinstance(status, np.ndarray):
-        raise ShapeError(
-            f"impact is a batch of shape {status.shape}, and a derivation is of one case; call its solver again with the "
-            f"numbers of the case to explain",
-            code="bad_shape",
-            argument="impact",
-        )
-    if status > codes.ENERGY_GAIN:
-        problem = plain_error(
-            int(status), f"the impact was refused, so there is nothing to derive: {Status(status).sentence}; mend its inputs"
-        )
-        raise problem
 
 
 def _deviations(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> dict[str, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..impact import Impact
 from ..kernels.central import shares
+from ..provenance import Reconstruction
 from .eccentric import Lever
 from .expressions import HALF, Expression, Symbol, root
 from .letters import AFTER, Body, Contact, bodies, letter
@@ -52,6 +53,13 @@ def found(page: Page, impact: Impact) -> None:
     origin = impact.reconstruction
     if origin is None:
         return
+    told(page, origin)
+    {"central": _central, "planar": _planar, "speeds": _speeds}.get(origin.method, _forward)(page, impact, origin.known)
+    page.say("What follows is the same impact forwards, from the state that was found; it ends in what was known.")
+
+
+def told(page: Page, origin: Reconstruction) -> None:
+    """Which reverse solver found the state before, from what, how well-posed that was, and whether it is the only answer."""
     page.heading("How the state before was found")
     words = _CENTRAL if origin.method == "central" else _KNOWN
     known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
@@ -62,11 +70,9 @@ def found(page: Page, impact: Impact) -> None:
     )
     if origin.answers > 1:
         page.stress(
-            f"Not the only answer: {origin.answers} impacts fit what was known, and this is one of them. Nothing here tells "
+            f"Not the only answer: {origin._fitting} fit what was known, and this is one of them. Nothing here tells "
             "which of them happened; look at the others too, and rule them out by other evidence."
         )
-    {"central": _central, "planar": _planar, "speeds": _speeds}.get(origin.method, _forward)(page, impact, origin.known)
-    page.say("What follows is the same impact forwards, from the state that was found; it ends in what was known.")
 
 
 def _forward(page: Page, impact: Impact, known: tuple[str, ...]) -> None:

@@ -8,10 +8,8 @@ from collections.abc import Iterator
 from ..errors import Status
 from ..reference import restitution_range
 from ..travel.chain import GRAVITY
-from .case import Balance, degrees, kmh, share
+from .case import RATIO_OFF_BY, Balance, degrees, kmh, off_by, share
 from .finding import Finding
-
-_ROUNDING = 2.0**-52
 
 
 def energy_gain(case: Balance) -> Iterator[Finding]:
@@ -33,7 +31,11 @@ def restitution(case: Balance) -> Iterator[Finding]:
     highest = restitution_range(closing)[1]
     told = f"the restitution of the centres is {e:.3g} at a closing speed of {kmh(closing)}"
     yield from case.above(
-        "restitution", e, f"{told}, where {highest:.2g} is the highest that published values make plausible", limit=highest
+        "restitution",
+        e,
+        f"{told}, where {highest:.2g} is the highest that published values make plausible",
+        limit=highest,
+        rounding=RATIO_OFF_BY,
     )
     yield from case.above("restitution_negative", -e, f"{told}: they would pass through each other")
 
@@ -43,8 +45,7 @@ def near_collinear(case: Balance) -> Iterator[Finding]:
     solution = case.solution
     courses = [getattr(solution, name.replace("speed", "course")) for name in solution.unknowns]
     # Ten degrees themselves count, also where rounding makes more of them.
-    rounding = _ROUNDING * (abs(courses[0]) + abs(courses[1]) + math.pi)
-    angle = max(abs(math.remainder(courses[0] - courses[1], math.pi)) - rounding, 0.0)
+    angle = max(abs(math.remainder(courses[0] - courses[1], math.pi)) - off_by(*courses, math.pi), 0.0)
     yield from case.below(
         "near_collinear",
         angle,
@@ -107,4 +108,4 @@ def suspect_inputs(case: Balance) -> Iterator[Finding]:
         name, course = max(courses.items(), key=lambda item: abs(item[1] or 0.0))
         if course is not None:
             sentence = f"{name} is {course:.6g} rad, {abs(course) / math.tau:.3g} turns; were degrees meant?"
-            yield from case.above("suspect_angle", abs(course), sentence, label)
+            yield from case.above("suspect_angle", abs(course), sentence, label, rounding=off_by(math.tau))

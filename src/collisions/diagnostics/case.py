@@ -7,12 +7,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ..idealisation import LeftOut
 from ..impact import Impact
+from ..kernels import codes
 from ..reconstruct import MomentumSolution
 from ..side import Side
+from ..vehicle import Vehicle
 from .finding import Finding
 from .limits import LIMITS
+
+# A ratio that comes out of an answer and rounds to its limit has not passed it.
+RATIO_OFF_BY = 1e-9
 
 
 class Told(NamedTuple):
@@ -43,10 +50,21 @@ class Examined:
     duration: float
     drag: float
 
-    def above(self, code: str, measured: float, sentence: str, vehicle: str = "", limit: float = math.nan) -> Iterator[Finding]:
-        """The finding, if what was measured is above its limit; ``limit`` is the default of one that depends on the case."""
+    def above(
+        self,
+        code: str,
+        measured: float,
+        sentence: str,
+        vehicle: str = "",
+        limit: float = math.nan,
+        rounding: float = 0.0,
+    ) -> Iterator[Finding]:
+        """The finding, if what was measured is above its limit by more than its rounding.
+
+        ``limit`` is the default of a limit that depends on the case.
+        """
         allowed = self._limit(code, limit)
-        if measured > allowed:
+        if measured > allowed + rounding:
             yield self._finding(code, measured, allowed, sentence, vehicle)
 
     def below(self, code: str, measured: float, sentence: str, vehicle: str = "", *, or_at: bool = False) -> Iterator[Finding]:
@@ -91,6 +109,18 @@ class Balance(Examined):
     """A reconstruction by planar momentum."""
 
     solution: MomentumSolution
+
+
+def off_by(*sizes: float) -> float:
+    """What a few sums and differences of numbers of these sizes may be off by: 16 eps of all of them together."""
+    return 16.0 * codes.EPS * sum(map(abs, sizes))
+
+
+def outline_off_by(outline: Any, vehicle: Vehicle, after: float = 0.0) -> float:
+    """What the corners may be off by where they were placed; a heading is known to eps of itself."""
+    x, y, heading = (getattr(vehicle, name) for name in ("x", "y", "heading"))
+    turned = float(np.max(np.abs(outline))) * (1.0 + abs(heading) + abs(vehicle.yaw_rate * after))
+    return off_by(x, y, vehicle.speed * after, turned)
 
 
 def named(label: str, side: Side) -> str:

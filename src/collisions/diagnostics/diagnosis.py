@@ -8,13 +8,15 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..amounts import at_least_zero
-from ..errors import InputError, ShapeError, Status
+from ..door import Door
+from ..errors import InputError, ShapeError
 from ..idealisation import left_out
 from ..impact import Impact
+from ..one_case import need_one_case
 from ..outlines import read_outline
-from ..reconstruct import Fit, MomentumSolution
+from ..reconstruct import MomentumSolution
 from ..travel.reading import one_value, read_drag
-from ..units import Door, Input
+from ..units import Input
 from . import balance, evidence, inputs, physics, robustness
 from .case import Balance, Case, Examined, Told, named
 from .finding import Finding, read_limits
@@ -141,7 +143,7 @@ def diagnose(
     """
     # A limit beyond what is plausible is one on purpose.
     door = Door(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
-    _check(impact)
+    need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     outlines = {
         label: read_outline(door, given, f"outline_{label}")
         for label, given in (("a", outline_a), ("b", outline_b))
@@ -214,35 +216,4 @@ def _check_single(duration: Any, drag: Any) -> None:
     if isinstance(duration, np.ndarray) or isinstance(drag, np.ndarray):
         raise ShapeError(
             "duration and drag take one value each: diagnose takes one case", code="bad_shape", argument="duration"
-        )
-
-
-def _check(impact: Any) -> None:
-    """Refuses what is not one answer; at once, for nothing else can be read beside it."""
-    if isinstance(impact, Fit):
-        raise InputError(
-            "impact is a Fit, which holds unknowns and no impact; diagnose the impact of your model at its values, such as "
-            "diagnose(collisions.eccentric(...)) with fit.values",
-            code="not_an_impact",
-            argument="impact",
-        )
-    if not isinstance(impact, (Impact, MomentumSolution)):
-        raise InputError(
-            f"impact must be an Impact or a MomentumSolution, got {type(impact).__name__}; write "
-            f"diagnose(collisions.eccentric(...))",
-            code="not_an_impact",
-            argument="impact",
-        )
-    if isinstance(impact.status, np.ndarray):
-        raise ShapeError(
-            f"impact is a batch of shape {impact.status.shape}, and diagnose takes one case: ask the solver again with the "
-            f"numbers of that case, such as mass=float(masses[0])",
-            code="bad_shape",
-            argument="impact",
-        )
-    if impact.status > Status.ENERGY_GAIN:
-        raise InputError(
-            f"impact was refused, so there is nothing to diagnose: {impact.status.sentence}",
-            code="refused_impact",
-            argument="impact",
         )

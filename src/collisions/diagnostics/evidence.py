@@ -10,12 +10,12 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import from_radians
+from ..door import Door
 from ..errors import MissingInputError, ShapeError
 from ..impact import Impact
 from ..reconstruct import MomentumSolution
-from ..units import Door
 from ..vehicle import missing
-from .case import Case, Evidence, Examined, degrees, kmh, share
+from .case import Case, Evidence, Examined, degrees, kmh, off_by, share
 from .finding import Finding
 
 # By so much a direction of force may be off, so that a lever which it turns tells nothing.
@@ -73,6 +73,7 @@ def momentum_energy(case: Examined) -> Iterator[Finding]:
             share(abs(crush - lost), lost),
             f"the damage takes {crush:.6g} J by the crush energy given, and momentum leaves {lost:.6g} J to be lost: speeds "
             f"or damage are wrong",
+            rounding=off_by(1.0),
         )
 
 
@@ -88,6 +89,7 @@ def pdof_off_damage(case: Examined) -> Iterator[Finding]:
                 f"{who} has a PDOF of {degrees(pdof)}, {degrees(off)} off the {degrees(seen)} that its damage shows (0 ahead, "
                 f"positive clockwise)",
                 label,
+                rounding=off_by(seen, pdof, math.tau),
             )
 
 
@@ -100,6 +102,7 @@ def delta_v_off_damage(case: Examined) -> Iterator[Finding]:
             share(abs(seen - delta_v), delta_v),
             f"{who} has a delta-V of {kmh(delta_v)}, and its damage shows {kmh(seen)}",
             label,
+            rounding=off_by(1.0),
         )
 
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError
 from ..fields import OWN, Quantities
-from ..units import Door, shown
+from ..units import shown
 from .limits import LIMITS
 
 # The door's word for a number that no domain bounds: an infinite limit switches a finding off.

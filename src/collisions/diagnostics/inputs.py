@@ -5,13 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..provenance import BareAngle
 from ..reference import CONTACT_DURATION
-from .case import Case, Examined, named
+from .case import Case, Examined, named, off_by
 from .finding import Finding
 
 
 def suspect_inputs(case: Case) -> Iterator[Finding]:
-    """Masses, speeds, yaw rates, inertias, levers and headings that no road vehicle has."""
+    """Masses, speeds, yaw rates, inertias, levers, headings and a normal that no road vehicle has."""
+    normal = case.impact.normal
+    if isinstance(normal, BareAngle):
+        turns = abs(normal.radians) / math.tau
+        sentence = f"the normal was given as {normal.radians:.6g} rad, {turns:.3g} turns; were degrees meant?"
+        yield from case.above("suspect_angle", abs(normal.radians), sentence, rounding=off_by(math.tau))
     for label, side in case.sides:
         vehicle, who = side.before, named(label, side)
         mass, inertia = vehicle.mass, vehicle.yaw_inertia
@@ -36,7 +42,7 @@ def suspect_inputs(case: Case) -> Iterator[Finding]:
         if vehicle.heading is not None:
             turns = abs(vehicle.heading) / math.tau
             sentence = f"{who} has a heading of {vehicle.heading:.6g} rad, {turns:.3g} turns; were degrees meant?"
-            yield from case.above("suspect_angle", abs(vehicle.heading), sentence, label)
+            yield from case.above("suspect_angle", abs(vehicle.heading), sentence, label, rounding=off_by(math.tau))
 
 
 def suspect_duration(case: Examined) -> Iterator[Finding]:

@@ -8,13 +8,11 @@ from collections.abc import Iterator
 from ..outlines import distance_outside, overlap, placed
 from ..reference import restitution_range
 from ..side import Side
-from .case import Case, degrees, kmh, named, share
+from .case import RATIO_OFF_BY, Case, degrees, kmh, named, off_by, outline_off_by, share
 from .finding import Finding
 
 # Of positions and outlines together.
 _READ_TO = 0.3
-# Ratios that round to the critical one have not passed it.
-_ROUNDING = 1e-9
 
 
 def energy_gain(case: Case) -> Iterator[Finding]:
@@ -69,7 +67,7 @@ def restitution(case: Case) -> Iterator[Finding]:
         f"restitution {impact.restitution:.3g} at a closing speed of {kmh(impact.closing_speed)}, where {highest:.2g} is the "
         f"highest that published values make plausible"
     )
-    yield from case.above("restitution", impact.restitution, sentence, limit=highest)
+    yield from case.above("restitution", impact.restitution, sentence, limit=highest, rounding=RATIO_OFF_BY)
 
 
 def impulse_ratio(case: Case) -> Iterator[Finding]:
@@ -83,7 +81,7 @@ def impulse_ratio(case: Case) -> Iterator[Finding]:
         part = math.inf
         what = f"drives the slip instead of ending it: the critical one is {critical:.3g}; check its sign"
     else:
-        part = 1.0 if abs(part - 1.0) <= _ROUNDING else part
+        part = 1.0 if abs(part - 1.0) <= RATIO_OFF_BY else part
         what = f"is {part:.2f} of the critical one, {critical:.3g}, which already ends the slip"
     yield from case.above("impulse_ratio", part, f"the impulse ratio {ratio:.3g} {what}")
 
@@ -141,6 +139,7 @@ def outlines(case: Case) -> Iterator[Finding]:
         overlap(*(placed(case.outlines[label], side.after, label, time) for label, side in case.sides))
         for time in (0.0, case.duration)
     )
+    off = sum(outline_off_by(case.outlines[label], side.after, case.duration) for label, side in case.sides)
     depth = max(now, 0.0)
     grown = later - depth
     yield from case.above(
@@ -148,6 +147,7 @@ def outlines(case: Case) -> Iterator[Finding]:
         grown,
         f"{case.duration:.3g} s after separation the outlines overlap by {later:.2f} m, {grown:.2f} m more than at the impact "
         f"({depth:.2f} m)",
+        rounding=off,
     )
     crush = case.left_out.mutual_crush
     yield from case.above(
@@ -156,9 +156,13 @@ def outlines(case: Case) -> Iterator[Finding]:
         f"at the impact the outlines overlap by {depth:.2f} m, and the impact crushes both together by {crush:.2f} m in "
         f"{case.duration:.3g} s; check positions and headings",
         limit=crush + _READ_TO,
+        rounding=off,
     )
     yield from case.above(
-        "outlines_gap", -now, f"at the impact there is a gap of {-now:.2f} m between the outlines; check positions and headings"
+        "outlines_gap",
+        -now,
+        f"at the impact there is a gap of {-now:.2f} m between the outlines; check positions and headings",
+        rounding=off,
     )
 
 
@@ -179,6 +183,7 @@ def normal_against_positions(case: Case) -> Iterator[Finding]:
                 behind,
                 f"along the normal, which points from A into B, the centre of B is {behind:.2f} m behind that of A; check the "
                 f"normal and the positions",
+                rounding=off_by(*a, *b),
             )
         return
     for (label, side), sign, centre in zip(case.sides, (1.0, -1.0), centres, strict=True):
@@ -190,6 +195,7 @@ def normal_against_positions(case: Case) -> Iterator[Finding]:
                 f"the normal, which points from A into B, points {'away from B' if label == 'b' else 'back into A'}: the "
                 f"centre of {named(label, side)} is {behind:.2f} m on the wrong side of the contact point",
                 label,
+                rounding=off_by(*centre, *point),
             )
 
 
@@ -211,12 +217,14 @@ def point_outside(case: Case) -> Iterator[Finding]:
         return
     for label, side in case.sides:
         if label in case.outlines:
-            distance = distance_outside(placed(case.outlines[label], side.before, label), point)
+            outline = case.outlines[label]
+            distance = distance_outside(placed(outline, side.before, label), point)
             yield from case.above(
                 "point_outside",
                 distance,
                 f"the contact point is {distance:.2f} m outside the outline of {named(label, side)}",
                 label,
+                rounding=outline_off_by(outline, side.before) + off_by(*point),
             )
 
 
@@ -271,6 +279,6 @@ def not_unique(case: Case) -> Iterator[Finding]:
         yield from case.above(
             "not_unique",
             origin.answers,
-            f"reconstruct.{origin.method} found {origin.answers} impacts that fit what was given "
+            f"reconstruct.{origin.method} found {origin._fitting} that fit what was given "
             f"({', '.join(origin.known)}), of which this is one: other evidence must tell which",
         )

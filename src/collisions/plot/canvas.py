@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, MissingInputError, ShapeError
+from ..errors import InputError, MissingInputError
 from ..impact import Impact
+from ..one_case import need_one_case
 from ..units import shown, to_quantity
 from ..vehicle import Vehicle
 
@@ -108,28 +109,10 @@ def number(value: float, decimals: int = 6) -> str:
 
 def answered(impact: Any, function: str) -> Impact:
     """The impact, if it is a single one that has an answer."""
-    if not isinstance(impact, Impact):
-        raise InputError(
-            f"impact must be an Impact, got {type(impact).__name__}; write plot.{function}(collisions.eccentric(...))",
-            code="not_an_impact",
-            argument="impact",
-        )
-    shape = getattr(impact.status, "shape", None)
-    if shape is not None:
-        raise ShapeError(
-            f"impact is a batch of shape {shape}, and plot.{function} draws one case; solve the case that is wanted again with "
-            f"numbers in place of arrays, or draw a spread with plot.distribution(propagate(...)['...'])",
-            code="bad_shape",
-            argument="impact",
-        )
-    if impact.refused:
-        raise InputError(
-            f"impact was refused, so plot.{function} has nothing to draw: {impact.status.sentence}",
-            code="refused_cases",
-            argument="impact",
-            status=impact.status.label,
-        )
-    return impact
+    spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
+    need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
+    answer: Impact = impact
+    return answer
 
 
 def who(index: int, vehicle: Vehicle) -> str:

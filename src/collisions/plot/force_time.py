@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..door import POSITIVE, Door
 from ..errors import InputError
 from ..impact import Impact
 from ..travel.reading import one_value, warn_if_above
-from ..units import POSITIVE, Door, Input, is_quantity, shown
+from ..units import Input, is_quantity, shown
 from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from .drawing import Place
 
 # All within this of one line hide each other: sine of the angle.
 ALONG_ONE_LINE = 0.03
+APART = 0.045  # of the size of the scene: between arrows that would hide each other
 
 
 def covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
@@ -29,3 +30,31 @@ def cross(one: Place, other: Place) -> float:
 def beside(place: Place, direction: Place, far: float) -> Place:
     """The place so far away in a direction."""
     return place[0] + far * direction[0], place[1] + far * direction[1]
+
+
+class Lanes:
+    """The arrows drawn so far, so that none is drawn on another one."""
+
+    def __init__(self, size: float) -> None:
+        self.size = size
+        self.moved = False
+        self._drawn: list[tuple[Place, Place]] = []
+
+    def hides(self, start: Place, vector: Place) -> bool:
+        """Whether an arrow would lie on one of them."""
+        return any(covers(start, vector, *other, self.size) for other in self._drawn)
+
+    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
+        """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
+        length = max(math.hypot(*vector) for _, vector in arrows)
+        if length == 0.0:
+            return arrows
+        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
+        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
+        found, lane = arrows, 0
+        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
+            lane += 1
+            found = [(beside(start, aside, lane * APART * self.size), vector) for start, vector in arrows]
+        self.moved = self.moved or lane > 0
+        self._drawn += [(start, vector) for start, vector in found if vector != (0.0, 0.0)]
+        return found

@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..side import Side
-from ..units import Door, shown
+from ..units import shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, THIN, Units, answered, begin, tidy, who
 from .drawing import Drawing, Place
-from .lanes import beside, covers
+from .lanes import APART, Lanes, beside
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,7 +28,6 @@ _TITLES = {
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
-_APART = 0.045  # of the size of the scene: between arrows that would hide each other
 
 
 def scene(
@@ -133,7 +133,7 @@ def scene(
             axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
             drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index])
     wheres = [at if place is None else scaled(place) for place in centres]
-    lanes = _Lanes(size)
+    lanes = Lanes(size)
     for when in _MOMENTS[moment]:
         for index, side in enumerate(sides):
             if speed_scale:
@@ -215,41 +215,13 @@ def _scale(values: list[float], factor: float, reach: float) -> float:
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 
 
-class _Lanes:
-    """The arrows drawn so far, so that none is drawn on another one."""
-
-    def __init__(self, size: float) -> None:
-        self.size = size
-        self.moved = False
-        self._drawn: list[tuple[Place, Place]] = []
-
-    def hides(self, start: Place, vector: Place) -> bool:
-        """Whether an arrow would lie on one of them."""
-        return any(covers(start, vector, *other, self.size) for other in self._drawn)
-
-    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
-        """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
-        length = max(math.hypot(*vector) for _, vector in arrows)
-        if length == 0.0:
-            return arrows
-        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
-        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
-        found, lane = arrows, 0
-        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
-            lane += 1
-            found = [(beside(start, aside, lane * _APART * self.size), vector) for start, vector in arrows]
-        self.moved = self.moved or lane > 0
-        self._drawn += [(start, vector) for start, vector in found if vector != (0.0, 0.0)]
-        return found
-
-
-def _draw_frame(drawing: Drawing, at: Place, n: Place, lanes: _Lanes, marked: bool) -> None:
+def _draw_frame(drawing: Drawing, at: Place, n: Place, lanes: Lanes, marked: bool) -> None:
     """The line of impact, the normal and the tangent, and the contact point where the model has one."""
     t, size = (-n[1], n[0]), lanes.size
     # Through both centres of mass where these lie on it.
     for vector, reach, name in ((n, 0.42 if marked else 0.62, "normal"), (t, 0.28, "tangent")):
         while lanes.hides(beside(at, vector, reach * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
-            reach += _APART
+            reach += APART
         tip = at[0] + reach * size * vector[0], at[1] + reach * size * vector[1]
         tail = at[0] - reach * size * vector[0], at[1] - reach * size * vector[1]
         drawing.line(
@@ -303,7 +275,7 @@ def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: 
 
 
 def _draw_velocity(
-    drawing: Drawing, place: Place, index: int, state: Vehicle, when: str, labels: Units, share: float, lanes: _Lanes
+    drawing: Drawing, place: Place, index: int, state: Vehicle, when: str, labels: Units, share: float, lanes: Lanes
 ) -> None:
     """The velocity before ends at the centre of mass, the one after starts there."""
     letter, colour = SIDES[index], COLOURS[index]

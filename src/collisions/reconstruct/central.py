@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
+from ..door import POSITIVE, UNIT_INTERVAL, Door
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..fields import show
 from ..impact import Asked, Impact, found_by
@@ -15,7 +16,7 @@ from ..kernels import codes
 from ..kernels.central import shares
 from ..kernels.in_line import VELOCITIES, allowed_losses, moving_apart, speeds
 from ..provenance import Reconstruction
-from ..units import POSITIVE, UNIT_INTERVAL, Door, Input
+from ..units import Input
 from ..vehicle import Vehicle
 from .outcome import Cases, exactly, input_faults, plain_error, settle
 
@@ -132,7 +133,7 @@ def central(
         with np.errstate(all="ignore"):
             condition = cases.values(_condition(numbers, answers[which], np.intp(which), eps))
         impact = asked(answers[which], True).ask()
-        return found_by(replace(origin, condition=condition), impact._asked, impact._raw, codes.OK)
+        return found_by(replace(origin, condition=condition, answers=len(answers)), impact._asked, impact._raw, codes.OK)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is None and status == codes.AMBIGUOUS:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,9 +10,11 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle
+from ..door import Door
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels import codes
-from ..units import Door, Input, Value, callers_level, is_quantity, shown
+from ..quiet import warn
+from ..units import Input, Value, is_quantity, shown
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
@@ -120,13 +121,12 @@ def crush_energy(
     # What the door has looked at in single numbers; nothing is left of a cosine of 90 degrees.
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _NO_WORK)
     if np.any(oblique):
-        warnings.warn(
+        warn(
             OutOfRangeWarning(
                 f"force_angle = {shown(force_angle)} is more than 45 deg, where the correction exceeds 2: outside what the "
                 f"crush model is used for",
                 code="force_angle",
-            ),
-            stacklevel=callers_level(),
+            )
         )
     with np.errstate(all="ignore"):
         values = [np.asarray(value, dtype=np.float64) for value in crush]

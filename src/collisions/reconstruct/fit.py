@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -16,7 +15,7 @@ from ..errors import (
     NoSolutionError,
     SuspectUnitsWarning,
 )
-from ..units import callers_level
+from ..quiet import warn
 from .fit_answer import answer_at, turns
 from .fit_place import SAME, TWICE, Place, agreed, on_bounds, seen_closely, told_at
 from .fit_question import Question, read_question, refused_everywhere
@@ -287,4 +286,4 @@ def _say(question: Question, found: Fit) -> None:
 
 
 def _warn(kind: type[CollisionsWarning], text: str, code: str) -> None:
-    warnings.warn(kind(text, code=code), stacklevel=callers_level())
+    warn(kind(text, code=code))

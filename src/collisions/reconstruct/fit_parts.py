@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from ..errors import InputError
-from ..fields import Shown, show
+from ..fields import OWN, Shown, show
 from ..uncertainty.standard_normal import score_of_coverage
 from ..units import shown, to_quantity
 
@@ -45,13 +45,13 @@ class WithUnit(Shown):
         return {name: quantity(getattr(self, name), self.unit) for name in self._in_unit()}
 
     def _in_unit(self) -> list[str]:
-        return [f.name for f in fields(self) if f.metadata.get("unit") == "own" and getattr(self, f.name) is not None]
+        return [f.name for f in fields(self) if f.metadata.get("unit") == OWN and getattr(self, f.name) is not None]
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         for f in fields(self):
             value = getattr(self, f.name)
             if value is not None and f.name != "unit":
-                yield prefix + f.name, show(value, self.unit if f.metadata.get("unit") == "own" else None)
+                yield prefix + f.name, show(value, self.unit if f.metadata.get("unit") == OWN else None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -63,12 +63,12 @@ class Estimate(WithUnit):
 
     name: str
     unit: str
-    value: float = field(metadata={"unit": "own"})
-    standard_error: float = field(metadata={"unit": "own"})
-    low: float = field(metadata={"unit": "own"})
-    high: float = field(metadata={"unit": "own"})
+    value: float = field(metadata={"unit": OWN})
+    standard_error: float = field(metadata={"unit": OWN})
+    low: float = field(metadata={"unit": OWN})
+    high: float = field(metadata={"unit": OWN})
     at_bound: str | None
-    reach: float | None = field(default=None, metadata={"unit": "own"})
+    reach: float | None = field(default=None, metadata={"unit": OWN})
 
     _title = "Estimate"
 
@@ -107,10 +107,10 @@ class Residual(WithUnit):
 
     name: str
     unit: str
-    observed: float = field(metadata={"unit": "own"})
-    computed: float = field(metadata={"unit": "own"})
-    residual: float = field(metadata={"unit": "own"})
-    sigma: float = field(metadata={"unit": "own"})
+    observed: float = field(metadata={"unit": OWN})
+    computed: float = field(metadata={"unit": OWN})
+    residual: float = field(metadata={"unit": OWN})
+    sigma: float = field(metadata={"unit": OWN})
     over_sigma: float
     is_prior: bool
 

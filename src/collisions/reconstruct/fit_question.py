@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..door import Door
 from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.inputs import Distribution, Interval, Normal, Uniform
 from ..uncertainty.model import Model
-from ..units import Door, is_quantity
+from ..units import is_quantity
 from .least_squares import Problem
 
 _TURN = 2.0 * math.pi

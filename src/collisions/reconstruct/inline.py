@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
+from ..door import POSITIVE, UNIT_INTERVAL, Door
 from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
 from ..kernels import codes
 from ..kernels.central import shares
 from ..kernels.in_line import absorbing_speed, changing_speed, losing_speed
-from ..units import POSITIVE, UNIT_INTERVAL, Door, Input, Value
+from ..units import Input, Value
 from .outcome import ASK_ALONE, Cases, exactly, input_faults, plain_error, raise_or_warn
 from .self_consistent import RestitutionOf, crossings
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
@@ -19,8 +18,9 @@ from ..errors import (
     Status,
 )
 from ..kernels import codes
-from ..units import Input, Pair, Value, callers_level
-from ..vehicle import Vehicle, missing
+from ..quiet import warn
+from ..units import Input, Pair, Value
+from ..vehicle import Vehicle, not_a_vehicle
 from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, plain_error, raise_or_warn
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
@@ -181,14 +181,13 @@ def friction(
         most = float(np.max(np.where(both, apart, 0.0)))
         hit = np.count_nonzero(both & (apart > _MISMATCH))
         by = f"{most:.0%}" if cases.shape is None else f"up to {most:.0%} in {hit} of {np.size(status)} cases"
-        warnings.warn(
+        warn(
             IllConditionedWarning(
                 f"the impulses that the motions of A and B show differ by {by}: check masses, motions, and impulses from "
                 f"outside",
                 code="momentum_mismatch",
                 mismatch=most,
-            ),
-            stacklevel=callers_level(),
+            )
         )
     observed: Value = cases.values(ratio)
     return observed
@@ -199,15 +198,7 @@ def _motions(
 ) -> tuple[dict[str, Any], dict[str, Any], Cases, list[tuple[Any, int]]]:
     """What the kernel says of the contact before and after."""
     named = {"a_before": a_before, "b_before": b_before, "a_after": a_after, "b_after": b_after}
-    wrong = [
-        InputError(
-            f"{label} must be a Vehicle, got {type(body).__name__}; write collisions.Vehicle(mass=...)",
-            code="not_a_vehicle",
-            argument=label,
-        )
-        for label, body in named.items()
-        if not isinstance(body, Vehicle)
-    ]
+    wrong = [not_a_vehicle(label, body) for label, body in named.items() if not isinstance(body, Vehicle)]
     e, n, _, _, contact, _ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong)
     everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
     sides = {}
@@ -283,10 +274,7 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
         kinds = [f"{counts['below']} below 0, down to {low:.4g}: {_STILL_APPROACH}"] if counts["below"] else []
         kinds += [f"{counts['above']} above 1, up to {high:.4g}: {_PART_FASTER}"] if counts["above"] else []
         text = f"of {sum(counts.values())} of {np.size(answer)} cases is outside 0 to 1; {'; '.join(kinds)}"
-    warnings.warn(
-        OutOfRangeWarning(f"the observed restitution {text}", code="observed_restitution", value=worst, counts=counts),
-        stacklevel=callers_level(),
-    )
+    warn(OutOfRangeWarning(f"the observed restitution {text}", code="observed_restitution", value=worst, counts=counts))
 
 
 def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any, ...]:
@@ -300,8 +288,7 @@ def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any
         unknown = np.any(np.isnan(body.yaw_rate))
         return body.mass, np.inf, body.vx, body.vy, body.yaw_rate if unknown else 0.0, 0.0, 0.0, 0.0, 0.0
     for name in ("x", "y"):
-        if getattr(body, name) is None:
-            raise missing(body, name, purpose, label)
+        body._need(name, purpose, label)
     inertia = np.inf if body.yaw_inertia is None else body.yaw_inertia
     return body.mass, inertia, *body_numbers(body, contact)[2:]
 

@@ -7,7 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arguments import check_options, first_refused, warn_of_refusals
+from ..answering import first_refused, warn_of_refusals
+from ..arguments import check_options
+from ..door import broadcast
 from ..errors import CollisionsError, InputError, NoImpactError, NoSolutionError, Status
 from ..fields import lock
 from ..impact import Asked, Impact, found_by
@@ -15,7 +17,6 @@ from ..kernels import checks, codes
 from ..kernels.batch import precision
 from ..kernels.eccentric import eccentric
 from ..provenance import Reconstruction
-from ..units import broadcast
 
 # How the names of numbers begin that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")

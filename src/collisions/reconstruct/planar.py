@@ -6,29 +6,25 @@ every origin of an end state is a candidate impulse taken off that state; the fo
 
 from __future__ import annotations
 
-import warnings
+import math
 from typing import Any
 
 import numpy as np
 
 from ..amounts import amount
 from ..arguments import read
+from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
-from ..errors import (
-    AmbiguousSolutionError,
-    CollisionsError,
-    IllConditionedWarning,
-    InputError,
-    NoSolutionError,
-    OutOfRangeWarning,
-)
+from ..errors import CollisionsError, InputError
+from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
-from ..units import Door, Input, Pair, callers_level, shown
+from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
-from .origins import End, Origin
-from .outcome import NUMBERS, Cases, exactly, input_faults, plain_error, settle
+from .origins import End
+from .outcome import NUMBERS, Cases, exactly, input_faults, settle
+from .planar_refusals import refusal, warn
 
 _REGIMES = ("frictionless", "sliding", "sticking", "given")
 _NEARLY_STICKING = 0.05  # of the jump between both ways to slide: a slip so small may be none
@@ -200,8 +196,8 @@ def _answer(
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * jump)
     condition = np.where(nearly, np.maximum(condition, jump / abs(end.slip)), condition)
 
-    def provenance(found: Any) -> Reconstruction:
-        return Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(found))
+    def provenance(found: Any, answers: Any) -> Reconstruction:
+        return Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(found), answers=answers)
 
     def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
         moved = [
@@ -216,102 +212,22 @@ def _answer(
         if cases.shape is None:
             fitting = [one for one, fit in zip(origins, fits, strict=True) if fit]
             if status in (codes.AMBIGUOUS_INVERSE, codes.STICK_INVERSE):
+                # The ends of a range are two of any number.
+                answers = math.inf if status == codes.STICK_INVERSE else len(fitting)
                 impacts = [(one, asked(list(one.motions), one.restitution, True).ask()) for one in fitting]
                 solutions = tuple(
-                    found_by(provenance(one.condition), impact._asked, impact._raw, codes.OK) for one, impact in impacts
+                    found_by(provenance(one.condition, answers), impact._asked, impact._raw, codes.OK)
+                    for one, impact in impacts
                 )
         separation, slip = cases.one(end.separation, index), cases.one(end.slip, index)
-        return _error(int(np.asarray(status)[index]), end, separation, slip, regime, solutions)
+        return refusal(int(np.asarray(status)[index]), end, separation, slip, regime, solutions)
 
     motions = [
         [np.choose(which, [one.motions[side][part] for one in origins]) if origins else np.nan for part in range(3)]
         for side in range(2)
     ]
     restitution = np.choose(which, [one.restitution for one in origins]) if origins else np.nan
-    _warn(cases, end, sure & end.pressed, nearly, origins)
-    origin = provenance(np.where(sure, condition, np.nan))
+    warn(cases, end, sure & end.pressed, nearly, origins)
+    answers = 1 if cases.shape is None else lock(np.array(np.broadcast_to(count, cases.shape), dtype=np.int64))
+    origin = provenance(np.where(sure, condition, np.nan), answers)
     return settle(asked(motions, restitution, sure), status, origin, on_failure, error)
-
-
-def _warn(cases: Cases, end: End, pressed: Any, nearly: Any, origins: list[Origin]) -> None:
-    """Says where the last digits of what was measured decide."""
-    count = "" if cases.shape is None else f"in {{}} of {int(np.prod(cases.shape))} cases "
-    if np.any(pressed):
-        most = float(np.max(np.where(pressed, end.approach, 0.0)))
-        warnings.warn(
-            OutOfRangeWarning(
-                f"{count.format(np.count_nonzero(pressed))}the contact points still approach after the impact, by up to "
-                f"{most:.3g} m/s: taken as 0, a plastic impact, and the motions after changed by as much",
-                code="nearly_plastic",
-                approach=most,
-            ),
-            stacklevel=callers_level(),
-        )
-    if np.any(nearly):
-        slips = [np.where(nearly, origin.slip, np.nan) for origin in origins if origin.regime == "sliding"]
-        if cases.shape is None and len(slips) == 2:
-            low, high = sorted(float(slip) for slip in slips)
-            ends = f"{low:.4g} to {high:.4g} m/s"
-        else:
-            ends = "a wide range"
-        least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
-        warnings.warn(
-            IllConditionedWarning(
-                f"{count.format(np.count_nonzero(nearly))}the slip after the impact, {least:.3g} m/s, is so small that it may "
-                f"be none: then the contact stuck, and the slip before was anything in {ends}. The answer follows the sign of "
-                f"that slip; carry all digits, or decide with impulse_ratio= of either sign",
-                code="nearly_sticking",
-                slip_after=least,
-            ),
-            stacklevel=callers_level(),
-        )
-
-
-def _error(
-    status: int, end: End, separation: float, slip: float, regime: str | None, solutions: tuple[Impact, ...]
-) -> CollisionsError:
-    if status == codes.AMBIGUOUS_INVERSE:
-        told = " or ".join(
-            f"{impact.regime} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of "
-            f"{impact.closing_speed:.6g} m/s"
-            for impact in solutions
-        )
-        return AmbiguousSolutionError(
-            f"{len(solutions) or 'several'} states before end so{': ' if told else ''}{told}; all are in .solutions; what "
-            f"decides is regime= (how the contact ended) or impulse_ratio= of either sign",
-            code="ambiguous_inverse",
-            solutions=solutions,
-        )
-    if status == codes.STICK_INVERSE:
-        other = ", or law='kudlich-slibar' if that is the model" if end.law == codes.BRACH else ""
-        sliding = "regime='sliding' or " if end.rule == codes.FRICTION else ""
-        ends = f".solutions holds the {len(solutions)} ends of the range, where friction is just used up; " if solutions else ""
-        return NoSolutionError(
-            f"the contact ended without slip (slip after {slip:.3g} m/s), and under {end.law!r} any slip before may end so: "
-            f"the motion across the normal is lost. {ends}{sliding}impulse_ratio= of either sign decides{other}",
-            code="stick_inverse",
-            solutions=solutions,
-        )
-    texts = {
-        codes.INVERSE_E0: "restitution = 0: after a plastic impact nothing is left of the closing speed; give closing_speed= "
-        "or energy_loss= instead",
-        codes.NOT_SEPARATING: f"the contact points do not part after the impact: separation speed {separation:.6g} m/s along "
-        f"the normal, which must point from A into B; for a plastic impact give closing_speed= or energy_loss=",
-        codes.IMMOVABLE: "nothing can yield along the normal: both bodies are fixed there; correct normal or point, or give a "
-        "finite mass",
-    }
-    text = texts.get(status)
-    if text is None and end.always_sticks():
-        text = (
-            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is {slip:.6g} m/s; if "
-            f"that is an error of measurement, the contact stuck and its motion across the normal is lost; give a finite "
-            f"friction=, or impulse_ratio= of either sign"
-        )
-    elif text is None:
-        wanted = f" in the regime {regime!r}" if regime is not None else ""
-        text = (
-            f"no motion before ends so{wanted} under {end.law!r} with this {end.rule} and {end.kind}: separation speed "
-            f"{separation:.6g} m/s, slip after {slip:.6g} m/s; check the normal and the yaw rates, or give another of "
-            f"restitution, closing_speed, energy_loss"
-        )
-    return plain_error(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import read, warn_of_refusals
+from ..answering import warn_of_refusals
+from ..arguments import read
 from ..directions import course
+from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
 from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
-from ..units import Door, Input, Pair, callers_level
+from ..quiet import warn
+from ..units import Input, Pair
 from ..vehicle import Vehicle
 from .outcome import ASK_ALONE, NUMBERS, Cases, exactly, input_faults
 from .self_consistent import RestitutionOf
@@ -246,13 +248,12 @@ def _answers(
     if cases.shape is not None and np.any(impacts[0]._raw[0] > codes.ENERGY_GAIN):
         warn_of_refusals(impacts[0]._raw[0], ASK_ALONE)
     if backward < 0.0:
-        warnings.warn(
+        warn(
             OutOfRangeWarning(
                 f"a speed came out as {backward:.6g} m/s: backwards along its course; check the courses, and the normal, which "
                 f"must point from A into B",
                 code="negative_speed",
                 value=backward,
-            ),
-            stacklevel=callers_level(),
+            )
         )
     return tuple(impacts)

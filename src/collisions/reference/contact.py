@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError
-from ..units import Door, Input, Value, shown
+from ..units import Input, Value, shown
 from .published import Fit, Outside, Published, check_outside, settle
 from .ratios import OBLIQUE_TESTS, SMALL_OVERLAP_TESTS
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError
-from ..units import Door, Input, shown
+from ..units import Input, shown
 from .published import Published
 
 _THIRTY = 30.0 * 0.44704

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import POSITIVE, Door, broadcast
 from ..errors import InputError
-from ..units import POSITIVE, Door, Input, Value, broadcast
+from ..units import Input, Value
 from .published import Fit, Outside, check_outside, settle
 
 _CARS = {"mass": (880.0, 1622.0, "kg"), "length": (3.725, 4.826, "m")}

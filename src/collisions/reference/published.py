@@ -8,9 +8,10 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, OutOfRangeWarning
 from ..quiet import warn_of_cases
-from ..units import Door, shown, to_quantity
+from ..units import shown, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from ..derivation.explaining import explain
 from ..derivation.page import Page
 from ..derivation.rounding import SYSTEMS, System
 from ..diagnostics import diagnose
-from ..errors import InputError, ShapeError
+from ..door import Door
+from ..errors import InputError
 from ..idealisation import left_out
 from ..impact import Impact
+from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
 from ..uncertainty import Propagation
-from ..units import Door, Input, shown
+from ..units import Input, shown
 from . import sections
 from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
 from .figures import figures as pictures
@@ -103,7 +103,8 @@ def report(
     """
     from .. import __version__
 
-    _check(impact)
+    momentum = ". A MomentumSolution, which knows no contact, has its page by explain(...)"
+    need_one_case(impact, (Impact,), "report", instead=momentum)
     door = Door()
     _option(door, "form", form, _FORMS)
     _option(door, "units", units, SYSTEMS)
@@ -156,31 +157,6 @@ def report(
     sections.sources(sheet, findings, __version__)
     sheet.blocks += [Heading("Record"), Record(record(impact, __version__))]
     return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
-
-
-def _check(impact: Any) -> None:
-    """Refuses what is not one impact with an answer."""
-    if not isinstance(impact, Impact):
-        raise InputError(
-            f"impact must be an Impact, got {type(impact).__name__}; write report(collisions.eccentric(...)). A "
-            f"MomentumSolution, which knows no contact, has its page by explain(...)",
-            code="not_an_impact",
-            argument="impact",
-        )
-    if isinstance(impact.status, np.ndarray):
-        raise ShapeError(
-            f"impact is a batch of shape {impact.status.shape}, and a report is of one case: ask the solver again with the "
-            f"numbers of that case, such as mass=float(masses[0]); impact.to_columns() has the table of all",
-            code="bad_shape",
-            argument="impact",
-        )
-    if impact.refused:
-        raise InputError(
-            f"impact was refused, so there is nothing to report: {impact.status.sentence}; mend its inputs and solve it again",
-            code="refused_impact",
-            argument="impact",
-            status=impact.status.label,
-        )
 
 
 def _option(door: Door, argument: str, value: Any, allowed: tuple[str, ...]) -> None:

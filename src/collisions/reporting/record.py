@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from html.parser import HTMLParser
 from typing import Any
 
+from ..door import Door
 from ..errors import InputError
 from ..fields import unit_of
 from ..impact import Impact
-from ..units import Door, shown
+from ..units import shown
 from ..vehicle import NAMES, Vehicle
 from .markdown import FENCE
 from .web import RECORD

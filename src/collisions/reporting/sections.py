@@ -12,11 +12,12 @@ from ..derivation import answers, origin
 from ..derivation.rounding import SI_UNITS
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import read_limits
+from ..door import Door
 from ..errors import Status
 from ..idealisation import LeftOut, LeftOutSide
 from ..impact import Impact
 from ..plot.canvas import who
-from ..units import Door, Input
+from ..units import Input
 from ..vehicle import Vehicle
 from .blocks import Items, Sheet, Table, plain
 
@@ -101,11 +102,8 @@ def inputs(sheet: Sheet, impact: Impact) -> None:
         "are 0 because nothing was given. The record has all digits."
     )
     origin.chosen(sheet, impact)
-    if backwards:
-        aside = sheet.aside()
-        origin.found(aside, impact)
-        # The heading, what was known, and how well-posed it was; what follows is the working.
-        sheet.blocks += aside.blocks[:3]
+    if impact.reconstruction is not None:
+        origin.told(sheet, impact.reconstruction)
 
 
 def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError
-from ..units import Door, is_quantity, shown
+from ..units import is_quantity, shown
 from .reading import one_value
 
 _HALF_TURN = math.pi * (1.0 + 1e-9)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from ..amounts import at_least_zero
+from ..door import FINITE, Door, largest
 from ..errors import ShapeError, SuspectUnitsWarning, UnitsError
-from ..units import FINITE, Door, Input, callers_level, is_quantity, shown
+from ..quiet import warn
+from ..units import Input, is_quantity, shown
 from .chain import GRAVITY
 
 Segments: TypeAlias = Input | Sequence[Input]
@@ -107,16 +106,14 @@ def read_grade(door: Door, value: Any, name: str) -> Any:
 
 def warn_if_above(limit: float, read: Any, name: str, meaning: str, *units: str) -> None:
     """Warns that a bare number is so large that it may have been meant in one of these units."""
-    # fmax passes over NaN.
-    largest = float(np.fmax.reduce(np.abs(read), axis=None, initial=0.0)) if isinstance(read, np.ndarray) else abs(read)
-    if limit < largest < math.inf:
-        spelled = " or ".join(f"'{largest:g} {unit}'" for unit in units)
-        warnings.warn(
+    worst = largest(read)
+    if limit < worst < math.inf:
+        spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
+        warn(
             SuspectUnitsWarning(
-                f"{name} = {largest:g} is read as {meaning}; if another unit was meant, write {spelled}",
+                f"{name} = {worst:g} is read as {meaning}; if another unit was meant, write {spelled}",
                 code="suspect_units",
                 argument=name,
-                value=largest,
-            ),
-            stacklevel=callers_level(),
+                value=worst,
+            )
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from itertools import pairwise
@@ -12,12 +11,14 @@ from typing import Any
 import numpy as np
 
 from ..amounts import at_least_zero
+from ..directions import angle_of
+from ..door import UNIT_INTERVAL, Door, broadcast
 from ..errors import InputError, OutOfRangeWarning
 from ..fields import Shown, derived, hypot, numeric
 from ..fields import lock as write_locked
 from ..kernels.select import divisor, select
-from ..units import UNIT_INTERVAL, Door, Input, Pair, Value, broadcast, callers_level, is_quantity, shown
-from ..vehicle import angle_of
+from ..quiet import warn
+from ..units import Input, Pair, Value, is_quantity, shown
 from .chain import durations_along, out_of_range, speeds_along
 from .lanes import settle
 from .places import read_headings, read_points, turns_too_far
@@ -316,12 +317,11 @@ def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> N
     wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if np.any((turn > _QUARTER_TURN) & (part < 1.0))]
     if wide:
         named = ", ".join(_leg(i) for i in wide)
-        warnings.warn(
+        warn(
             OutOfRangeWarning(
                 f"{named}: the vehicle turns by more than 90 deg there, and one crab angle stands for all of it; give points "
                 f"between",
                 code="wide_segment",
                 segments=tuple(wide),
-            ),
-            stacklevel=callers_level(),
+            )
         )

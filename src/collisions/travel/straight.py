@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door, broadcast
 from ..errors import NoSolutionError, ShapeError
 from ..kernels.select import select
-from ..units import Door, Input, Value, broadcast
+from ..units import Input, Value
 from .chain import GRAVITY, durations_along, out_of_range, speeds_along
 from .lanes import settle
 from .reading import Segments, for_each, read_drag, read_grade, read_length, read_speed

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError
-from ..units import Door, Input, shown
+from ..units import Input, shown
 from .distribution import Distribution, check_order, read_alike, show
 from .kept import Moments, kept_score, moments
 from .standard_normal import cdf, quantile, score_of_coverage, survival

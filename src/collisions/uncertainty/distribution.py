@@ -8,8 +8,9 @@ from typing import Any, Self
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError, UnitsError
-from ..units import Door, has_unit, is_quantity, si_unit
+from ..units import has_unit, shown, si_unit
 from .standard_normal import both_tails
 
 
@@ -187,7 +188,7 @@ def read_alike(
     bare = [name for name, value in given.items() if name not in measured and not _is_zero(value)]
     if measured and bare:
         raise UnitsError(
-            f"{bare[0]} = {_written(given[bare[0]])} has no unit, but {measured[0]} = {_written(given[measured[0]])} has one; "
+            f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = {shown(given[measured[0]])} has one; "
             f"give each with its unit, or each as a number in SI",
             code="bad_units",
             argument=bare[0],
@@ -197,7 +198,7 @@ def read_alike(
     for name, number in numbers.items():
         if isinstance(number, np.ndarray) is not arrays:
             what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
-            door.refuse(ShapeError(f"{name} must be {what}, got {_written(given[name])}", code="bad_shape", argument=name))
+            door.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
     door.close()
     return [numbers.get(name) for name in (*needed, *optional)], unit
 
@@ -205,11 +206,6 @@ def read_alike(
 def _is_zero(value: Any) -> bool:
     """0 is the same in every unit."""
     return isinstance(value, (int, float, np.integer)) and not isinstance(value, bool) and value == 0
-
-
-def _written(value: Any) -> str:
-    text = f"{value}" if is_quantity(value) else repr(value)
-    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def check_order(low: float, high: float, what: str = "low and high") -> None:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError, UnitsError
-from ..units import Door, Input, is_quantity, si_unit
+from ..units import Input, is_quantity, si_unit
 from .bell import LogNormal, Normal
 from .distribution import Distribution, Stated, check_order, read_alike
 from .samples import Samples

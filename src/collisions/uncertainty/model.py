@@ -8,9 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError, ShapeError
 from ..quiet import quietly
-from ..units import Door, is_quantity, shown, si_unit
+from ..units import is_quantity, shown, si_unit
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 

@@ -135,12 +135,16 @@ def propagate(
             code="too_many_inputs",
             argument="inputs",
         )
-    count = None if samples is None else int(samples)
     seed = secrets.randbits(64) if seed is None else int(seed)
     report = reporter(progress)
+    run: Callable[[Model, Report | None], Run] = (
+        partial(_local, method, joint)
+        if method in LOCAL
+        else partial(_sampled, method, joint, int(samples or _SAMPLES), tolerance, seed, int(threads))
+    )
     asked = failed = 0
     if not intervals:
-        runs = [_run(method, joint, count, tolerance, seed, int(threads), report, whole)]
+        runs = [run(whole, report)]
         number, outputs = 1, dict(runs[0].outputs)
         _check_answered(runs)
     else:
@@ -151,7 +155,7 @@ def propagate(
             for spot in spots:
                 at_spot = Model(model, {**fixed, **spot})
                 further = None if report is None else _further(report, sum(run.asked for run in runs), number - len(runs))
-                runs.append(_run(method, joint, count, tolerance, seed, int(threads), further, at_spot))
+                runs.append(run(at_spot, further))
                 if runs[-1].interrupted:
                     break
         except KeyboardInterrupt:
@@ -173,22 +177,8 @@ def _further(report: Report, before: int, left: int) -> Report:
     return lambda done, total: report(before + done, before + left * total)
 
 
-def _run(
-    method: str,
-    joint: Joint,
-    samples: int | None,
-    tolerance: Any,
-    seed: int,
-    threads: int,
-    report: Report | None,
-    model: Model,
-) -> Run:
-    if method in LOCAL:
-        return _local(method, joint, model)
-    return _sampled(method, joint, samples, tolerance, seed, threads, report, model)
-
-
-def _local(method: str, joint: Joint, model: Model) -> Run:
+def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Run:
+    """A run by derivatives at the mean: of so few cases that there is no progress to report."""
     second = method == "second_order"
     with np.errstate(all="ignore"):
         found, asked = slopes(model, joint, second)
@@ -201,14 +191,14 @@ def _local(method: str, joint: Joint, model: Model) -> Run:
 def _sampled(
     method: str,
     joint: Joint,
-    samples: int | None,
+    count: int,
     tolerance: Any,
     seed: int,
     threads: int,
-    report: Report | None,
     model: Model,
+    report: Report | None,
 ) -> Run:
-    count = samples or _SAMPLES
+    """A run by cases drawn from the inputs: this many, and with a tolerance more."""
 
     def design(dimensions: int) -> Design:
         return DESIGNS[method](dimensions, seed, -(-count // REPLICATES))
@@ -253,9 +243,10 @@ def _by_interval(
 ) -> Propagation:
     if correlation:
         raise InputError(
-            "method='interval' knows no likelihood, so no correlation either; leave it out", code="bad_correlation",
+            "method='interval' knows no likelihood, so no correlation either; leave it out",
+            code="bad_correlation",
             argument="correlation",
-        )  # fmt: skip
+        )
     bounds = dict(intervals)
     for name, distribution in drawn.items():
         low, high = distribution.support

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..door import Door
 from ..errors import InputError
-from ..units import Door, shown
+from ..units import shown
 from .inputs import Distribution, Interval, read_input
 from .points import DESIGNS, REPLICATES
 from .sampling import MOST_SAMPLES

@@ -72,12 +72,15 @@ class Sampled(Output):
         try:
             with np.errstate(all="ignore"):
                 edges = np.histogram_bin_edges(self._answered(), bins)
+            apart = bool(np.all(edges[1:] > edges[:-1]))
         except ValueError:
+            apart = False
+        if not apart:
             raise InputError(
                 f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
                 code="no_spread",
                 argument="bins",
-            ) from None
+            )
 
         def shares(values: Any) -> Any:
             return np.histogram(values, edges)[0] / max(1, values.size)

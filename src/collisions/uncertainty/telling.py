@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import CollisionsWarning, OutOfRangeWarning
-from ..units import callers_level
+from ..quiet import warn
 from .output import Output
 
 
@@ -65,7 +64,7 @@ def tell(method: str, runs: Sequence[Run], places: int, local: bool, asked: int,
             )
         )
     for warning in told:
-        warnings.warn(warning, stacklevel=callers_level())
+        warn(warning)
 
 
 def _not_local(method: str, runs: Sequence[Run], failed: int) -> list[CollisionsWarning]:

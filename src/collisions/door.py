@@ -1,0 +1,285 @@
+"""The door: the arguments of a call in, SI numbers out, and one error that names every argument that cannot be used.
+
+Nothing behind it ever sees a unit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
+from .quiet import warn
+from .units import example, factor, in_degrees, is_quantity, parse, shown
+
+POSITIVE = "positive"
+FINITE = "finite"
+UNIT_INTERVAL = "unit interval"
+NOT_NEGATIVE = "not negative"
+
+# Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
+_PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
+_DEEPEST = 32  # dimensions of a nested list; numpy itself stops at 64
+
+
+class Door:
+    """Reads the arguments of one call; ``close`` raises one error that names every wrong one."""
+
+    def __init__(self, trusted: Collection[str] = ()) -> None:
+        self.trusted = trusted
+        self.problems: list[InputError] = []
+        self.texts: dict[str, str] = {}
+
+    def refuse(self, problem: InputError) -> float:
+        self.problems.append(problem)
+        return math.nan
+
+    def close(self) -> None:
+        if self.problems:
+            raise self.error()
+
+    def error(self) -> InputError:
+        first = self.problems[0]
+        if len(self.problems) == 1:
+            return first
+        kinds = {type(problem) for problem in self.problems}
+        kind = kinds.pop() if len(kinds) == 1 else UnitsError if UnitsError in kinds else InputError
+        text = "\n".join(f"- {problem}" for problem in self.problems)
+        return kind(
+            f"{len(self.problems)} arguments cannot be used:\n{text}",
+            code=next((problem.code for problem in self.problems if type(problem) is kind), "several_arguments"),
+            problems=tuple(self.problems),
+        )
+
+    def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
+        """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
+        try:
+            read, text = _read(value, unit, argument)
+        except InputError as problem:
+            return self.refuse(problem)
+        if text:
+            self.texts[argument] = text
+        if isinstance(read, np.ndarray):
+            read.setflags(write=False)
+        else:
+            problem_found = _outside(read, domain, argument, value)
+            if problem_found is not None:
+                return self.refuse(problem_found)
+        if not text and argument not in self.trusted:
+            _warn_if_implausible(read, unit, argument)
+        return read
+
+    def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
+        """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
+        whole = value.magnitude if is_quantity(value) else value
+        parts = value
+        if isinstance(whole, np.ndarray):
+            parts = tuple(value) if whole.shape == (2,) and whole.dtype.kind in "fiu" else None
+        if not isinstance(parts, (tuple, list)) or len(parts) != 2:
+            shape = f" of shape {whole.shape}" if isinstance(whole, np.ndarray) else ""
+            self.refuse(
+                ShapeError(
+                    f"{argument} must be a pair (x, y), got {shown(value)}{shape}; for many points write "
+                    f"(xs, ys) with one array each, such as (points[:, 0], points[:, 1])",
+                    code="bad_shape",
+                    argument=argument,
+                )
+            )
+            return math.nan, math.nan
+        return self.number(parts[0], unit, f"{argument}[0]"), self.number(parts[1], unit, f"{argument}[1]")
+
+    def angle(self, value: Any, argument: str) -> tuple[Any, bool]:
+        """An angle, and whether it is in degrees: those are handed on as given, so that they can be reduced exactly."""
+        try:
+            quantity = parse(value, "rad", argument) if isinstance(value, str) else value
+            if in_degrees(quantity):
+                degrees, text = _convert(quantity, "degree", argument, value)
+                problem_found = None if isinstance(degrees, np.ndarray) else _outside(degrees, FINITE, argument, value)
+                if problem_found is not None:
+                    raise problem_found
+                if text:
+                    self.texts[argument] = value.strip() if isinstance(value, str) else text
+                return degrees, True
+        except InputError as problem:
+            return self.refuse(problem), False
+        return self.number(quantity, "rad", argument), False
+
+
+def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
+    """The shape the arrays among these go together to; None without any. ShapeError names them all."""
+    shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}
+    if not shapes:
+        return None
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise ShapeError(f"these arrays do not broadcast together: {listed}", code="bad_shape") from None
+
+
+def largest(value: Any) -> float:
+    """The largest magnitude among the numbers, 0 without one; NaN is passed over."""
+    if not isinstance(value, np.ndarray):
+        return abs(float(value))
+    # fmin and fmax pass over NaN, and reductions make no temporary.
+    low, high = (float(bound.reduce(value, axis=None, initial=0.0)) for bound in (np.fmin, np.fmax))
+    return max(-low, high)
+
+
+def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
+    """The value in the unit, and how it was written if it came with one."""
+    if type(value) is float:
+        return value, ""
+    if isinstance(value, str):
+        return _convert(parse(value, unit, argument), unit, argument, value)[0], value.strip()
+    if is_quantity(value):
+        return _convert(value, unit, argument, value)
+    return _plain(value, argument, unit), ""
+
+
+def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
+    """The magnitude in the unit, and the quantity as a text."""
+    magnitude = _plain(quantity.magnitude, argument, unit)
+    by, name = factor(quantity, unit, argument, given)
+    text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
+    if by == 1.0:
+        return magnitude, text
+    if isinstance(magnitude, float):
+        converted: Any = magnitude * by
+        overflows = math.isinf(converted) and not math.isinf(magnitude)
+    else:
+        infinite = np.count_nonzero(np.isinf(magnitude))
+        with np.errstate(over="ignore"):
+            magnitude *= by
+        converted, overflows = magnitude, bool(np.count_nonzero(np.isinf(magnitude)) > infinite)
+    if overflows:
+        raise InputError(f"{argument} is too large: {shown(given)}", code="out_of_range", argument=argument)
+    return converted, text
+
+
+def _plain(value: Any, argument: str, unit: str) -> Any:
+    """A float or a fresh float array from a number or an array without unit."""
+    if isinstance(value, (bool, np.bool_, np.timedelta64)):
+        raise _not_a_number(value, argument, unit)
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        try:
+            read = float(value)
+        except OverflowError:
+            read = math.inf
+        if math.isinf(read) and (isinstance(value, (int, np.integer)) or not np.isinf(value)):
+            raise InputError(
+                f"{argument} is a number too large to be held as a float: {shown(value)}",
+                code="out_of_range",
+                argument=argument,
+            )
+        return read
+    if isinstance(value, (list, tuple)):
+        value = _from_sequence(value, argument, unit)
+    elif not isinstance(value, np.ndarray):
+        if not hasattr(value, "__array__") or hasattr(value, "units") or hasattr(value, "unit"):
+            raise _not_a_number(value, argument, unit)
+        try:
+            value = value.__array__()
+        except Exception as error:
+            raise _not_a_number(value, argument, unit) from error
+    if not isinstance(value, np.ndarray):
+        raise _not_a_number(value, argument, unit)
+    if type(value) not in (np.ndarray, np.memmap):
+        raise InputError(
+            f"{argument} is a {type(value).__module__}.{type(value).__name__}, whose mask or unit would be lost; give a plain "
+            f"numpy array (masked values filled with nan), or a pint Quantity",
+            code="not_a_number",
+            argument=argument,
+        )
+    if value.dtype.kind not in "fiu":
+        raise InputError(
+            f"{argument} is an array of {value.dtype}; give an array of floats or integers, for example by .astype(float)",
+            code="not_a_number",
+            argument=argument,
+        )
+    kept = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
+    with np.errstate(over="ignore"):
+        array = np.array(value, dtype=kept)
+    if value.dtype.itemsize > 8 and bool(np.any(np.isinf(array) & ~np.isinf(value))):
+        raise InputError(f"{argument} holds numbers too large for a float64", code="out_of_range", argument=argument)
+    return float(array) if array.ndim == 0 else array
+
+
+def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
+    stack: list[tuple[Any, int]] = [(value, 0)]
+    while stack:
+        item, depth = stack.pop()
+        if isinstance(item, (list, tuple)):
+            if depth == _DEEPEST:
+                raise ShapeError(f"{argument} is nested too deeply; give an array", code="bad_shape", argument=argument)
+            stack.extend((part, depth + 1) for part in item)
+        elif is_quantity(item) or isinstance(item, str):
+            raise UnitsError(
+                f"{argument} is a {type(value).__name__} with {shown(item)} in it; put the unit on the whole: "
+                f"Quantity([1.0, 2.0], 'm/s'), or convert each to SI numbers first",
+                code="bad_units",
+                argument=argument,
+            )
+        elif isinstance(item, (bool, np.bool_, np.timedelta64)) or not (
+            isinstance(item, (int, float, np.number)) or type(item) is np.ndarray
+        ):
+            raise _not_a_number(item, argument, unit)
+    try:
+        return np.array(value)
+    except ValueError:
+        raise ShapeError(
+            f"{argument} is a {type(value).__name__} of unequal rows; give an array", code="bad_shape", argument=argument
+        ) from None
+
+
+def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
+    return InputError(
+        f"{argument} must be a number, an array or a Quantity, such as {example(unit)}; got {shown(value)} of type "
+        f"{type(value).__name__}",
+        code="not_a_number",
+        argument=argument,
+    )
+
+
+def _outside(value: float, domain: str, argument: str, given: Any) -> InputError | None:
+    """The refusal of a scalar outside its domain, if it is."""
+    if math.isnan(value) and domain in (POSITIVE, FINITE):
+        return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
+    if domain == POSITIVE and not value > 0.0:
+        return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
+    if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
+        code = "bad_restitution" if argument == "restitution" else "bad_fraction"
+        return InputError(f"{argument} must be from 0 to 1, got {shown(given)}", code=code, argument=argument)
+    if domain == NOT_NEGATIVE and not value >= 0.0:
+        return InputError(
+            f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",
+            code="bad_friction",
+            argument=argument,
+        )
+    if domain == FINITE and math.isinf(value):
+        return InputError(
+            f"{argument} must be finite, got {shown(given)}; only mass, yaw_inertia and friction may be inf",
+            code="not_finite",
+            argument=argument,
+        )
+    return None
+
+
+def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
+    limit = _PLAUSIBLE.get(unit)
+    if limit is None:
+        return
+    worst = largest(value)
+    if worst > limit and not math.isinf(worst):
+        degrees = "deg" if unit == "rad" else "deg/s"
+        warn(
+            SuspectUnitsWarning(
+                f"{argument} = {worst:g} is read as {unit}; if degrees were meant, write '{worst:g} {degrees}'",
+                code="suspect_units",
+                argument=argument,
+                value=worst,
+            )
+        )
