@@ -13,7 +13,6 @@ import collisions as col
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "speed_against_accuracy.md"
-GENERATED = ROOT / "docs" / "_generated"
 # Rows of what need not be installed.
 OPTIONAL = {"numba", "numba_threads", "pymunk"}
 

@@ -19,8 +19,6 @@ ureg = pint.get_application_registry()
 # Differences at steps of 0.01 deviations: the fourth power of the step leaves 1e-8 of the fifth derivative, below 1e-9 of the
 # gradient of the models here; rounding leaves 1.5 eps / 0.01 of the value, 1e-13, which is 1e-11 of a deviation of a hundredth.
 FIRST = 1e-9
-# Second differences: 1e-8 of the sixth derivative, and 6 eps / 0.01**2 of the value: 1e-11, so 1e-9 of such a deviation.
-SECOND = 1e-7
 
 
 def codes_of(call):

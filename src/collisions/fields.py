@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import Field, fields
 from functools import partial
-from typing import Any, ClassVar, Generic, TypeVar, overload
+from typing import Any, ClassVar, Generic, Never, TypeVar, overload
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class Derived(Generic[T]):
     def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:
         self.unit = unit
         self.work_out = work_out
-        self.name = work_out.__name__
+        self.name: str = work_out.__name__
         self.__doc__ = work_out.__doc__
 
     @overload
@@ -49,7 +49,8 @@ class Derived(Generic[T]):
             cache[self.name] = value
         return value
 
-    def __set__(self, owner: Any, value: Any) -> None:
+    # Of no type is there a value: checkers refuse every assignment.
+    def __set__(self, owner: Any, value: Never) -> None:
         raise AttributeError(f"{self.name} is worked out and cannot be set")
 
 
@@ -62,7 +63,7 @@ def returns(unit: str) -> Callable[[F], F]:
     """Declares the SI unit of what a method returns."""
 
     def declare(method: F) -> F:
-        method.unit = unit  # type: ignore[attr-defined]
+        vars(method)["unit"] = unit
         return method
 
     return declare

@@ -4,33 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .amounts import at_least_zero
-from .directions import from_radians
 from .door import Door, broadcast
+from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
-from .fields import Shown, hypot, lock, numeric
+from .fields import Shown, lock, numeric
 from .impact import Impact
 from .kernels.batch import flat, precision
 from .kernels.select import select
-from .kernels.turning import turning_velocity
-from .provenance import MODELS
-from .quiet import quietly, warn_of_cases
-from .side import Side
+from .quiet import warn_of_cases
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag, warn_if_above
 from .units import Input, Value, is_quantity
-from .vehicle import Vehicle
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
-# Share of the impulse that has passed at moments that split the half-sine into parts that weigh the same in time.
-_PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
-# So little of the tyre impulse that sticking stays sticking; a power of 2, so that scaling it back rounds nothing.
-_LITTLE = 2.0**-6
 # Cases at a time: the solver is asked twice more for each, with scratch of its own.
 _STRETCH = 4096
 
@@ -230,9 +222,9 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
         if isinstance(reach, float) and math.isinf(most + reach):
             raise out_of_range()
-        kicks = (_Kick.of(impact.a, point, most), _Kick.of(impact.b, point, most))
-        tyres = [math.nan] * 2 if lost else _with_tyres(impact, kicks)
-        moved = _with_motion(impact, point, time)
+        kicks = (Kick.of(impact.a, point, most), Kick.of(impact.b, point, most))
+        tyres = [math.nan] * 2 if lost else with_tyres(impact, kicks)
+        moved = with_motion(impact, point, time)
         found = {"duration": time, "drag": pull, **_whole(impact, time)}
         for label, kick, by_tyres, by_motion in zip("ab", kicks, tyres, moved, strict=True):
             side = getattr(impact, label)
@@ -305,122 +297,6 @@ def _whole(impact: Impact, time: Any) -> dict[str, Any]:
         "residual_crush": 0.5 * (1.0 - e) * closing * time,
         "contact_slide": 0.5 * (impact.slip_before + impact.slip_after) * time,
     }
-
-
-class _Kick(NamedTuple):
-    """What the tyres of one vehicle alone would do over the contact: to its centre, its yaw rate and its contact point."""
-
-    x: Any
-    y: Any
-    yaw: Any
-    contact_x: Any
-    contact_y: Any
-    free: Any
-    most: Any
-
-    @classmethod
-    def of(cls, side: Side, point: Any, most: Any) -> _Kick:
-        """``most`` is the change of velocity by tyres that pull one way throughout."""
-        before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
-        moves = numeric(before.mass).isfinite(before.mass)
-        most = select(moves, most, 0.0)
-        x: Any = 0.0
-        y: Any = 0.0
-        for passed in _PASSED:
-            vx, vy = before.vx + passed * change_x, before.vy + passed * change_y
-            speed = hypot(vx, vy)
-            speed = select(speed == 0.0, 1.0, speed)
-            x, y = x - vx / speed / len(_PASSED), y - vy / speed / len(_PASSED)
-        x, y = most * x, most * y
-        pull = hypot(x, y)
-        if before.pivot is None:
-            return cls(x, y, 0.0, x, y, pull, most)
-        arm_x, arm_y = before._need("x", "left_out") - before.pivot[0], before._need("y", "left_out") - before.pivot[1]
-        square = arm_x * arm_x + arm_y * arm_y
-        turning = before.mass / (before.yaw_inertia + before.mass * square)
-        yaw = turning * (arm_x * y - arm_y * x)
-        at_point = turning_velocity(yaw, point[0], point[1], before.pivot[0], before.pivot[1])
-        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * turning * square)
-
-
-def _with_tyres(impact: Impact, kicks: tuple[_Kick, _Kick]) -> list[Any]:
-    """How far delta-V of each vehicle moves by the tyres of both, if restitution ends the contact as it would without them."""
-    nx, ny = impact.normal
-    a, b = kicks
-    closing = impact.closing_speed
-    nearer = nx * (a.contact_x - b.contact_x) + ny * (a.contact_y - b.contact_y)
-    # Taken the way round that brings the vehicles nearer, for which the restitution that is wanted is below 1.
-    part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
-    faster = closing + part * nearer
-    again = _ask(
-        impact,
-        *(
-            side.before._moved(
-                side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
-            )
-            for side, kick in zip((impact.a, impact.b), kicks, strict=True)
-        ),
-        restitution=impact.restitution * (closing / faster),
-    )
-    return [
-        hypot(kick.x + (new.delta_vx - old.delta_vx) / part, kick.y + (new.delta_vy - old.delta_vy) / part)
-        for old, new, kick in zip((impact.a, impact.b), (again.a, again.b), kicks, strict=True)
-    ]
-
-
-def _with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
-    """How far delta-V of each vehicle moves when the geometry is the one of later in the contact; None without a geometry."""
-    placed = point is not None if impact.choice is None else impact.choice._which == MODELS.index("eccentric")
-    if placed is False:
-        return [None] * 2
-    if impact.refused is True or not np.any(placed):
-        return [math.nan] * 2
-    bodies, turns, places, fixed = [], [], [], []
-    for side in (impact.a, impact.b):
-        before = side.before
-        # Halfway from the mean that the force sees, T/2 (v + change/4), to the end, T (v + change/2).
-        dx, dy, turn = (
-            time * (0.75 * was + 0.3125 * change)
-            for was, change in (
-                (before.vx, side.delta_vx),
-                (before.vy, side.delta_vy),
-                (before.yaw_rate, side.delta_yaw_rate),
-            )
-        )
-        turns.append(turn)
-        # Without one the body is not known to be fixed, and a central model answered, or nothing did.
-        inertia = 0.0 if before.yaw_inertia is None else before.yaw_inertia
-        fixed.append(numeric(before.mass).isinf(before.mass) & numeric(inertia).isinf(inertia))
-        if before.x is None or before.y is None:
-            bodies.append(before)
-            places.append((dx, dy))
-            continue
-        arm = point[0] - before.x, point[1] - before.y
-        now = _turned(*arm, turn)
-        places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
-        bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
-    on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
-    again = _ask(
-        impact,
-        *bodies,
-        point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),
-        normal=_turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1]),
-    )
-    return [
-        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
-        for old, new in ((impact.a, again.a), (impact.b, again.b))
-    ]
-
-
-def _ask(impact: Impact, a: Vehicle, b: Vehicle, **changes: Any) -> Impact:
-    """The question of the impact again with other numbers; what is to be said of it was said the first time."""
-    with quietly():
-        return impact._again(a=a, b=b, **changes)
-
-
-def _turned(x: Any, y: Any, angle: Any) -> tuple[Any, Any]:
-    c, s = from_radians(angle)
-    return c * x - s * y, s * x + c * y
 
 
 def _share(part: Any, whole: Any) -> Any:

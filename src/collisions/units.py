@@ -188,8 +188,8 @@ def parse(text: str, unit: str, argument: str) -> Any:
             argument=argument,
             text=text,
         )
+    registry = _registry()
     try:
-        registry = _registry()
         return registry.Quantity(float(number.group()), registry.parse_units(name))
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from error

@@ -217,6 +217,12 @@ class Vehicle(_Written):
         _set_yaw_rate(vehicle, yaw_rate)
         return vehicle
 
+    def _told(self, texts: dict[str, str] | None) -> Vehicle:
+        """The same vehicle, with the texts that its numbers were given as."""
+        told: Vehicle = object.__new__(Vehicle)
+        told.__setstate__({**self.__getstate__(), "_given": dict(texts) if texts else self._given})
+        return told
+
     @property
     def q(self) -> Any:
         """The same attributes as pint Quantities of the application registry."""
@@ -344,8 +350,6 @@ class Vehicle(_Written):
             return NotImplemented
         return all(same(getattr(self, name), getattr(other, name)) for name in NAMES)
 
-    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
-
     def __repr__(self) -> str:
         return f"Vehicle({', '.join(f'{name}={text}' for name, text in self._rows())})"
 
@@ -372,7 +376,8 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
 
 
 # The ones that dataclass makes fail with a TypeError for names that are no field, because of the slots.
-Vehicle.__setattr__ = Vehicle.__delattr__ = _refuse_setting  # type: ignore[assignment,method-assign]
+for _name in ("__setattr__", "__delattr__"):
+    setattr(Vehicle, _name, _refuse_setting)
 
 NAMES = tuple(f.name for f in fields(Vehicle))
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}

@@ -30,6 +30,7 @@ col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, law="newton
 col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), mu=0.5)  # refused
 col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance=None)  # refused
 
+impact.closing_speed = 3.0  # refused
 print(impact.delta_v)  # refused
 impact.ees()  # refused
 print(impact.a.after.delta_v)  # refused

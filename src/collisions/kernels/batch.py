@@ -153,9 +153,7 @@ def _solved(
 ) -> dict[str, Any]:
     """The outputs of these names, the status always among them."""
     size = math.prod(shape)
-    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
-    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
-    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
+    kinds, outputs = room_for(names, size, dtype)
     # An array that is looked at more than once is cut once.
     given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
     lanes = {key: value if isinstance(value, float) else flat(value, shape) for key, value in given.items()}
@@ -182,6 +180,13 @@ def _solved(
 
     each_block(solve, range(0, size, length), size, threads, progress)
     return settled(outputs, shape, dtype)
+
+
+def room_for(names: Sequence[str], size: int, dtype: Any) -> tuple[tuple[Any, ...], list[Any]]:
+    """The type and an array for every output of these names; None for the others."""
+    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
+    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
+    return kinds, [None if kind is None else aligned(size, kind) for kind in kinds]
 
 
 def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[str, Any]:

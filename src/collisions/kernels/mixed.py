@@ -26,6 +26,7 @@ from .batch import (
     faults_of,
     flat,
     part,
+    room_for,
     settled,
 )
 from .codes import OK, OUTPUTS
@@ -103,9 +104,7 @@ def _solved(
     progress: Callable[[int, int], None] | None = None,
 ) -> dict[str, Any]:
     size = math.prod(shape)
-    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
-    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
-    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
+    kinds, outputs = room_for(names, size, dtype)
     lanes = _lanes(chain.from_iterable(model.inputs for model in models), checks, shape)
     numbers = flat(which, shape)
     works = [_work(model, size, kinds, dtype) for model in models]
