@@ -71,6 +71,15 @@ IMPACTS = {
         point=(0.0, 4.0),
         friction=0.0,
     ),
+    "rebound": col.eccentric(A, col.Vehicle.barrier(), 0.1, normal=0.1, point=(0.1, 0.3), friction=0.4),
+    "pinned and turning": col.eccentric(
+        col.Vehicle(mass=900.0, yaw_inertia=900.0, vx="60 km/h", x=-2.0, y=4.3, heading=0.0),
+        col.Vehicle(mass=1000.0, yaw_inertia=1333.0, x=0.3, y=2.0, yaw_rate=1.0, pivot=(0.0, 0.0), heading=1.0),
+        0.2,
+        normal=0.1,
+        point=(0.0, 4.0),
+        friction=0.3,
+    ),
     "wall aslant": col.eccentric(
         A.replace(vy=-3.0, yaw_rate=0.4), col.Vehicle.barrier(), 0.15, normal="20 deg", point=(0.0, -0.5), friction=0.4
     ),
@@ -269,12 +278,30 @@ def test_units_of_labels_are_those_of_pint(system):
         (414691.0, "414\u2009700"),
         (999.99, "1\u2009000"),
         (0.01234567, "0.01235"),
+        (9999.96, "10\u2009000"),
+        (0.99996, "1.000"),
         (3e-9, "3.000e\u221209"),
         (math.inf, "inf"),
     ],
 )
 def test_numbers_have_four_digits_and_no_exponent_if_it_can_be_helped(value, text):
     assert number(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "decimals", "text"),
+    [
+        (128.529, 0, "129"),
+        (-128.529, 0, "\u2212129"),
+        (128.5, 0, "128"),
+        (12.3456, 1, "12.3"),
+        (99.949, 1, "99.9"),
+        (0.3, 0, "0.3000"),
+    ],
+)
+def test_a_number_is_rounded_once(value, decimals, text):
+    """From what it is, and not from its first four digits; half goes to even."""
+    assert number(value, decimals) == text
 
 
 @pytest.mark.parametrize(
@@ -537,6 +564,96 @@ def test_the_pivot_is_marked():
     assert "pivot of B" in [text.get_text() for text in axes.texts]
 
 
+@pytest.mark.parametrize("case", ["example 3", "pinned and turning"])
+def test_the_impulse_of_the_pivot_is_drawn_at_the_pivot(case):
+    """In the scale of the other impulses, with its size; none before the impact, and none without a pivot."""
+    side = IMPACTS[case].b
+    axes = plot.scene(IMPACTS[case], units="metric")
+    start, tip = arrows(axes)["pivot_impulse.b"]
+    assert start == pytest.approx((0.0, 0.0), abs=1e-12)
+    per_impulse = scale(axes, "impulses") * 1e3
+    assert (tip - start) * per_impulse == pytest.approx((side.pivot_impulse_x, side.pivot_impulse_y), rel=1e-9, abs=1e-6)
+    size = math.hypot(side.pivot_impulse_x, side.pivot_impulse_y)
+    assert f"impulse of the pivot on B\n{number(size / 1e3)} kN s" in [text.get_text() for text in axes.texts]
+    assert not [name for name in arrows(plot.scene(IMPACTS[case], moment="before")) if "impulse" in name]
+    assert "pivot_impulse.b" not in arrows(drawn("scene", "sticking"))
+
+
+LONG = "Volkswagen Transporter T5 Kombi 2.0 TDI 4Motion of a witness"
+
+
+def named_long(impact):
+    """The same with a name of sixty letters for each."""
+    a, b = (side.before.replace(name=name) for side, name in ((impact.a, LONG), (impact.b, LONG[::-1])))
+    return col.eccentric(a, b, impact.restitution, friction=impact.friction, **T_BONE)
+
+
+def in_points(axes, place):
+    """As printed."""
+    return axes.transData.transform(place) * 72.0 / axes.figure.dpi
+
+
+def test_a_slow_rebound_is_not_under_the_arrow_that_arrives():
+    """Its ends are further from the line of that arrow than half a head is wide, 3 points, and from the mark of the centre, 5."""
+    axes = plot.scene(IMPACTS["rebound"], outline_a=(4.4, 1.8), units="metric")
+    axes.figure.draw_without_rendering()
+    ends = arrows(axes)
+    (_, centre), after = (in_points(axes, ends[f"a.{when}"]) for when in ("before", "after"))
+    assert min(abs(after[:, 1] - centre[1])) > 3.0
+    assert min(np.hypot(*(place - centre)) for place in after) > 5.0
+    assert "drawn side by side" in axes.get_xlabel()
+
+
+def test_a_label_does_not_stand_on_the_other_vehicle():
+    """What is said of A not on B, nor what is said of B on A, by a quarter of it or more."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.EnergyGainWarning)
+        gain = col.eccentric(A, B, 1.0, impulse_ratio=0.5, **T_BONE)
+    for impact in (gain, named_long(IMPACTS["sticking"]), *(IMPACTS[case] for case in ("pinned and turning", "head-on"))):
+        axes = plot.scene(impact, outline_a=(4.4, 1.8), outline_b=(4.2, 1.75), units="metric")
+        axes.figure.draw_without_rendering()
+        paths = {letter: named(axes, f"{letter.lower()}.outline").get_path() for letter in "AB"}
+        to_data = axes.transData.inverted().transform
+        for text in axes.texts:
+            found = re.match(r"([AB])( |$)|impulse on ([AB])|impulse of the pivot on ([AB])|pivot of ([AB])", text.get_text())
+            if found is None:
+                continue
+            own = found.group(1) or found.group(3) or found.group(4) or found.group(5)
+            box = text.get_window_extent()
+            other = paths["B" if own == "A" else "A"]
+            inside = other.contains_points(to_data(list(itertools.product(*np.linspace(box.p0, box.p1, 9).T))))
+            assert np.mean(inside) < 0.25, text.get_text()
+        plt.close(axes.figure)
+
+
+def test_long_names_leave_room_for_the_picture():
+    """In lines of their own; the title within the figure, and no two of the energies' names on each other."""
+    impact = named_long(IMPACTS["sticking"])
+    bars = plot.energy(impact)
+    bars.figure.draw_without_rendering()
+    assert bars.bbox.width > 0.5 * bars.figure.bbox.width
+    _, boxes = told_beside(bars.yaxis)
+    assert all(other.y1 < one.y0 + 1.0 or one.y1 < other.y0 + 1.0 for one, other in itertools.combinations(boxes, 2))
+    for axes in (bars, plot.momentum(impact), plot.scene(impact), plot.force_time(impact, 0.1)):
+        axes.figure.draw_without_rendering()
+        title = axes.title.get_window_extent()
+        assert title.x0 >= 0.0
+        assert title.x1 <= axes.figure.bbox.width
+        texts = [text for text in axes.texts if text.get_text()]
+        wide = [text for text in texts if text.get_window_extent().width > 0.4 * axes.figure.bbox.width]
+        assert wide == []
+    # What does not fit is seen to go on.
+    everything = "\n".join(text.get_text() for text in plot.scene(named_long_more(impact)).texts)
+    assert "\u2026" in everything
+
+
+def named_long_more(impact):
+    """More than three lines."""
+    return col.eccentric(
+        impact.a.before.replace(name=3 * LONG), impact.b.before, impact.restitution, friction=impact.friction, **T_BONE
+    )
+
+
 def test_yaw_rates_say_which_way_round():
     """A turns counter-clockwise after this impact, B clockwise."""
     texts = "\n".join(text.get_text() for text in plot.scene(IMPACTS["sticking"], units="metric").texts)
@@ -558,7 +675,9 @@ def test_names_are_text_and_no_formula():
     ("picture", "case"),
     [
         *(("scene", case) for case in ("example 2", "oblique", "sticking", "elastic", "head-on", "example 3", "wall aslant")),
+        *(("scene", case) for case in ("rebound", "pinned and turning")),
         ("momentum", "sticking"),
+        ("momentum", "pinned and turning"),
     ],
 )
 def test_labels_do_not_hide_each_other(picture, case):
@@ -636,7 +755,40 @@ def test_what_a_pivot_gives_closes_the_diagram():
     found = vectors(plot.momentum(impact, units="metric"))
     assert found["outside"] == pytest.approx((impact.b.pivot_impulse_x / 1e3, impact.b.pivot_impulse_y / 1e3), abs=1e-12)
     assert math.hypot(*found["outside"]) == pytest.approx(3.65, abs=0.005)
-    assert found["total.before"] + found["outside"] == pytest.approx(found["total.after"])
+    before, after = (
+        sum(side.before.momentum[0] if when == "before" else side.after.momentum[0] for side in (impact.a, impact.b)) / 1e3
+        for when in ("before", "after")
+    )
+    assert before + found["outside"][0] == pytest.approx(after)
+
+
+def test_the_diagram_of_a_pinned_body_is_closed():
+    """A, B and what the pivot gives are head to tail, A' and B' too, and both begin and end at one place, or are joined there."""
+    axes = drawn("momentum", "pinned and turning")
+    ends = arrows(axes)
+    assert set(ends) == {"before.a", "before.b", "after.a", "after.b", "outside"}
+    near = {"abs": 1e-9 * np.hypot(*ends["before.a"][1])}
+    assert ends["before.a"][0] == pytest.approx((0.0, 0.0))
+    for one, other in (("before.a", "before.b"), ("before.b", "outside"), ("after.a", "after.b")):
+        assert ends[one][1] == pytest.approx(ends[other][0], **near)
+    aside = ends["after.a"][0]
+    assert ends["after.b"][1] - ends["outside"][1] == pytest.approx(aside, **near)
+    assert np.hypot(*aside) > 0.0
+    assert named(axes, "begin").get_xydata()[1] == pytest.approx(aside, **near)
+    assert named(axes, "end").get_xydata() == pytest.approx(np.array([ends["outside"][1], ends["after.b"][1]]), **near)
+    assert "thin lines join what is one place" in axes.get_title()
+    dashes = [line._unscaled_dash_pattern for line in axes.get_lines() if not line.get_label().startswith("_")]
+    colours = [line.get_color() for line in axes.get_lines() if not line.get_label().startswith("_")]
+    assert len({(str(dash), colour) for dash, colour in zip(dashes, colours, strict=True)}) == 5
+
+
+def test_a_pinned_body_whose_momenta_are_apart_needs_no_lines():
+    """Both chains from the origin."""
+    axes = drawn("momentum", "wall aslant")
+    ends = arrows(axes)
+    assert ends["after.a"][0] == pytest.approx((0.0, 0.0))
+    assert ends["after.a"][1] == pytest.approx(ends["outside"][1])
+    assert not {"begin", "end"} & names(axes)
 
 
 def test_what_a_wall_gives_closes_the_diagram():
@@ -801,7 +953,7 @@ def test_the_mean_force_is_the_impulse_over_the_duration():
     [
         (0.0, "not_positive"),
         (-0.1, "not_positive"),
-        (math.inf, "bad_shape"),
+        (math.inf, "not_finite"),
         (math.nan, "not_finite"),
         (np.array([0.1, 0.2]), "bad_shape"),
         ([0.1], "bad_shape"),
@@ -813,6 +965,8 @@ def test_a_duration_that_cannot_be_is_refused(given, code):
     with pytest.raises(col.InputError, match="duration") as caught:
         plot.force_time(IMPACTS["example 2"], given)
     assert caught.value.code == code
+    # An infinite one is refused, so it is not offered.
+    assert "inf allowed" not in str(caught.value)
     assert not plt.get_fignums()
 
 
@@ -912,6 +1066,33 @@ def test_pictures_of_an_output_have_its_unit(system, unit):
     title = plot.contributions(RESULT, "energy", units=system).get_title()
     assert title.startswith(f"energy: standard deviation {number(spread)} {unit}")
     assert plot.distribution(RESULT["energy"], units=system).get_xlabel() == f"energy [{unit}]"
+
+
+def test_each_share_has_its_figure_beside_its_own_mark():
+    """Inputs that act together: bar and diamond are far apart, and each figure is nearer to its own; none is minus nothing."""
+
+    def product(a, b, c):
+        return {"y": a * b + 0.3 * c}
+
+    known = {name: uncertainty.Normal(mean, 1.0) for name, mean in (("a", 0.3), ("b", 0.2), ("c", 0.0))}
+    result = uncertainty.propagate(product, known, method="quasi_random", samples=2048, seed=1)
+    axes = plot.contributions(result)
+    axes.figure.draw_without_rendering()
+    found = result["y"]
+    boxes = []
+    for name in found.contributions:
+        own, total = 100.0 * found.contributions[name], 100.0 * found.total_contributions[name]
+        labels = [named(axes, f"{which} of {name}") for which in ("own", "total")]
+        assert [label.get_text() for label in labels] == [f"{own:.1f} %", f"in all {total:.1f} %"]
+        errors = [100.0 * error for error in found.contribution_standard_errors[name]]
+        assert [label.xy[0] for label in labels] == pytest.approx([own + errors[0], total + errors[1]])
+        boxes += [label.get_window_extent() for label in labels]
+    for one, other in itertools.combinations(boxes, 2):
+        assert min(min(one.x1, other.x1) - max(one.x0, other.x0), min(one.y1, other.y1) - max(one.y0, other.y0)) <= 1.0
+    idle = uncertainty.propagate(
+        lambda a, b: {"y": a + 1e-9 * b}, {"a": known["a"], "b": known["b"]}, method="quasi_random", samples=256, seed=1
+    )
+    assert not any("\u22120.0" in text.get_text() for text in plot.contributions(idle).texts)
 
 
 def test_an_output_without_a_unit_is_not_given_one():

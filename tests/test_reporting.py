@@ -4,6 +4,7 @@ import html
 import json
 import math
 import os
+import pickle
 import re
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from contextlib import nullcontext
 from html.parser import HTMLParser
 from pathlib import Path
 
+import jsonschema
 import pint
 import pytest
 
@@ -19,7 +21,8 @@ import collisions as col
 from collisions import reconstruct, uncertainty
 from collisions.derivation import explain
 from collisions.diagnostics import LIMITS, diagnose
-from collisions.reporting import replay, report
+from collisions.reporting import options, replay, report
+from collisions.schema import impact_schema
 
 mpl = pytest.importorskip("matplotlib")
 mpl.use("agg")
@@ -238,7 +241,8 @@ def test_html_of_other_parts_is_whole_too(name, impacts):
 def test_names_stay_names(impacts, evil_page):
     page = Page(evil_page)
     assert f"A ({EVIL})" in page.of("caption")
-    assert any(EVIL in text for text in page.of("text"))
+    # A figure shortens long names.
+    assert any(EVIL[:12] in text for text in page.of("text"))
     # What turns the reading direction, or cannot be seen, is shown as such.
     assert "B (a\ufffdb\ufffdc # d 漢)" in page.of("caption")
     text = report(impacts["evil"], form="markdown").split("```json")[0]
@@ -318,7 +322,7 @@ def test_ees_needs_a_share():
 def test_every_finding_is_told(impacts):
     limits = {"tyre_impulse": 0.01}
     for name in ("pinned", "eccentric", "energy gain"):
-        found = diagnose(impacts[name], limits=limits)
+        found = diagnose(impacts[name], limits=limits, units="si")
         assert found
         text = re.sub(r"\\(.)", r"\1", report(impacts[name], form="markdown", limits=limits))
         for finding in found:
@@ -384,7 +388,8 @@ def test_uncertainty_is_told():
     low, high = output.interval()
     assert ("b.delta_v", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
     share = output.contributions["speed"]
-    assert ("b.delta_v", "share of the variance by speed", f"{100 * share:.0f} percent") in rows(part)
+    error = output.contribution_standard_errors["speed"][0]
+    assert ("b.delta_v", "share of the variance by speed", f"{100 * share:.0f} ± {100 * error:.0f} percent") in rows(part)
     assert any(row[:2] == ("own", "figures") for row in rows(part))
     assert "64 cases, 0 without an answer, seed 1" in part
     assert "Normal(mean=15 m/s, sd=0.5556 m/s)" in part
@@ -524,11 +529,26 @@ def test_a_record_that_was_changed_is_refused(change, said):
         replay(tampered(report(crash(), form="markdown"), change))
 
 
-def test_a_record_that_was_changed_in_its_numbers_makes_another_report():
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda r: r["impact"]["inputs"].update(restitution=0.2), "its inputs do not give its separation_speed, 2.0, but 4.0"),
+        (lambda r: r["impact"]["results"].update(energy_loss=3.0), "its inputs do not give its energy_loss, 3.0, but 89100"),
+        (lambda r: r["impact"]["results"]["b"].update(delta_v=12.0), "its inputs do not give its b.delta_v, 12.0, but 11.0"),
+        (
+            lambda r: r["impact"]["results"].update(kind="plastic"),
+            "its inputs do not give its kind, 'plastic', but 'elastoplastic'",
+        ),
+    ],
+)
+def test_results_of_a_record_must_be_those_of_its_inputs(change, said):
+    """Whoever changes an input or a result alone is found out."""
     page = report(col.linear_central(col.Vehicle(mass=900, vx=20.0), col.Vehicle(mass=900), 0.1), form="markdown")
-    other = replay(tampered(page, lambda r: r["impact"]["inputs"].update(restitution=0.2)))
-    assert other.restitution == 0.2
-    assert report(other, form="markdown") != page
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        replay(tampered(page, change))
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_record", "text")
+    # What another machine may round is let through.
+    assert replay(tampered(page, lambda r: r["impact"]["results"].update(energy_loss=89100.000001))).energy_loss == 89100.0
 
 
 @pytest.mark.parametrize(
@@ -551,3 +571,360 @@ def test_a_unit_of_another_registry_is_kept_as_it_was_written():
     page = report(impact, form="markdown")
     assert ("A (Golf)", "mass", "1460 kg, given as 100.0 slugfest") in rows(page)
     assert report(replay(page), form="markdown") == page
+
+
+# Inputs stand on the page as they were given.
+
+
+def in_texts():
+    """The scene of ``crash`` with units on every number of the contact."""
+    return col.eccentric(golf(), polo(), "10 %", normal="10 deg", point=("1 in", UREG.Quantity(2.0, "inch")), friction="0.5")
+
+
+def test_the_contact_is_shown_as_given():
+    """In SI and in the units of the page; what reads the same is not said twice."""
+    si, us = (rows(report(in_texts(), form="markdown", units=units)) for units in ("si", "us"))
+    assert ("contact", "normal, direction from A into B", "0.1745 rad, given as 10 deg") in si
+    assert ("contact", "normal, direction from A into B", "10 deg") in us
+    # An inch is 0.0254 m and a twelfth of a foot.
+    assert ("contact", "contact point (x, y)", "0.0254 m, 0.0508 m, given as 1 in, 2.0 inch") in si
+    assert ("contact", "contact point (x, y)", "0.0833 ft, 0.1667 ft, given as 1 in, 2.0 inch") in us
+    assert ("contact", "restitution e", "0.1, given as 10 %") in si
+    for rule in ("impulse_ratio", "critical_fraction"):
+        page = report(crash(**{rule: "10 %"}), form="markdown")
+        assert ("contact", rule.replace("_", " "), "0.1, given as 10 %") in rows(page)
+        assert report(replay(page), **options(page)) == page
+
+
+def test_no_value_is_said_to_be_si_that_was_not():
+    """Also one of a batch, whose unit is not kept."""
+    many = col.linear_central(golf(vx=UREG.Quantity([36.0, 54.0], "km/h")), col.Vehicle(mass=900), "20 %")
+    page = report(many.case(0), form="markdown")
+    assert "SI numbers" not in page
+    assert ("A (Golf)", "velocity along x", "10 m/s") in rows(page)
+    # What was one number for all cases keeps its text.
+    assert ("A (Golf)", "mass", "1500 kg") in rows(page)
+    assert ("contact", "restitution e", "0.2, given as 20 %") in rows(page)
+
+
+@pytest.mark.parametrize("make", ["in_texts", "solved", "of a batch"])
+def test_texts_go_with_the_impact(make):
+    """Through solve, pickle, record and a case of a batch; the impact is that of its numbers."""
+    given = {"normal": "10 deg", "point[0]": "1 in", "restitution": "10 %"}
+    contact = {"normal": "10 deg", "point": ("1 in", 0.0), "friction": 0.5}
+    plain = {"normal": math.radians(10.0), "point": (0.0254, 0.0), "friction": 0.5}
+    if make == "in_texts":
+        impact, same = (col.eccentric(golf(), polo(), e, **where) for e, where in (("10 %", contact), (0.1, plain)))
+    elif make == "solved":
+        impact, same = (col.solve(golf(), polo(), e, **where) for e, where in (("10 %", contact), (0.1, plain)))
+    else:
+        impact = col.eccentric(golf(vx=[15.0, 16.0]), polo(), "10 %", **contact).case(0)
+        same = col.eccentric(golf(vx=15.0), polo(), 0.1, **plain)
+    assert impact.b.delta_v == pytest.approx(same.b.delta_v, rel=1e-12)
+    record = json.loads(json.dumps(impact.to_dict()))
+    jsonschema.validate(record, impact_schema())
+    assert record["inputs"]["given_as"] == given
+    for one in (impact, pickle.loads(pickle.dumps(impact)), col.Impact.from_dict(record)):
+        assert one == impact
+        assert one.to_dict()["inputs"]["given_as"] == given
+    assert "given_as" not in same.to_dict()["inputs"]
+    assert replay(report(impact, form="markdown")) == impact
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("normal", "20 deg", "its normal"), ("point[0]", "2 in", "its point[0], 0.0254, is not that of '2 in'"),
+        ("restitution", "20 %", "its restitution, 0.1, is not that of '20 %'"), ("friction", 0.5, "is no dict of texts"),
+        ("friction", "0.6", "its friction, 0.5, is not that of '0.6'"),
+    ],
+)  # fmt: skip
+def test_texts_of_the_contact_must_be_its_numbers(name, text, said):
+    record = in_texts().to_dict()
+    record["inputs"]["given_as"][name] = text
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        col.Impact.from_dict(record)
+    assert caught.value.code == "bad_record"
+    page = tampered(report(in_texts(), form="markdown"), lambda r: r["impact"]["inputs"]["given_as"].update({name: text}))
+    with pytest.raises(col.InputError, match=re.escape(said)):
+        replay(page)
+
+
+def told_backwards():
+    """What each reverse solver was told, in texts."""
+    central = reconstruct.central("2425 lb", "2094 lb", va="50 mph", vb="0 mph", vb_after="37 mph")
+    end = crash(friction=0.02)
+    after = {label: side.after.replace(vx=f"{side.after.vx!r} m/s") for label, side in (("a", end.a), ("b", end.b))}
+    contact = {"normal": "10 deg", "point": (0, 0), "friction": 0.5}
+    planar = reconstruct.planar(
+        after["a"], after["b"], closing_speed=f"{end.closing_speed!r} m/s", regime="sliding", **(contact | {"friction": 0.02})
+    )
+    (speeds, *_) = reconstruct.speeds(golf(), polo(), course_a="0 deg", course_b="-90 deg", speed_b="30 km/h",
+                                      delta_v_a="5 m/s", restitution="10 %", **contact)  # fmt: skip
+    return {"central": central, "planar": planar, "speeds": speeds}
+
+
+@pytest.mark.parametrize("solver", ["central", "planar", "speeds"])
+def test_what_a_reverse_solver_was_told_stands_on_its_report(solver):
+    """As text; and the texts of what stayed as it was given, the mass."""
+    impact = told_backwards()[solver]
+    page = report(impact, form="markdown")
+    shown = rows(page)
+    wanted = {
+        # A pound is 0.45359237 kg and a mile per hour 0.44704 m/s.
+        "central": [("A", "mass", "1100 kg, given as 2425 lb"), ("A", "velocity along x", "22.352 m/s, given as 50 mph"),
+                    ("known", "velocity of B after", "16.54 m/s, given as 37 mph")],
+        "planar": [("A (Golf)", "mass", "1500 kg"), ("known", "closing speed", f"{impact.closing_speed:.4g} m/s, given as {impact.closing_speed!r} m/s")],
+        "speeds": [("A (Golf)", "mass", "1500 kg"), ("known", "speed of B before", "8.333 m/s, given as 30 km/h"),
+                   ("known", "course of B before", "-1.571 rad, given as -90 deg"), ("known", "delta-V of A", "5 m/s"),
+                   ("contact", "restitution e", "0.1, given as 10 %")],
+    }  # fmt: skip
+    for row in wanted[solver]:
+        assert row in shown, row
+    assert "given as" in section(page, "How the state before was found")
+    again = replay(page)
+    assert again == impact
+    assert report(again, form="markdown") == page
+
+
+@pytest.mark.parametrize(
+    ("solver", "name", "text", "said"),
+    [
+        ("central", "vb_after", "40 mph", "vb_after was given as '40 mph', but the velocity of B after is 16.540"),
+        ("planar", "closing_speed", "10 m/s", "closing_speed was given as '10 m/s'"),
+        ("planar", "a_after.vx", "1 m/s", "a_after.vx was given as '1 m/s'"),
+        ("speeds", "course_b", "-80 deg", "course_b was given as '-80 deg'"),
+        ("speeds", "delta_v_a", "6 m/s", "delta_v_a was given as '6 m/s'"),
+        ("speeds", "energy_loss", "6 J", "energy_loss was given as '6 J'"),
+        ("speeds", "tyres", "4", "it has no 'tyres' that could have been given"),
+    ],
+)
+def test_texts_that_a_reverse_solver_was_told_must_come_out(solver, name, text, said):
+    page = report(told_backwards()[solver], form="markdown")
+    with pytest.raises(col.InputError, match=re.escape(said)):
+        replay(tampered(page, lambda r: r["impact"]["inputs"]["given_as"].update({name: text})))
+
+
+def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
+    """What somebody typed; a number that was worked out has its digits in the record."""
+    shown = rows(report(crash(golf(mass=1234.567, heading=math.pi / 7.0), e=0.1234567), form="markdown", units="us"))
+    assert ("A (Golf)", "mass", "2722 lb, exactly 1234.567 kg") in shown
+    assert ("contact", "restitution e", "0.1235, exactly 0.1234567") in shown
+    assert ("A (Golf)", "heading", "25.71 deg") in shown
+    # 2600 kg m2 is what was typed, and no number of six figures in these units.
+    assert ("B (Polo)", "mass", "2600 lb, given as 2600.0 pound") in shown
+
+
+# What the damage shows.
+
+
+def test_damage_that_contradicts_stands_on_the_page():
+    """All that diagnose takes, among the inputs as given, and the findings they make."""
+    evidence = {
+        "crush_energy": "20 kJ", "damage_pdof_a": "40 deg", "damage_pdof_b": -1.0, "damage_delta_v_a": UREG.Quantity(50.0, "km/hour"),
+        "damage_delta_v_b": 3.0,
+    }  # fmt: skip
+    page = report(crash(), form="markdown", **evidence)
+    given = rows(section(page, "Inputs"))
+    assert ("damage", "crush energy, both vehicles", "20000 J, given as 20 kJ") in given
+    assert ("damage of A", "PDOF that the damage shows", "0.6981 rad, given as 40 deg") in given
+    assert ("damage of B", "PDOF that the damage shows", "-1 rad") in given
+    assert any(
+        row[:2] == ("damage of A", "delta-V that the damage or the recorder shows") and "50.0 k" in row[2] for row in given
+    )
+    found = {finding.code for finding in diagnose(crash(), **evidence)}
+    assert {"momentum_energy", "pdof_off_damage", "delta_v_off_damage"} <= found
+    told = re.sub(r"\\(.)", r"\1", section(page, "Findings"))
+    for code in found:
+        assert f"**{code}" in told
+    assert report(replay(page), **options(page)) == page
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        ({"crush_energy": -1.0}, "negative_energy"),
+        ({"damage_pdof_a": "3 m"}, "bad_units"),
+        ({"damage_delta_v_b": [1.0]}, "bad_shape"),
+    ],
+)
+def test_evidence_is_refused_as_by_diagnose(change, code):
+    with pytest.raises(col.InputError) as caught:
+        report(crash(), form="markdown", **change)
+    assert caught.value.code == code
+
+
+def test_only_what_was_measured_is_counted():
+    """Of point masses without outlines, evidence and reconstruction: what needs those is named as not made."""
+    impact = col.oblique_central(golf(heading=None), polo(heading=None, x=4.0), 0.1, normal=0, friction=0.5)
+    limits = dict.fromkeys([finding.code for finding in diagnose(impact)], math.inf)
+    text = section(report(impact, form="markdown", limits=limits), "Findings").replace("\\", "")
+    made = int(re.search(r"None of the (\d+) checks that were made found anything", text)[1])
+    others = set(re.search(r"or are switched off: (.*)\.", text)[1].split(", "))
+    assert others >= {
+        "near_collinear", "restitution_negative", "speed_backwards", "momentum_energy", "pdof_off_damage", "delta_v_off_damage",
+        "yaw_against_lever", "outlines_overlap", "outlines_gap", "outlines_interpenetrate", "point_outside", "ill_conditioned",
+        "not_unique", *limits,
+    }  # fmt: skip
+    assert made == len(LIMITS) - len(others) == len(diagnose(impact, limits=limits).measured)
+    with_outlines = diagnose(crash(), outline_a=(4.2, 1.8), outline_b=(4.0, 1.7), crush_energy=1.0)
+    assert with_outlines.measured >= {"outlines_overlap", "point_outside", "momentum_energy"}
+    assert pickle.loads(pickle.dumps(with_outlines)).measured == with_outlines.measured
+
+
+# Uncertainty: what an interval leaves open, and what is only rounding.
+
+
+def sliding(speed):
+    """A contact that slides whatever the speed, so that the direction of its impulse stays."""
+    answer = col.eccentric(golf(vx=speed), polo(), 0.1, normal="10 deg", point=(0, 0), friction=0.02)
+    return {"impulse_ratio": answer.impulse_ratio, "a.pdof": answer.a.q.pdof}
+
+
+def test_an_interval_has_a_range_and_no_deviation():
+    """The deviation within leaves out how far the interval goes."""
+    inputs = {"speed": uncertainty.Interval("40 km/h", "70 km/h"), "restitution": uncertainty.Uniform(0.05, 0.15)}
+
+    def model(speed, restitution):
+        answer = crash(golf(vx=speed), e=restitution, on_failure="nan")
+        return {"b.delta_v": answer.b.q.delta_v, "energy_loss": answer.q.energy_loss, "own": speed + restitution}
+
+    known = uncertainty.propagate(model, inputs, method="quasi_random", samples=64, seed=1)
+    page = report(crash(), form="markdown", uncertainty=known, derivation=True)
+    low, high = known["b.delta_v"].interval()
+    assert high - low > 10.0 * max(known["b.delta_v"].std)
+    assert not re.search(r"± [\d(]", page.split("```json")[0])
+    assert page.count("m/s (") >= 2
+    assert ("B (Polo)", "delta-V", f"{crash().b.delta_v:.2f} m/s ({low:.2f} to {high:.2f} m/s)") in rows(
+        section(page, "Results")
+    )
+
+
+def test_intervals_alone_have_no_mean():
+    inputs = {"speed": uncertainty.Interval("50 km/h", "58 km/h"), "restitution": uncertainty.Interval(0.05, 0.15)}
+    known = uncertainty.propagate(lambda **given: {"b.delta_v": crash(golf(vx=given["speed"]), e=given["restitution"]).b.q.delta_v},
+                                  inputs, method="interval")  # fmt: skip
+    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    low, high = known["b.delta_v"].interval()
+    assert ("b.delta_v", "range, wherever in the intervals the truth is", f"{low:.2f} m/s to {high:.2f} m/s") in rows(part)
+    assert "mean" not in part
+    assert "95 percent" not in part
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order"])
+def test_rounding_is_no_deviation(method):
+    """Of a ratio that is always the friction: no dust for digits, no shares of nothing, and no alarm."""
+    options = {} if method == "first_order" else {"samples": 64, "seed": 1}
+    known = uncertainty.propagate(sliding, {"speed": uncertainty.Normal("54 km/h", "1 km/h")}, method=method, **options)
+    impact = crash(friction=0.02)
+    page = report(impact, uncertainty=known, form="markdown", units="metric")
+    part = section(page, "Uncertainty, given the stated inputs")
+    assert [row[1:] for row in rows(part) if row[0] == "impulse_ratio"] == [
+        ("the same in every case", f"{impact.impulse_ratio:.2f}")
+    ]
+    assert "nan" not in part
+    assert not re.search(r"\d\.\d{6}", part)
+    assert "lies outside" not in page
+    assert ("contact", "impulse ratio", f"{impact.impulse_ratio:.2f}") in rows(section(page, "Results"))
+    drawn = Page(report(rear_end(), uncertainty=known))
+    assert "impulse_ratio: no figures, because it is the same in every case." in drawn.of("p")
+
+
+def test_shares_stay_within_0_and_100_percent():
+    """A small sample puts some of them outside, by less than their error."""
+    inputs = {"speed": uncertainty.Normal("54 km/h", "9 km/h"), "nothing": uncertainty.Normal(0.0, 1e-3)}
+
+    def model(speed, nothing):
+        return {"b.delta_v": crash(golf(vx=speed + 0.0 * nothing)).b.q.delta_v, "own": speed + nothing}
+
+    known = uncertainty.propagate(model, inputs, method="monte_carlo", samples=200, seed=3)
+    shares = [share for name in known for share in known[name].contributions.values()]
+    assert any(share > 1.005 or share < 0.0 for share in shares)
+    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    told = [row[2] for row in rows(part) if row[1].startswith("share")]
+    assert told
+    for text in told:
+        assert re.fullmatch(r"(\d|[1-9]\d|100)( ± \d+)? percent", text), text
+
+
+# The page is made again from itself.
+
+
+def test_the_options_of_a_page_are_in_its_record():
+    given = {
+        "title": "Case 7", "units": "us", "outline_a": (4.2, 1.8), "outline_b": (("13 ft", 1.0), (-2.0, 1.0), (-2.0, -1.0)),
+        "duration": UREG.Quantity(90.0, "ms"), "drag": 0.6, "limits": {"normal": math.inf, "pdof_off_damage": "20 deg"}, "share_a": "50 %",
+        "notes": ["One.", "Two <b>."], "derivation": True, "damage_pdof_a": "10 deg", "crush_energy": 81e3,
+    }  # fmt: skip
+    for form in ("html", "markdown"):
+        page = report(crash(), form=form, figures=False, **given)
+        found = options(page)
+        assert found.keys() == given.keys() | {"figures"} | ({"form"} if form == "markdown" else set())
+        assert found["limits"] == given["limits"]
+        assert report(replay(page), **found) == page
+    assert options(report(crash(), figures=False)) == {"figures": False}
+    drawn = uncertainty.propagate(lambda speed: {"own": speed}, {"speed": uncertainty.Normal(15.0, 1.0)}, samples=64,
+                                  method="quasi_random", seed=5)  # fmt: skip
+    _, _, rest = report(crash(), form="markdown", uncertainty=drawn).partition("```json\n")
+    assert json.loads(rest.partition("```")[0])["uncertainty"] == {"method": "quasi_random", "samples": 64, "seed": 5}
+
+
+def test_a_unit_that_only_another_registry_has_is_kept_as_its_number():
+    registry = pint.UnitRegistry()
+    registry.define("blink = 0.3 s")
+    page = report(crash(), form="markdown", duration=registry.Quantity(0.5, "blink"))
+    assert options(page)["duration"] == 0.15
+    assert report(replay(page), **options(page)) == page
+
+
+@pytest.mark.parametrize("wrong", [3, {"tyres": 4}, {"outline_a": 3}, {"limits": 3}])
+def test_options_that_report_does_not_take_are_refused(wrong):
+    page = tampered(report(crash(), form="markdown"), lambda r: r.update(options=wrong))
+    with pytest.raises(col.InputError, match="its options are none that report takes") as caught:
+        options(page)
+    assert caught.value.code == "bad_record"
+
+
+def test_a_byte_order_mark_does_no_harm():
+    """Editors put one before the first letter."""
+    for form in ("html", "markdown"):
+        assert replay("\ufeff" + report(crash(), form=form, figures=False)) == crash()
+
+
+def test_bad_records_name_the_text():
+    page = report(crash(), form="markdown")
+    for change in (
+        lambda r: r["impact"]["inputs"]["a"].update(vx=-99.0),
+        lambda r: r["impact"]["inputs"]["a"].update(mass=-5.0),
+    ):
+        with pytest.raises(col.InputError) as caught:
+            replay(tampered(page, change))
+        assert (caught.value.code, caught.value.fields["argument"]) == ("bad_record", "text")
+
+
+def test_a_name_with_half_a_letter_can_be_written():
+    """A lone surrogate stands for no sign; the record keeps it."""
+    impact = crash(golf(name="\ud800x"))
+    page = report(impact, derivation=True, uncertainty=spread("b.delta_v"))
+    assert Page(page.encode("utf-8").decode("utf-8")).tags.count("svg") >= 4
+    assert replay(page).a.before.name == "\ud800x"
+    assert report(impact, form="markdown", derivation=True).encode("utf-8")
+
+
+@pytest.mark.parametrize("share", [[0.5], [0.5, 0.6]])
+def test_a_share_of_many_cases_is_refused(share):
+    with pytest.raises(col.ShapeError, match="share_a takes one value") as caught:
+        report(crash(), share_a=share)
+    assert caught.value.code == "bad_shape"
+
+
+def test_sticking_and_sliding_say_what_is_so():
+    """The ratio has the sign of the slip; under "kudlich-slibar" slip ends, and may come back."""
+    one_way, other_way = crash(friction=0.02), crash(golf(vy=-12.0), friction=0.02)
+    assert one_way.regime == other_way.regime == "sliding"
+    assert one_way.impulse_ratio * other_way.impulse_ratio < 0.0
+    for impact in (one_way, other_way):
+        assert "the impulse ratio has the size of the friction given" in report(impact, form="markdown")
+    back = crash(law="kudlich-slibar")
+    assert back.slip_after * back.slip_before < 0.0
+    assert "slip ends during the contact, with less than the friction given" in report(back, form="markdown")

@@ -9,11 +9,10 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from .directions import direction, from_radians
-from .door import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Door
+from .door import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Door, largest
 from .errors import InputError
 from .fields import lock
 from .kernels import codes
-from .provenance import BareAngle
 from .units import has_unit, is_quantity, shown
 from .vehicle import Vehicle, not_a_vehicle
 
@@ -27,7 +26,7 @@ TANGENTIAL_DOMAINS = {codes.FRICTION: NOT_NEGATIVE, codes.IMPULSE_RATIO: FINITE,
 
 
 class Read(NamedTuple):
-    """The shared arguments as numbers; ``plain`` if all of them are floats."""
+    """The shared arguments as numbers; ``plain`` if all of them are floats, ``given`` as for ``Asked``."""
 
     restitution: Any
     normal: tuple[Any, Any]
@@ -35,6 +34,7 @@ class Read(NamedTuple):
     bound: Any
     point: tuple[Any, Any] | None
     plain: bool
+    given: dict[str, Any] | None
 
 
 def read(
@@ -71,16 +71,16 @@ def read(
         )
     ):
         if type(normal) is float and normal == 0.0:
-            return _as_read(Read, (restitution, _ALONG_X, codes.FRICTION, friction, point, True))
+            return _as_read(Read, (restitution, _ALONG_X, codes.FRICTION, friction, point, True, None))
         if type(normal) is float and -6.0 < normal < 6.0:
-            return _as_read(Read, (restitution, from_radians(normal), codes.FRICTION, friction, point, True))
+            return _as_read(Read, (restitution, from_radians(normal), codes.FRICTION, friction, point, True, None))
     door = Door()
     door.problems.extend(known)
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             door.refuse(not_a_vehicle(label, vehicle))
     e = door.number(restitution, "", "restitution", UNIT_INTERVAL)
-    unit = _normal(door, normal)
+    unit = direction(door, normal, "normal")
     contact = None if point is None else door.pair(point, "m", "point")
     rule, bound = _tangential(door, (friction, impulse_ratio, critical_fraction))
     if not isinstance(law, str) or law not in codes.LAWS:
@@ -93,22 +93,18 @@ def read(
             )
         )
     door.close()
-    return Read(e, unit, rule, bound, contact, np.ndarray not in map(type, (e, bound, *unit, *(contact or ()))))
+    # Of a vector only the direction counts.
+    texts = {name: text for name, text in door.texts.items() if not name.startswith("normal[")}
+    given = {**texts, **_beyond_a_turn(normal)}
+    return Read(e, unit, rule, bound, contact, np.ndarray not in map(type, (e, bound, *unit, *(contact or ()))), given or None)
 
 
-def _normal(door: Door, given: Any) -> tuple[Any, Any]:
-    """The unit normal, which of numbers of more than a turn keeps them: they may have been meant in degrees."""
-    unit = direction(door, given, "normal")
-    if isinstance(given, BareAngle):
-        return BareAngle(unit, given.radians)
-    if door.problems or isinstance(given, tuple) or has_unit(given):
-        return unit
-    radians: Any = np.array(given.magnitude if is_quantity(given) else given, dtype=np.asarray(unit[0]).dtype)
-    low, high = (bound.reduce(radians, axis=None, initial=0.0) for bound in (np.fmin, np.fmax))
-    if low >= -math.tau and high <= math.tau:
-        return unit
-    kept: Any = lock(radians) if radians.ndim else float(radians)
-    return BareAngle(unit, kept)
+def _beyond_a_turn(normal: Any) -> dict[str, Any]:
+    """A normal given without a unit as an angle of more than a turn, which may have been meant in degrees."""
+    if isinstance(normal, tuple) or has_unit(normal):
+        return {}
+    radians: Any = np.array(normal.magnitude if is_quantity(normal) else normal, dtype=np.float64)
+    return {"normal": lock(radians) if radians.ndim else float(radians)} if largest(radians) > math.tau else {}
 
 
 def _tangential(door: Door, values: tuple[Any, Any, Any]) -> tuple[str, Any]:

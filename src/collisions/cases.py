@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from .errors import InputError, ShapeError
-from .provenance import BareAngle
 from .units import shown
 from .vehicle import NAMES, Vehicle
 
@@ -19,11 +18,10 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
     if isinstance(whole, np.ndarray):
         return take(whole)
     if isinstance(whole, Vehicle):
-        return Vehicle._of_numbers({name: part_of(getattr(whole, name), take) for name in NAMES})
+        part = Vehicle._of_numbers({name: part_of(getattr(whole, name), take) for name in NAMES})
+        return part._told(whole._given)
     if isinstance(whole, Mapping):
         return {name: part_of(value, take) for name, value in whole.items()}
-    if isinstance(whole, BareAngle):
-        return BareAngle((part_of(whole[0], take), part_of(whole[1], take)), part_of(whole.radians, take))
     if isinstance(whole, tuple):
         parts = [part_of(value, take) for value in whole]
         return type(whole)(*parts) if hasattr(whole, "_fields") else tuple(parts)

@@ -90,14 +90,14 @@ def eccentric(
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
     """
-    e, n, rule, bound, contact, plain = read(
+    e, n, rule, bound, contact, plain, given = read(
         a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, missing_numbers(a, b, point)
     )
     return answer(
         kernel,
         (e, *n, bound, *(contact or ()), *body_numbers(a, contact), *body_numbers(b, contact)),
         (rule, law, a.pivot is not None, b.pivot is not None),
-        ("eccentric", a, b, e, n, rule, bound, law, contact),
+        ("eccentric", a, b, e, n, rule, bound, law, contact, given),
         plain,
         None,
         on_failure,

@@ -28,7 +28,10 @@ SOLVERS: dict[str, Callable[..., Impact]] = {}
 
 
 class Asked(NamedTuple):
-    """What a solver was asked, in numbers: enough to ask it again."""
+    """What a solver was asked, in numbers: enough to ask it again.
+
+    ``given`` has the texts of what was given with a unit, by argument, and an angle of more than a turn that had none.
+    """
 
     model: str
     a: Vehicle
@@ -39,6 +42,13 @@ class Asked(NamedTuple):
     bound: Value
     law: str | None
     point: tuple[Value, Value] | None
+    given: Mapping[str, Any] | None = None
+
+    @property
+    def bare_normal(self) -> Any:
+        """The normal as an angle of more than a turn that was given without a unit; None for any other."""
+        normal = None if self.given is None else self.given.get("normal")
+        return None if isinstance(normal, str) else normal
 
     def ask(self, **options: Any) -> Impact:
         """Put the question to its solver again."""
@@ -48,7 +58,10 @@ class Asked(NamedTuple):
         # ``solve`` is also asked without a point, where none is needed.
         if self.point is not None or self.model == "solve":
             arguments["point"] = self.point
-        return SOLVERS[self.model](self.a, self.b, self.restitution, **arguments)
+        impact = SOLVERS[self.model](self.a, self.b, self.restitution, **arguments)
+        if self.given is not None:
+            _set_asked(impact, impact._asked._replace(given=self.given))
+        return impact
 
 
 class Impact:
@@ -334,7 +347,7 @@ class Impact:
     def _again(self, **changes: Any) -> Impact:
         """The answer of the same model to the same question with some of it changed, NaN where it is refused."""
         options = {} if self.choice is None else {"tolerance": self.choice}
-        return self._asked._replace(**changes).ask(on_failure="nan", **options)
+        return self._asked._replace(**changes, given=None).ask(on_failure="nan", **options)
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
@@ -414,9 +427,9 @@ class Impact:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):
             return NotImplemented
-        return all(map(same, self._asked, other._asked)) and all(map(same, self._raw, other._raw))
-
-    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
+        # How a number was written does not make it another.
+        one, two = (asked._replace(given=None) for asked in (self._asked, other._asked))
+        return all(map(same, one, two)) and all(map(same, self._raw, other._raw))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an Impact is frozen: {name} cannot be set")

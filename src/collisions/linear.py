@@ -73,7 +73,7 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    e, n, rule, bound, _, plain = read(
+    e, n, rule, bound, _, plain, given = read(
         a, b, restitution, normal, None, 0.0, None, None, codes.BRACH, pivots("linear_central", a, b)
     )
     nx, ny = n
@@ -82,7 +82,7 @@ def linear_central(
         kernel,
         (e, nx, ny, a.mass, vx_a, vy_a, b.mass, vx_b, vy_b),
         (),
-        ("linear_central", a, b, e, n, rule, bound, None, None),
+        ("linear_central", a, b, e, n, rule, bound, None, None, given),
         plain,
         (outside_linear, (nx, ny, a.yaw_rate, vx_a, vy_a, b.yaw_rate, vx_b, vy_b)),
         on_failure,

@@ -77,14 +77,14 @@ def oblique_central(
     >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
     (3.464, -3.0, 2.0)
     """
-    e, n, rule, bound, _, plain = read(
+    e, n, rule, bound, _, plain, given = read(
         a, b, restitution, normal, None, friction, impulse_ratio, critical_fraction, law, pivots("oblique_central", a, b)
     )
     return answer(
         kernel,
         (e, n[0], n[1], bound, a.mass, a.vx, a.vy, b.mass, b.vx, b.vy),
         (rule, law),
-        ("oblique_central", a, b, e, n, rule, bound, law, None),
+        ("oblique_central", a, b, e, n, rule, bound, law, None, given),
         plain,
         (outside_central, (a.yaw_rate, b.yaw_rate)),
         on_failure,

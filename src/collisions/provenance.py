@@ -46,23 +46,6 @@ class Reconstruction:
         return "a whole range of impacts" if self.answers == math.inf else f"{self.answers} impacts"
 
 
-class BareAngle(tuple[Value, Value]):
-    """The unit vector of an angle that was given as a number without a unit, which it keeps, for what is to be said of it.
-
-    Otherwise a pair like any other, and equal to one with the same numbers.
-    """
-
-    radians: Value
-
-    def __new__(cls, vector: tuple[Value, Value], radians: Value) -> BareAngle:
-        made = super().__new__(cls, vector)
-        made.radians = radians
-        return made
-
-    def __getnewargs__(self) -> tuple[Any, ...]:
-        return tuple(self), self.radians
-
-
 class ByModel(Mapping[str, Any]):
     """What is known of each model, by its name: like a dict that cannot be changed. ``.q`` has the numbers as Quantities."""
 
@@ -90,8 +73,6 @@ class ByModel(Mapping[str, Any]):
         if not isinstance(other, Mapping):
             return NotImplemented
         return self.keys() == other.keys() and all(same(value, other[name]) for name, value in self.items())
-
-    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ByModel, (self._values, self._unit)
@@ -143,8 +124,6 @@ class ModelChoice(Shown):
         if not isinstance(other, ModelChoice):
             return NotImplemented
         return all(same(getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
-
-    __hash__ = None  # type: ignore[assignment]  # compares by value and may hold arrays
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         yield prefix + "model", show(self.model)

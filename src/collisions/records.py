@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .directions import from_radians
+from .directions import direction, from_radians
+from .door import Door
 from .errors import InputError, Status
 from .fields import attributes, lock
 from .kernels import codes
-from .provenance import BareAngle, ModelChoice, Reconstruction
+from .provenance import ModelChoice, Reconstruction
 from .side import Side
 from .units import shown
 from .vehicle import NAMES, Vehicle
@@ -23,9 +24,10 @@ _NOTHING = dict.fromkeys(NAMES)
 _NUMBERS = ("restitution", "normal", "bound", "point")
 _MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
-_BARE = "normal_given_as"  # a number without a unit
+_GIVEN = "given_as"  # texts, and a normal of more than a turn as the number without a unit that it was
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _SAME = 1e-5  # between cosines and sines of one angle, also in float32
+_READ = 2e-9  # relative, between a number and the text it was given as, which is read by the same rules
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
@@ -33,8 +35,8 @@ def to_record(impact: Any) -> dict[str, Any]:
     """Inputs to ask it again from, and every result to read."""
     asked = impact._asked
     inputs = {name: _strict(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
-    if isinstance(asked.normal, BareAngle):
-        inputs[_BARE] = _strict(asked.normal.radians)
+    if asked.given is not None:
+        inputs[_GIVEN] = _strict(asked.given)
     results = {name: _strict(value) for name, value in _results(impact) if name not in inputs}
     return {
         "format": FORMAT,
@@ -52,8 +54,8 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
             raise bad_record(f"its model is {shown(question['model'])} and its rule {shown(question['rule'])}")
-        if _BARE in inputs:
-            question["normal"] = _bare(question["normal"], _number(inputs[_BARE]))
+        if _GIVEN in inputs:
+            question["given"] = _given(inputs[_GIVEN], question)
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
@@ -77,11 +79,29 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
     return question, options, origin, status
 
 
-def _bare(normal: Any, radians: Any) -> BareAngle:
-    """A normal and the number it was given as, which must have its direction."""
-    if not np.allclose(normal, from_radians(radians), rtol=0.0, atol=_SAME, equal_nan=True):
-        raise bad_record(f"its normal, {shown(normal)}, is not that of {shown(radians)} rad, as which it was given")
-    return BareAngle(normal, lock(radians))
+def _given(record: Mapping[str, Any], question: Mapping[str, Any]) -> dict[str, Any]:
+    """How the inputs were given; what is told of the contact must give its numbers."""
+    given = {str(name): text if isinstance(text, str) else lock(_number(text)) for name, text in record.items()}
+    if not all(isinstance(text, str) for name, text in given.items() if name != "normal"):
+        raise bad_record("how its inputs were given is no dict of texts")
+    numbers = {"restitution": (question["restitution"], ""), question["rule"]: (question["bound"], "")}
+    numbers |= {f"point[{i}]": (part, "m") for i, part in enumerate(question["point"] or ())}
+    for name, text in given.items():
+        door = Door()
+        if name == "normal":
+            number: Any = question["normal"]
+            unit = "" if isinstance(text, str) else " rad"
+            read: Any = direction(door, text, name) if isinstance(text, str) else from_radians(text)
+        elif name in numbers:
+            number, kind = numbers[name]
+            read, unit = door.number(text, kind, name), ""
+        else:
+            continue
+        off = _SAME if name == "normal" else 0.0
+        # A unit of another registry cannot be read here.
+        if not door.problems and not np.allclose(read, number, rtol=_READ, atol=off, equal_nan=True):
+            raise bad_record(f"its {name}, {shown(number)}, is not that of {shown(text)}{unit}, as which it was given")
+    return given
 
 
 def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:

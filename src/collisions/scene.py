@@ -177,11 +177,11 @@ def _read(
     limit = amount(door, tolerance, "m/s", "tolerance") if given is None else given.tolerance
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
         _refuse_first(door, limit)
-    e, n, rule, bound, contact, plain = read(
+    e, n, rule, bound, contact, plain, texts = read(
         a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, door.problems
     )
     missing = [f"{label}.{name}" for label, name in lacking(a, b)] + (["point"] if contact is None else [])
-    return _Question(Asked("solve", a, b, e, n, rule, bound, law, contact), limit, given, tuple(missing), plain)
+    return _Question(Asked("solve", a, b, e, n, rule, bound, law, contact, texts), limit, given, tuple(missing), plain)
 
 
 def _refuse_first(door: Door, tolerances: Any) -> None:

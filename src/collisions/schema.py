@@ -97,10 +97,12 @@ def _inputs() -> dict[str, Any]:
         "law": {"enum": [*codes.LAWS, None]},
         "point": {"anyOf": [pair, {"type": "null"}], "description": "Contact point [m]."},
     }
-    question = _closed({name: asked[name] for name in Asked._fields})
-    question["properties"]["normal_given_as"] = {
-        **value,
-        "description": "The normal as an angle [rad], if given without a unit.",
+    question = _closed({name: asked[name] for name in Asked._fields if name != "given"})
+    question["properties"]["given_as"] = {
+        "type": "object",
+        "properties": {"normal": {"anyOf": [{"type": "string"}, value]}},
+        "additionalProperties": {"type": "string"},
+        "description": "By argument the text of what was given with a unit; a normal of more than a turn without one [rad].",
     }
     return question | {
         "allOf": [

@@ -8,7 +8,6 @@ from typing import Any
 
 from ..impact import Impact
 from ..kernels import codes
-from ..provenance import BareAngle
 from ..vehicle import Vehicle
 from .expressions import Function
 from .letters import Contact, letter
@@ -65,8 +64,9 @@ def given(page: Page, impact: Impact) -> None:
         name = f"{label} ({page.name(vehicle.name)})" if vehicle.name and vehicle.name != label else label
         rows += [(name, what, text) for what, text in _vehicle(page, vehicle)]
     direction = page.number(impact.normal_angle, "angle")
-    if isinstance(impact.normal, BareAngle):
-        direction += f", given as {impact.normal.radians:.6g} without a unit"
+    bare = impact._asked.bare_normal
+    if bare is not None:
+        direction += f", given as {bare:.6g} without a unit"
     rows.append(("contact", "normal, direction from A into B", direction))
     if impact.point is not None and impact.model == "eccentric":
         rows.append(("contact", "contact point (x, y)", ", ".join(page.number(part, "length") for part in impact.point)))
@@ -122,6 +122,8 @@ def answers(page: Page, impact: Impact) -> None:
             if impact.model != "eccentric" and name.endswith("yaw_rate"):
                 continue
             if side.before.pivot is None and name.startswith("pivot"):
+                continue
+            if name == "after.course" and page.system.working(side.after.speed, "speed") == "0":
                 continue
             value = _read(side, name)
             if value is not None and not math.isnan(value):

@@ -9,8 +9,8 @@ from ..impact import Impact
 from ..kernels.eccentric import response
 from .energy import energy
 from .expressions import Expression, Symbol, total
-from .letters import AFTER, COMPRESSED, Body, Contact, bodies, letter
-from .oblique import components, scene_axes
+from .letters import AFTER, BEFORE, COMPRESSED, Body, Contact, bodies, letter
+from .oblique import components, kept, scene_axes
 from .page import Page
 from .pinned import moments_about_pivot, turned
 from .tangential import Mobility, impulses
@@ -64,12 +64,14 @@ class Lever:
                 self.body.inertia + self.body.mass * (d_x.squared() + d_y.squared()),
             )
 
-    def at_contact(self, page: Page, when: str, caption: str) -> None:
+    def at_contact(self, page: Page, when: str, caption: str, directions: str = "nt") -> None:
         """The velocity of the body at the contact."""
-        body, spin = self.body, self.body.spin(when)
-        for direction, name, lever, sign in (("n", "normal", self.t, -1.0), ("t", "tangent", self.n, 1.0)):
+        # What nothing changes has the letter that it had before.
+        body, spin = self.body, self.body.spin(when if self.turns else BEFORE)
+        for direction in directions:
+            name, lever, sign = ("normal", self.t, -1.0) if direction == "n" else ("tangent", self.n, 1.0)
             turning = spin * lever
-            center = body.along(direction, when)
+            center = body.along(direction, BEFORE if body.fixed else when)
             if self.pinned:
                 found: Expression = -turning if sign < 0.0 else turning
             elif not self.matters or spin.value == 0.0:
@@ -94,9 +96,8 @@ def eccentric(page: Page, impact: Impact) -> None:
     levers = [Lever(body) for body in pair]
     page.heading("Eccentric impact")
     page.say(
-        "The line of impact misses a centre of mass, so the vehicles turn. The normal n points from A into B, and t is n "
-        "turned by 90 degrees counter-clockwise; yaw is positive counter-clockwise. The impulse P acts on B at the contact C, "
-        "and -P on A (1)."
+        f"{_turns(page, levers)} The normal n points from A into B, and t is n turned by 90 degrees counter-clockwise; yaw is "
+        "positive counter-clockwise. The impulse P acts on B at the contact C, and -P on A (1)."
     )
     for lever in levers:
         if lever.matters:
@@ -105,8 +106,11 @@ def eccentric(page: Page, impact: Impact) -> None:
     for lever in levers:
         if not lever.pinned:
             components(page, lever.body, contact)
-        if lever.body.state("before").speed != 0.0 or lever.body.spin().value != 0.0:
-            lever.at_contact(page, "before", f"Velocity of {lever.body.label} at the contact")
+        label, (n, t) = lever.body.label, (lever.body.along(direction, contact=True) for direction in "nt")
+        if lever.body.state(BEFORE).speed != 0.0 or lever.body.spin().value != 0.0:
+            lever.at_contact(page, BEFORE, f"Velocity of {label} at the contact")
+        else:
+            page.say(f"{label} is at rest at the contact too: {page.shown(n)} and {page.shown(t)}.")
     a, b = pair
     page.equation("Closing speed", contact.closing, a.along("n", contact=True) - b.along("n", contact=True))
     page.equation("Slip, of B relative to A", contact.slip, b.along("t", contact=True) - a.along("t", contact=True))
@@ -122,11 +126,22 @@ def eccentric(page: Page, impact: Impact) -> None:
     )
     page.heading("Check at the contact")
     for lever in levers:
-        if lever.pinned or lever.turns or not lever.body.fixed:
-            lever.at_contact(page, AFTER, f"Velocity of {lever.body.label} at the contact after")
-    _restitution(page, contact, a, b)
+        lever.at_contact(page, AFTER, f"Velocity of {lever.body.label} at the contact after")
+    _restitution(page, contact, levers)
     page.equation("Slip after", contact.slip_after, b.along("t", AFTER, True) - a.along("t", AFTER, True))
     energy(page, impact, contact)
+
+
+def _turns(page: Page, levers: list[Lever]) -> str:
+    """Which yaw rates the impulse changes."""
+    turned = [lever for lever in levers if page.system.working(lever.body.side.delta_yaw_rate, "yaw rate") != "0"]
+    if not turned:
+        return "The impulse has no moment about a body that could turn, so it changes no yaw rate."
+    about = " and ".join(f"the {'pivot' if lever.pinned else 'centre of mass'} of {lever.body.label}" for lever in turned)
+    if len(turned) == 2:
+        return f"The impulse has a moment about {about}, which changes both yaw rates."
+    (other,) = (lever.body.label for lever in levers if lever is not turned[0])
+    return f"The impulse has a moment about {about}, which changes its yaw rate; that of {other} stays."
 
 
 def _mobility(page: Page, impact: Impact, contact: Contact, levers: list[Lever]) -> Mobility:
@@ -161,7 +176,7 @@ def _after(page: Page, lever: Lever, contact: Contact) -> None:
         turned(page, body, lever.inertia, lever.torque(contact), contact)
         return
     if body.fixed:
-        page.say(f"{label} has an infinite mass and keeps its velocity.")
+        kept(page, body)
     else:
         _moved(page, body, contact)
     if not lever.turns:
@@ -204,17 +219,27 @@ def _moved(page: Page, body: Body, contact: Contact) -> None:
     scene_axes(page, body, contact)
 
 
-def _restitution(page: Page, contact: Contact, a: Body, b: Body) -> None:
+def _restitution(page: Page, contact: Contact, levers: list[Lever]) -> None:
     """Restitution at the contact, from both bodies and from one."""
+    a, b = (lever.body for lever in levers)
     after = b.along("n", AFTER, True) - a.along("n", AFTER, True)
     page.balance(
         "Restitution at the contact (11)", after, contact.e * (a.along("n", contact=True) - b.along("n", contact=True)), "speed"
     )
     changes = [abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value) for body in (a, b)]
-    body = a if changes[0] >= changes[1] else b
+    lever = levers[0] if changes[0] >= changes[1] else levers[1]
+    body, label = lever.body, lever.body.label
+    # Without friction a body that is free has it from (13).
+    if lever.turns and (lever.pinned or contact.tangential.value != 0.0):
+        page.equation(
+            f"Yaw rate of {label} at the end of deformation, as in (13) with the part 1 / (1 + e) of the impulse",
+            body.spin(COMPRESSED),
+            body.spin() + lever.torque(contact) / ((1.0 + contact.e) * lever.inertia),
+        )
+    lever.at_contact(page, COMPRESSED, f"Velocity of {label} at the contact at the end of deformation", "n")
     start, middle, end = (body.along("n", when, True) for when in ("before", COMPRESSED, AFTER))
     page.equation(
-        f"The same from {body.label} alone, with {page.letter(middle)} at the end of deformation (19)",
+        f"The same from {label} alone, with {page.letter(middle)} at the end of deformation (19)",
         contact.e,
         (middle - end) / (start - middle),
     )

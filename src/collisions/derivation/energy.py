@@ -59,14 +59,12 @@ def _parts(body: Body, when: str) -> list[Expression]:
     """Half of mass times speed squared, and half of yaw inertia times yaw rate squared, as far as they are not 0."""
     state, parts = body.state(when), list[Expression]()
     if state.speed:
-        x, y = body.along("x", when), body.along("y", when)
-        if body.impact.model == "linear_central" and body.impact.normal == (1.0, 0.0) and not state.vy:
-            squares = body.straight(when).squared()
-        else:
-            squares = total(*(part.squared() for part in (x, y) if part.value))
-        parts.append(HALF * body.mass * squares)
+        along = [body.axis(axis, when) for axis in "xy"]
+        parts.append(HALF * body.mass * total(*(part.squared() for part in along if part.value)))
     if state.yaw_rate:
-        parts.append(HALF * body.inertia * body.spin(when).squared())
+        # A central model leaves the yaw rate as it was.
+        spin = body.spin(when if body.impact.model == "eccentric" else BEFORE)
+        parts.append(HALF * body.inertia * spin.squared())
     return parts
 
 

@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from ..amounts import at_least_zero
 from ..door import Door
 from ..errors import InputError, ShapeError, Status
@@ -18,6 +16,7 @@ from ..reconstruct.outcome import plain_error
 from ..uncertainty.result import Propagation
 from ..units import shown
 from . import answers, momentum
+from .changes import changes
 from .eccentric import eccentric
 from .linear import linear
 from .oblique import oblique
@@ -43,10 +42,11 @@ def explain(
     Theory to Vehicle Collisions". An energy gain is told first.
 
     The working keeps a number as it is if six figures hold it, else four figures (all that stand before the decimal point; of
-    small speeds, angles, lengths and ratios two decimals more than an answer has), so that it can be followed with a pocket
-    calculator. The answers at the end are rounded: speeds to 0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad,
-    yaw rates to 1 deg/s or 0.01 rad/s, ratios to 0.01, impulses and energies to three figures; or to two figures of their
-    standard deviation where that is known.
+    small speeds, angles, lengths and ratios two decimals more than an answer has). Where a line needs more figures than that to
+    give the result printed below it, its numbers have more: keyed into a pocket calculator as printed, and rounded, every line
+    gives its result, and where one cannot, the page says so below it. The answers at the end are rounded: speeds to 0.1 km/h,
+    0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01 rad/s, ratios to 0.01, impulses and
+    energies to three figures; or to two figures of their standard deviation where that is known.
 
     Parameters
     ----------
@@ -59,7 +59,8 @@ def explain(
         Markdown with LaTeX between dollar signs, or plain text.
     uncertainty : Propagation, or dict of float, str or Quantity, optional
         Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. Of a
-        propagation those outputs are taken that have such a name, as SI if the model returned plain numbers.
+        propagation those outputs are taken that have such a name, as SI if the model returned plain numbers. With an
+        ``Interval`` among its inputs an answer gets its range: a standard deviation would leave the interval out.
 
     Returns
     -------
@@ -84,7 +85,7 @@ def explain(
     >>> print(page[page.index("Restitution"):page.index("What follows")].rstrip())
     Restitution, as in (9):
       e = (v'_B - v'_A) / (v_A - v_B)
-        = (16.67 - 7.828) / (22.22 - 0)
+        = (16.667 - 7.8283) / (22.222 - 0)
         = 0.3977
     """
     _allowed("units", units, SYSTEMS)
@@ -92,18 +93,18 @@ def explain(
     need_one_case(impact, (Impact, MomentumSolution), "explain", refused=plain_error)
     system = System(units)
     if isinstance(impact, MomentumSolution):
-        page = Page(system, form == "markdown", _deviations(uncertainty, momentum.NAMES, momentum.kind_of))
+        page = Page(system, form == "markdown", *_spread(uncertainty, momentum.NAMES, momentum.kind_of))
         page.title("Planar momentum, step by step")
         _gain(page, impact.status, impact.translational_energy_loss)
         momentum.momentum(page, impact)
     else:
         page = _of_impact(impact, system, form, uncertainty)
-    _notes(page)
+    _notes(page, uncertainty)
     return page.text()
 
 
 def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> Page:
-    page = Page(system, form == "markdown", _deviations(uncertainty, answers.NAMES, answers.kind_of))
+    page = Page(system, form == "markdown", *_spread(uncertainty, answers.NAMES, answers.kind_of))
     page.title("The impact, step by step")
     _gain(page, impact.status, impact.energy_loss)
     page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
@@ -112,6 +113,7 @@ def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> P
     chosen(page, impact)
     found(page, impact)
     _MODELS[impact.model](page, impact)
+    changes(page, impact)
     answers.answers(page, impact)
     return page
 
@@ -125,7 +127,7 @@ def _gain(page: Page, status: Any, loss: float) -> None:
         )
 
 
-def _notes(page: Page) -> None:
+def _notes(page: Page, uncertainty: Any) -> None:
     """What the numbers are."""
     page.heading("Notes")
     lines = [
@@ -133,10 +135,17 @@ def _notes(page: Page) -> None:
         "are A and B here.",
         "Every step was worked out with all digits. A number is printed as it is if six figures hold it, else with four "
         "figures; but with all those before its decimal point, and a speed, angle, length or ratio with at most two decimals "
-        "more than an answer has. A line worked out again from its printed numbers may differ in the last figure. The answers "
-        "are rounded.",
+        "more than an answer has. Where the numbers of a line need more figures than that to give the result printed below "
+        "them, they have more. So every line, worked out from its printed numbers and rounded like its result, gives that "
+        "result; where a line cannot, the page says so below it. The answers are rounded.",
         "x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.",
     ]
+    if page.ranges:
+        held = "every value" if uncertainty.method == "interval" else "95 percent, wherever in the interval the truth lies"
+        lines.append(
+            "A range in brackets is no ±: an interval is among the inputs, and of its values none is said to be likelier than "
+            f"another. The range holds {held}."
+        )
     if page.system.conversions:
         lines.append("Numbers that convert units: " + "; ".join(page.system.conversions).replace("**", "^") + ".")
     page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
@@ -151,17 +160,21 @@ def _allowed(argument: str, value: Any, allowed: tuple[str, ...]) -> None:
         )
 
 
-def _deviations(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> dict[str, float]:
-    """Standard deviations in SI, by the name of the answer."""
+def _spread(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
+    """Standard deviations in SI, by the name of the answer; or ranges, where there is no distribution to have a deviation."""
     if uncertainty is None:
-        return {}
+        return {}, {}
     known = {**{name.replace(".", "_"): name for name in names}, **{name: name for name in names}}
     if isinstance(uncertainty, Propagation):
-        found = {known[name]: uncertainty[name].std for name in uncertainty if name in known}
-        if not found:
+        outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}
+        if not outputs:
             raise _unknown(", ".join(uncertainty), names)
-        # With an interval among the inputs there are two; the larger one holds for both.
-        return {name: float(np.max(deviation)) for name, deviation in found.items()}
+        # With an interval among the inputs there are two deviations, and how far the interval goes is in neither.
+        open_ended = {name for name, output in outputs.items() if isinstance(output.std, tuple)}
+        return (
+            {name: float(output.std) for name, output in outputs.items() if name not in open_ended},
+            {name: outputs[name].interval() for name in outputs if name in open_ended},
+        )
     if not isinstance(uncertainty, Mapping):
         raise InputError(
             f"uncertainty must be a Propagation, or a dict of standard deviations by name, got {type(uncertainty).__name__}",
@@ -180,7 +193,7 @@ def _deviations(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> dict[
     for name, value in found.items():
         if not isinstance(value, float) or not math.isfinite(value):
             raise ShapeError(f"the standard deviation of {name} must be one number", code="bad_shape", argument=name)
-    return found
+    return found, {}
 
 
 def _unknown(given: str, names: tuple[str, ...]) -> InputError:

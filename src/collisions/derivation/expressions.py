@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .rounding import Powers, System, powers_of
+from .rounding import Conversion, Powers, System, powers_of
 
 _FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
 # How firmly a written part holds together: what is looser than its place wants is put in brackets.
@@ -14,19 +14,29 @@ _SUM, _PRODUCT, _POWER, _ATOM = range(4)
 
 
 class Pen(NamedTuple):
-    """How to write: as LaTeX or as plain text, with the numbers of a system of units or, without one, with symbols."""
+    """How to write: as LaTeX or as plain text, with the numbers of a system of units or, without one, with symbols.
+
+    Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry their own degree sign.
+    """
 
     latex: bool
     system: System | None = None
+    more: int = 0
+    marked: bool = False
 
 
 class Written(NamedTuple):
-    """A written part: its text, how firmly it holds together, and by what the SI value was multiplied to print it."""
+    """A written part: its text, how firmly it holds together, and by what the SI value was multiplied to print it.
+
+    ``worth`` is what the numbers of the text come to as they are printed, and ``conversions`` are those among them.
+    """
 
     text: str
     rank: int
     scale: float = 1.0
     powers: Powers = ()
+    worth: float = math.nan
+    conversions: tuple[Conversion, ...] = ()
 
     def within(self, rank: int, pen: Pen) -> str:
         """The text, in brackets where it is looser than that."""
@@ -89,9 +99,13 @@ class Symbol(Expression):
         """Its letter, or its number."""
         if pen.system is None:
             return Written(self.latex if pen.latex else self.text, _ATOM)
-        printed = pen.system.working(self.value, self.kind)
+        printed = pen.system.working(self.value, self.kind, pen.more)
         rank = _SUM if printed.startswith("-") else _ATOM
-        return Written(printed, rank, pen.system.scale(self.kind), powers_of(pen.system.label(self.kind)))
+        worth = float(printed) if math.isfinite(self.value) else self.value
+        label = pen.system.label(self.kind)
+        if pen.marked and self.kind == "angle":
+            printed += r"^\circ" if pen.latex else f" {label}"
+        return Written(printed, rank, pen.system.scale(self.kind), powers_of(label), worth)
 
 
 class Literal(Expression):
@@ -103,7 +117,7 @@ class Literal(Expression):
 
     def write(self, pen: Pen) -> Written:
         """The number itself."""
-        return Written(f"{self.value:g}", _ATOM)
+        return Written(f"{self.value:g}", _ATOM, worth=self.value)
 
 
 class Sum(Expression):
@@ -120,7 +134,9 @@ class Sum(Expression):
         if pen.system is not None:
             right = converted(right, left.scale, left.powers, pen)
         mark = "+" if self.sign > 0.0 else "-"
-        return Written(f"{left.text} {mark} {right.within(_PRODUCT, pen)}", _SUM, left.scale, left.powers)
+        text = f"{left.text} {mark} {right.within(_PRODUCT, pen)}"
+        worth = left.worth + self.sign * right.worth
+        return Written(text, _SUM, left.scale, left.powers, worth, left.conversions + right.conversions)
 
 
 class Product(Expression):
@@ -136,7 +152,8 @@ class Product(Expression):
         left, right = self.left.write(pen), self.right.write(pen)
         times = " * " if not pen.latex else r"\," if pen.system is None else r" \cdot "
         text = left.within(_PRODUCT, pen) + times + right.within(_PRODUCT, pen)
-        return Written(text, _PRODUCT, left.scale * right.scale, multiplied(left.powers, right.powers, 1))
+        scale, powers = left.scale * right.scale, multiplied(left.powers, right.powers, 1)
+        return Written(text, _PRODUCT, scale, powers, left.worth * right.worth, left.conversions + right.conversions)
 
 
 class Quotient(Expression):
@@ -156,7 +173,9 @@ class Quotient(Expression):
             text = rf"\frac{{{over.text}}}{{{under.text}}}"
         else:
             text = f"{over.within(_PRODUCT, pen)} / {under.within(_POWER, pen)}"
-        return Written(text, _PRODUCT, over.scale / under.scale, multiplied(over.powers, under.powers, -1))
+        scale, powers = over.scale / under.scale, multiplied(over.powers, under.powers, -1)
+        worth = over.worth / under.worth if under.worth else math.nan
+        return Written(text, _PRODUCT, scale, powers, worth, over.conversions + under.conversions)
 
 
 class Negative(Expression):
@@ -169,7 +188,7 @@ class Negative(Expression):
     def write(self, pen: Pen) -> Written:
         """A minus sign before it."""
         inner = self.inner.write(pen)
-        return inner._replace(text="-" + inner.within(_PRODUCT, pen), rank=_SUM)
+        return inner._replace(text="-" + inner.within(_PRODUCT, pen), rank=_SUM, worth=-inner.worth)
 
 
 class Square(Expression):
@@ -186,7 +205,8 @@ class Square(Expression):
         if pen.latex and "'" in held and pen.system is None and inner.rank == _ATOM:
             held = f"{{{held}}}"
         text = held + ("^2" if pen.latex else "**2")
-        return Written(text, _POWER, inner.scale**2, multiplied((), inner.powers, 2))
+        powers = multiplied((), inner.powers, 2)
+        return Written(text, _POWER, inner.scale**2, powers, inner.worth * inner.worth, inner.conversions)
 
 
 class Function(Expression):
@@ -199,20 +219,45 @@ class Function(Expression):
 
     def write(self, pen: Pen) -> Written:
         """With its argument in brackets, under the root sign or between bars."""
-        inner = self.inner.write(pen)
         if self.name in ("cos", "sin"):
-            if pen.system is not None and pen.system.label("angle") == "deg":
-                text = rf"\{self.name} {inner.text}^\circ" if pen.latex else f"{self.name}({inner.text} deg)"
-                if pen.latex and inner.rank != _ATOM:
-                    text = rf"\{self.name}\left({inner.text}\right)^\circ"
-                return Written(text, _POWER)
-            return Written(rf"\{self.name}\left({inner.text}\right)" if pen.latex else f"{self.name}({inner.text})", _POWER)
+            return self._of_angle(pen)
+        inner = self.inner.write(pen)
         shape = rf"\sqrt{{{inner.text}}}" if self.name == "sqrt" else rf"\lvert {inner.text} \rvert"
         text = shape if pen.latex else f"{self.name}({inner.text})"
-        if self.name == "sqrt":
-            halved = tuple((label, power / 2) for label, power in inner.powers)
-            return Written(text, _ATOM, math.sqrt(inner.scale), halved)
-        return Written(text, _ATOM, inner.scale, inner.powers)
+        if self.name == "abs":
+            return inner._replace(text=text, rank=_ATOM, worth=abs(inner.worth))
+        halved = tuple((label, power / 2) for label, power in inner.powers)
+        worth = math.sqrt(max(inner.worth, 0.0))
+        return Written(text, _ATOM, math.sqrt(inner.scale), halved, worth, inner.conversions)
+
+    def _of_angle(self, pen: Pen) -> Written:
+        degrees = pen.system is not None and pen.system.label("angle") == "deg"
+        inner = self.inner.write(pen._replace(marked=degrees))
+        worth = _FUNCTIONS[self.name](math.radians(inner.worth) if degrees else inner.worth)
+        if not pen.latex:
+            return Written(f"{self.name}({inner.text})", _POWER, worth=worth)
+        held = inner.text if degrees and inner.rank == _ATOM else rf"\left({inner.text}\right)"
+        return Written(rf"\{self.name} {held}" if held is inner.text else rf"\{self.name}{held}", _POWER, worth=worth)
+
+
+class Direction(Expression):
+    """The angle of a vector from its two components, counter-clockwise from the first axis."""
+
+    def __init__(self, x: Expression, y: Expression) -> None:
+        self.x, self.y = x, y
+        self.value = math.atan2(y.value + 0.0, x.value)
+        self.size = math.pi
+
+    def write(self, pen: Pen) -> Written:
+        """As calculators and computers have it, with the second component first."""
+        y, x = self.y.write(pen), self.x.write(pen)
+        name, left, right = (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
+        text = f"{name}{left}{y.text}, {x.text}{right}"
+        if pen.system is None:
+            return Written(text, _POWER)
+        scale, worth = pen.system.scale("angle"), math.atan2(y.worth + 0.0, x.worth)
+        label = pen.system.label("angle")
+        return Written(text, _POWER, scale, powers_of(label), worth * scale, y.conversions + x.conversions)
 
 
 def of(value: Expression | float) -> Expression:
@@ -251,13 +296,15 @@ def converted(written: Written, scale: float, powers: Powers, pen: Pen) -> Writt
     factor = scale / written.scale
     if abs(factor - 1.0) < 1e-9 or written.text == "0":
         return written._replace(scale=scale, powers=powers)
-    divides, number = pen.system.conversion(factor, written.powers, powers)
+    conversion = pen.system.conversion(factor, written.powers, powers, pen.more)
+    divides, number = conversion.divides, conversion.number
     held = written.within(_PRODUCT, pen)
     if pen.latex:
         text = rf"{held} \cdot \frac{{1}}{{{number}}}" if divides else rf"{held} \cdot {number}"
     else:
         text = f"{held} / {number}" if divides else f"{held} * {number}"
-    return Written(text, _PRODUCT, scale, powers)
+    worth = written.worth / float(number) if divides else written.worth * float(number)
+    return Written(text, _PRODUCT, scale, powers, worth, (*written.conversions, conversion))
 
 
 def multiplied(left: Powers, right: Powers, power: int) -> Powers:

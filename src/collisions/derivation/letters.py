@@ -69,12 +69,12 @@ class Body:
         vx, vy = state.velocity_at(point) if contact and point is not None else (state.vx, state.vy)
         nx, ny = self.impact.normal
         value = {"x": vx, "y": vy, "n": nx * vx + ny * vy, "t": nx * vy - ny * vx}[direction]
-        if contact:
-            base = "c" if when != COMPRESSED else "u"
-            mark = "'" if when == AFTER else ""
-            return letter(rf"{base}_{{{self.label}{direction}}}{mark}", f"{base}{mark}_{self.label}{direction}", value, "speed")
-        base = "u" if when == COMPRESSED else "v"
         mark = "'" if when == AFTER else ""
+        if contact:
+            # The paper has u with and without a bar; without bars the place at the contact needs another letter.
+            base, text = ("u", "c0") if when == COMPRESSED else ("c", f"c{mark}")
+            return letter(rf"{base}_{{{self.label}{direction}}}{mark}", f"{text}_{self.label}{direction}", value, "speed")
+        base = "u" if when == COMPRESSED else "v"
         bar = rf"\bar{{{base}}}" if self.impact.model == "eccentric" else base
         return letter(rf"{bar}_{{{self.label}{direction}}}{mark}", f"{base}{mark}_{self.label}{direction}", value, "speed")
 
@@ -83,6 +83,11 @@ class Body:
         found = self.along("n", when)
         mark = "'" if when == AFTER else ""
         return letter(rf"v_{self.label}{mark}", f"v{mark}_{self.label}", found.value, "speed")
+
+    def axis(self, name: str, when: str = BEFORE) -> Symbol:
+        """Velocity of its centre of mass along a scene axis, by the letter that the derivation has for it."""
+        lined = self.impact.model == "linear_central" and self.impact.normal == (1.0, 0.0) and name == "x"
+        return self.straight(when) if lined else self.along(name, when)
 
     def spin(self, when: str = BEFORE) -> Symbol:
         """Yaw rate."""

@@ -19,7 +19,8 @@ def linear(page: Page, impact: Impact) -> None:
     common = letter("v_c", "v_c", (b if a.fixed else a).along("n", COMPRESSED).value, "speed")
     page.heading("Linear central impact")
     page.say(
-        "The vehicles are point masses that move along the normal, which points from A into B. Velocities are counted along it."
+        "The vehicles are taken as point masses, and the impulse is along the normal, which points from A into B. Velocities "
+        "are counted along it; what a vehicle has across it, it keeps."
     )
     if impact.normal != (1.0, 0.0):
         for body, speed in ((a, v_a), (b, v_b)):
@@ -30,8 +31,9 @@ def linear(page: Page, impact: Impact) -> None:
         wall, hit = (a, b) if a.fixed else (b, a)
         v, wall_v = hit.straight(), wall.straight()
         page.say(
-            f"{wall.label} has an infinite mass: it keeps its velocity, so both share {page.letter(wall_v)} at the end of "
-            f"compression (3), and the mass that the contact feels is {page.letter(hit.mass)}."
+            f"{wall.label} has an infinite mass: it keeps its velocity ({page.shown(wall.straight(AFTER))}), so both share "
+            f"{page.letter(wall_v)} at the end of compression (3), and the mass that the contact feels is "
+            f"{page.letter(hit.mass)}."
         )
         page.equation(
             f"Impulse of the compression period, area A1 (3), on {hit.label}",
@@ -65,5 +67,9 @@ def linear(page: Page, impact: Impact) -> None:
                     body.along(axis, AFTER),
                     body.along(axis) + part * (after - before),
                 )
+    else:
+        for body in (a, b):
+            if body.state(AFTER).vy:
+                page.equation(f"Velocity of {body.label} after, along y, as before", body.along("y", AFTER), body.along("y"))
     page.equation("Energy lost (8)", contact.loss, loss)
     kinetic_energies(page, impact, contact)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from ..reconstruct import MomentumSolution
-from .expressions import Expression, Function, Symbol, total
+from .changes import alpha_of, delta, magnitude, seen_from
+from .expressions import Direction, Expression, Function, Symbol, total
 from .letters import letter
 from .page import Page
 
@@ -32,6 +33,16 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
             name == "speed_b_after" and "speed_a_after" in solution.unknowns and _together(solution)
         ):
             rows.append((label, f"speed {when}", page.number(speeds[name].value, "speed")))
+    for label in "ab":
+        heading = getattr(solution, f"heading_{label}")
+        if heading is not None:
+            rows.append((label.upper(), "heading", page.number(heading, "angle")))
+    if solution.normal_angle is not None:
+        rows.append(("contact", "normal, direction from A into B", page.number(solution.normal_angle, "angle")))
+    for axis in "xy":
+        outside = getattr(solution, f"outside_impulse_{axis}")
+        if outside is not None:
+            rows.append(("both", f"impulse from outside, along {axis}", page.number(outside, "impulse")))
     page.heading("Given")
     page.table(("of", "quantity", "value"), rows)
     page.heading("Planar momentum")
@@ -40,7 +51,6 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
         "of restitution, friction or rotation. Unknown are the two speeds along their courses."
     )
     push: list[Symbol] = []
-    outside = any(name.startswith("outside") for row in solution.sensitivity.values() for name in row)
     for axis, function in (("x", "cos"), ("y", "sin")):
         sides = [
             [
@@ -51,8 +61,9 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
             for after in (False, True)
         ]
         left, right = (total(*terms) if terms else letter("0", "0", 0.0, "impulse") for terms in sides)
-        if outside:
-            j = letter(f"J_{axis}", f"J_{axis}", right.value - left.value, "impulse")
+        outside = getattr(solution, f"outside_impulse_{axis}")
+        if outside is not None:
+            j = letter(f"J_{axis}", f"J_{axis}", outside, "impulse")
             page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(j)}.")
             left = left + j
             push.append(j)
@@ -122,17 +133,9 @@ def _changes(page: Page, solution: MomentumSolution, speeds: dict[str, Symbol], 
     """What follows from all speeds."""
     page.heading("Changes of velocity and energy")
     for label in "ab":
-        before, after = f"speed_{label}", f"speed_{label}_after"
-        parts: list[Expression] = []
-        for function in ("cos", "sin"):
-            ends = [speeds[name] * Function(function, courses[name]) if name in courses else None for name in (after, before)]
-            end, start = ends
-            parts.append(
-                end - start if end is not None and start is not None else end or start or letter("0", "0", 0.0, "speed")
-            )
-        delta = letter(rf"\Delta v_{label.upper()}", f"dv_{label.upper()}", getattr(solution, f"delta_v_{label}"), "speed")
-        length = Function("sqrt", parts[0].squared() + parts[1].squared())
-        page.equation(f"Delta-V of {label.upper()}", delta, length)
+        _delta_v(page, solution, speeds, courses, label)
+    if solution.normal_angle is not None:
+        _along_normal(page, solution, speeds, courses)
     loss = letter(r"\Delta E", "dE", solution.translational_energy_loss, "energy")
     terms: list[Expression] = []
     for name, speed in speeds.items():
@@ -161,6 +164,48 @@ def _changes(page: Page, solution: MomentumSolution, speeds: dict[str, Symbol], 
         rows.append(("centres", "restitution along the normal", page.answer("restitution", solution.restitution, "number")))
     rows.append(("both", "energy of translation lost", page.answer("translational_energy_loss", loss.value, "energy")))
     page.table(("of", "quantity", "value"), rows)
+
+
+def _delta_v(page: Page, solution: MomentumSolution, speeds: dict[str, Symbol], courses: dict[str, Symbol], label: str) -> None:
+    """Delta-V of one vehicle, and its direction seen from the vehicle where that had a heading."""
+    name = label.upper()
+    parts: list[Symbol] = []
+    for axis, function in (("x", "cos"), ("y", "sin")):
+        ends = (f"speed_{label}_after", f"speed_{label}")
+        change = _difference(*(speeds[end] * Function(function, courses[end]) if end in courses else None for end in ends))
+        part = delta(name, axis, change.value)
+        page.equation(f"Delta-V of {name} along {axis} (definition)", part, change)
+        parts.append(part)
+    page.equation(f"Delta-V of {name} (definition)", delta(name, "", getattr(solution, f"delta_v_{label}")), magnitude(*parts))
+    heading, pdof = getattr(solution, f"heading_{label}"), getattr(solution, f"pdof_{label}")
+    if heading is None or math.isnan(pdof):
+        return
+    alpha = alpha_of(name, math.atan2(parts[1].value + 0.0, parts[0].value))
+    page.equation(f"Direction of the delta-V of {name} (definition)", alpha, Direction(*parts))
+    seen_from(page, name, heading, alpha, pdof)
+
+
+def _difference(end: Expression | None, start: Expression | None) -> Expression:
+    """One less the other, of which one that is None does not move."""
+    if end is None:
+        return letter("0", "0", 0.0, "speed") if start is None else -start
+    return end if start is None else end - start
+
+
+def _along_normal(page: Page, solution: MomentumSolution, speeds: dict[str, Symbol], courses: dict[str, Symbol]) -> None:
+    """Closing speed and restitution of the centres of mass."""
+    assert solution.normal_angle is not None
+    phi = letter(r"\varphi", "phi", solution.normal_angle, "angle")
+    before_a, before_b, after_a, after_b = (
+        speeds[name] * Function("cos", courses[name] - phi) if name in courses else None for name in _SPEEDS
+    )
+    approach, departure = _difference(before_a, before_b), _difference(after_b, after_a)
+    closing = letter("g", "g", solution.closing_speed, "speed")
+    parting = letter("r", "r", departure.value, "speed")
+    page.equation(f"Closing speed of the centres along the normal {page.letter(phi)} (definition)", closing, approach)
+    page.equation("Separation speed (definition)", parting, departure)
+    if solution.restitution is not None and not math.isnan(solution.restitution):
+        page.equation("Restitution (9)", letter("e", "e", solution.restitution, "number"), parting / closing)
 
 
 NAMES = (*_SPEEDS, "delta_v_a", "delta_v_b", "pdof_a", "pdof_b", "closing_speed", "restitution", "translational_energy_loss")

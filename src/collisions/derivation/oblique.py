@@ -45,7 +45,7 @@ def oblique(page: Page, impact: Impact) -> None:
 def components(page: Page, body: Body, contact: Contact) -> None:
     """The velocity before along n and t."""
     if body.side.before.speed == 0.0:
-        page.say(f"The velocity of {body.label} before is 0.")
+        page.say(f"The velocity of {body.label} before is 0: {page.shown(body.along('n'))} and {page.shown(body.along('t'))}.")
         return
     x, y = body.along("x"), body.along("y")
     page.equation(f"Velocity of {body.label} before, along the normal", body.along("n"), contact.dot(x, y))
@@ -55,7 +55,7 @@ def components(page: Page, body: Body, contact: Contact) -> None:
 def pushed(page: Page, body: Body, contact: Contact) -> None:
     """The velocity after of a body that is free to move, along n and t and back in scene axes."""
     if body.fixed:
-        page.say(f"{body.label} has an infinite mass and keeps its velocity.")
+        kept(page, body)
         return
     for direction, name, impulse in (("n", "normal", contact.normal), ("t", "tangent", contact.tangential)):
         before, after = body.along(direction), body.along(direction, AFTER)
@@ -68,10 +68,19 @@ def pushed(page: Page, body: Body, contact: Contact) -> None:
     scene_axes(page, body, contact)
 
 
+def kept(page: Page, body: Body) -> None:
+    """The velocity after of a body of infinite mass."""
+    n, t = body.along("n", AFTER), body.along("t", AFTER)
+    page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
+
+
 def scene_axes(page: Page, body: Body, contact: Contact) -> None:
     """The velocity after in scene axes, where they are not those of the contact."""
-    if contact.impact.normal == (1.0, 0.0):
-        return
     n, t = body.along("n", AFTER), body.along("t", AFTER)
+    if contact.impact.normal == (1.0, 0.0):
+        x, y = body.along("x", AFTER), body.along("y", AFTER)
+        same = " and ".join(f"{page.letter(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
+        page.say(f"The normal is the x axis and the tangent the y axis, so {same}.")
+        return
     page.equation(f"Velocity of {body.label} after, along x", body.along("x", AFTER), contact.scene("x", n, t))
     page.equation(f"Velocity of {body.label} after, along y", body.along("y", AFTER), contact.scene("y", n, t))

@@ -6,18 +6,26 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from .expressions import Expression, Pen, Symbol, converted
+from .expressions import Expression, Pen, Symbol, Written, converted
 from .rounding import System, powers_of
 
+# Figures that a line may have beyond those of the working; with these it has all that there are.
+_MOST = 12
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
 
 class Page:
     """What is written, in order. ``off`` holds of each equation how far it is off its result, and the size of its terms."""
 
-    def __init__(self, system: System, latex: bool, deviations: Mapping[str, float]) -> None:
+    def __init__(
+        self,
+        system: System,
+        latex: bool,
+        deviations: Mapping[str, float],
+        ranges: Mapping[str, tuple[float, float]] | None = None,
+    ) -> None:
         self.system, self.latex = system, latex
-        self.deviations = dict(deviations)
+        self.deviations, self.ranges = dict(deviations), dict(ranges or {})
         self.parts: list[str] = []
         self.off: list[tuple[str, float, float]] = []
 
@@ -54,9 +62,9 @@ class Page:
         self.parts.append("\n".join(f"- {line}" for line in lines))
 
     def name(self, text: str) -> str:
-        """A name that somebody gave, so that none of its signs is taken for markup."""
+        """A name that somebody gave: as it is in plain text, in Markdown so that none of its signs is taken for markup."""
         plain = " ".join(text.split())
-        return _MARKS.sub(r"\\\1", plain) if self.latex else plain.replace("\\", "/").replace("$", "S")
+        return _MARKS.sub(r"\\\1", plain) if self.latex else plain
 
     def letter(self, symbol: Symbol) -> str:
         """A symbol within a sentence."""
@@ -72,45 +80,78 @@ class Page:
         return f"{self.letter(symbol)} = {self.number(symbol.value, symbol.kind)}"
 
     def answer(self, name: str, value: float, kind: str) -> str:
-        """An answer, rounded to its standard deviation where one is known for the attribute of this name."""
-        return self.system.answer(value, kind, self.deviations.get(name))
+        """An answer, rounded to its standard deviation where one is known for the attribute of this name, or with its range."""
+        printed = self.system.answer(value, kind, self.deviations.get(name))
+        if name not in self.ranges:
+            return printed
+        low, high = (self.system.answer(end, kind) for end in self.ranges[name])
+        return f"{printed} ({low.removesuffix(self.system.unit(kind, False))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> Symbol:
         """Symbol = formula = numbers = what the symbol is worth: the number of the result, which the formula must give."""
-        pen = Pen(self.latex, self.system)
-        label = self.system.label(left.kind)
-        numbers = converted(right.write(pen), self.system.scale(left.kind), powers_of(label), pen).text
         printed = self.system.working(left.value, left.kind)
+        (numbers,), fits = self._numbers([(right, left.value)], left.kind, right.size)
         lines = [right.write(Pen(self.latex)).text]
         if numbers not in (lines[0], printed):
             lines.append(numbers)
         lines.append(printed + self.system.unit(left.kind, self.latex))
         self._lines(caption, left.write(Pen(self.latex)).text, lines)
-        self._check(caption, left, right)
+        self._check(caption, left, right, fits)
         return left
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Formula = formula, in symbols, in numbers, and what both sides are worth."""
-        symbols, pen = Pen(self.latex), Pen(self.latex, self.system)
-        scale, powers = self.system.scale(kind), powers_of(self.system.label(kind))
+        symbols = Pen(self.latex)
         sides = [side.write(symbols).text for side in (left, right)]
-        numbers = [converted(side.write(pen), scale, powers, pen).text for side in (left, right)]
+        numbers, fits = self._numbers([(left, left.value), (right, right.value)], kind, left.size + right.size)
         values = [self.system.working(side.value, kind) for side in (left, right)]
         lines = [sides[1], f"{numbers[0]} = {numbers[1]}", f"{values[0]} = {values[1]}{self.system.unit(kind, self.latex)}"]
         self._lines(caption, sides[0], lines[:1], lines[1:])
-        self._check(caption, Symbol("", "", left.value, kind), right, left.size)
+        self._check(caption, Symbol("", "", left.value, kind), right, fits, left.size)
 
-    def collected(self, caption: str, left: float, terms: Sequence[tuple[float, Symbol]], unit: str) -> None:
+    def _numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
+        """Formulas in numbers, with as many figures as it takes that they come to what is printed; and whether any do."""
+        for more in range(_MOST + 1):
+            found = [self._in_numbers(side, kind, more) for side, _ in sides]
+            fits = all(self._comes_to(one.worth, value, kind, size) for one, (_, value) in zip(found, sides, strict=True))
+            if fits:
+                break
+        else:
+            found = [self._in_numbers(side, kind, 0) for side, _ in sides]
+        for one in found:
+            self.system.use(one.conversions)
+        return [one.text for one in found], fits
+
+    def _in_numbers(self, formula: Expression, kind: str, more: int) -> Written:
+        pen = Pen(self.latex, self.system, more)
+        return converted(formula.write(pen), self.system.scale(kind), powers_of(self.system.label(kind)), pen)
+
+    def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
+        """Whether printed numbers that are worth so much are, rounded, the number printed for a value."""
+        printed = float(self.system.working(value, kind)) if math.isfinite(value) else value
+        # A little more than half a unit, for the rounding of what is just between two numbers.
+        return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
+
+    def collected(self, caption: str, left: float, terms: Sequence[tuple[float, Symbol]], unit: str, more: int = 0) -> None:
         """Number = numbers times letters that are still unknown; the numbers belong to the units printed."""
         right = ""
         for factor, symbol in terms:
             times = r"\," if self.latex else " * "
-            size = self.system.figures(abs(factor))
+            size = self.system.figures(abs(factor), more=more)
             part = self._letters(symbol) if size == "1" else f"{size}{times}{self._letters(symbol)}"
             mark = "-" if factor < 0.0 else "+" if right else ""
             right += f" {mark} {part}" if right else f"{mark}{part}"
         held = f"{unit}, with the unknowns in {' and '.join(self.system.label(symbol.kind) for _, symbol in terms)}"
-        self._lines(f"{caption}, in {held}", self.system.figures(left), [right])
+        self._lines(f"{caption}, in {held}", self.system.figures(left, more=more), [right])
+
+    def enough(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
+        """How many more figures two equations (number, and factor of each unknown) need to have the printed solution."""
+        for more in range(_MOST + 1):
+            (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
+            solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
+            if all(self._comes_to(one, by.value, by.kind, by.size) for one, by in zip(solved, unknowns, strict=True)):
+                return more
+        return 0
 
     def _letters(self, symbol: Symbol) -> str:
         return symbol.latex if self.latex else symbol.text
@@ -126,11 +167,10 @@ class Page:
         lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
         self.parts.append("\n".join([f"{caption}:", *lines]))
 
-    def _check(self, caption: str, left: Symbol, right: Expression, size: float = 0.0) -> None:
+    def _check(self, caption: str, left: Symbol, right: Expression, fits: bool, size: float = 0.0) -> None:
         """An equation whose form loses the digits that the result has kept says so, instead of seeming to be wrong."""
-        apart = abs(left.value - right.value)
-        self.off.append((caption, apart, size + right.size + left.size))
-        if not apart <= self.system.half_unit(left.value, left.kind):
+        self.off.append((caption, abs(left.value - right.value), size + right.size + left.size))
+        if not fits:
             self.say(
                 "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
                 "worked out in a form that keeps its digits."

@@ -61,21 +61,20 @@ def moments_about_pivot(
     system = page.system
     scale, speed, rate = (system.scale(kind) for kind in ("angular momentum", "speed", "yaw rate"))
     v, w = other.along("n", AFTER), body.spin(AFTER)
-    left = sides[0].value * scale
-    page.collected(
-        "(20) in numbers",
-        left,
-        [(other.mass.value * lever.value * scale / speed, v), (-inertia.value * scale / rate, w)],
-        system.label("angular momentum"),
-    )
-    if other.spin(AFTER).value != 0.0:
-        return
     # Counted as in (21): the contact point of the pinned body less the other one, both after.
     sign = 1.0 if body.label == "B" else -1.0
+    moments = (sides[0].value * scale, other.mass.value * lever.value * scale / speed, -inertia.value * scale / rate)
+    parting = (impact.separation_speed * speed, -sign, -sign * lever.value * speed / rate)
+    alone = other.spin(AFTER).value == 0.0
+    more = page.enough((moments, parting), (v, w)) if alone else 0
+    page.collected("(20) in numbers", moments[0], [(moments[1], v), (moments[2], w)], system.label("angular momentum"), more)
+    if not alone:
+        return
     page.collected(
         "(21) in numbers, from the restitution at the contact",
-        impact.separation_speed * speed,
-        [(-sign * lever.value * speed / rate, w), (-sign, v)],
+        parting[0],
+        [(parting[2], w), (parting[1], v)],
         system.label("speed"),
+        more,
     )
     page.say(f"Solved together: {page.shown(w)} and {page.shown(v)}.")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import cache
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ..units import to_quantity
 
@@ -63,14 +64,35 @@ _NOTHING = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass
 _FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
 _WORKING = 4  # figures of a number in the working
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
+_DUST = 1e-12  # relative: a spread this small is what rounding left of none
+
+
+class Conversion(NamedTuple):
+    """A number that converts units: whether to divide by it, the number as printed, and the units it stands between."""
+
+    divides: bool
+    number: str
+    one: str
+    other: str
 
 
 class System:
-    """One system of units, and the conversions that were used while writing in it."""
+    """One system of units, and the conversions that were used while writing in it, by the units they stand between."""
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self.conversions: dict[str, None] = {}
+        self._used: dict[tuple[str, str], str] = {}
+
+    @property
+    def conversions(self) -> list[str]:
+        """Each conversion that was used, with the most figures that a line needed of it."""
+        return [f"1 {one} = {number} {other}" for (one, other), number in self._used.items()]
+
+    def use(self, conversions: Iterable[Conversion]) -> None:
+        """Note down conversions that were printed."""
+        for conversion in conversions:
+            key = conversion.one, conversion.other
+            self._used[key] = max(self._used.get(key, ""), conversion.number, key=len)
 
     def label(self, kind: str) -> str:
         """The unit of a kind, as pint writes it."""
@@ -87,29 +109,38 @@ class System:
         """What an SI value of this kind is multiplied by."""
         return _scale(SI_UNITS[kind], self.label(kind))
 
-    def working(self, value: float, kind: str) -> str:
-        """A number in the working: as it is if six figures hold it, else four figures or the decimals of an answer."""
+    def working(self, value: float, kind: str, more: int = 0) -> str:
+        """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         shown = value * self.scale(kind)
         least = _DECIMALS[self.name].get(kind)
         if abs(value) <= _NOTHING.get(kind, 1e-10):
             return "0"
-        return self.figures(shown, least)
+        return self.figures(shown, least, more)
 
-    def figures(self, shown: float, least: int | None = None) -> str:
+    def figures(self, shown: float, least: int | None = None, more: int = 0) -> str:
         """A number as it is if six figures hold it, else four figures, or at least so many decimals and two more at most."""
         exact = f"{shown:.6g}"
-        if abs(float(exact) - shown) <= _EXACT * abs(shown) and len(exact) <= 9 and "e" not in exact:
+        if (
+            abs(float(exact) - shown) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(shown)
+            and len(exact) <= 9
+            and "e" not in exact
+        ):
             return exact
-        return _plain(shown, _places(shown, least))
+        return _plain(shown, _places(shown, least) + more)
 
-    def half_unit(self, value: float, kind: str) -> float:
-        """Half a unit of the last of the figures that the working promises for this number, in SI."""
+    def half_unit(self, value: float, kind: str, size: float) -> float:
+        """Half a unit, as printed, of the last of the figures that the working promises of this number.
+
+        Of a number that is 0 it is that of the ``size`` of what has cancelled to it.
+        """
         least = _DECIMALS[self.name].get(kind)
         scale = self.scale(kind)
-        places = least or 0 if value == 0.0 else _places(value * scale, least)
-        return 0.5 * 10.0**-places / scale
+        decimals = len(self.working(value, kind).partition(".")[2])
+        nothing = abs(value) <= _NOTHING.get(kind, 1e-10)
+        figures = _places(size * scale, None) if nothing and 0.0 < size < math.inf else _places(value * scale, least)
+        return 0.5 * 10.0 ** -max(decimals, figures)
 
     def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
         """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
@@ -118,7 +149,7 @@ class System:
         scale = self.scale(kind)
         shown = value * scale
         unit = self.unit(kind, False)
-        if deviation is not None and math.isfinite(deviation) and deviation > 0.0:
+        if deviation is not None and math.isfinite(deviation) and deviation > _DUST * abs(value):
             spread = deviation * scale
             places = 1 - _magnitude(spread, 2)
             return f"{_plain(shown, places)} ± {_plain(spread, places)}{unit}"
@@ -126,14 +157,13 @@ class System:
         places = _FIGURES - 1 - _magnitude(shown, _FIGURES) if decimals is None else decimals
         return _plain(shown, places) + unit
 
-    def conversion(self, factor: float, powers: Powers, wanted: Powers) -> tuple[bool, str]:
-        """Whether to divide, and by what number; it is noted down for the list of conversions."""
+    def conversion(self, factor: float, powers: Powers, wanted: Powers, more: int = 0) -> Conversion:
+        """What turns a number from one unit into another: it may well be a number to divide by."""
         divides = factor < 1.0
         one, other = (wanted, powers) if divides else (powers, wanted)
         size = 1.0 / factor if divides else factor
-        number = f"{size:.6g}" if size < 999999.5 else f"{size:.0f}"
-        self.conversions[f"1 {_named(one)} = {number} {_named(other)}"] = None
-        return divides, number
+        number = f"{size:.{6 + more}g}" if size < 999999.5 else f"{size:.{more}f}"
+        return Conversion(divides, number, _named(one), _named(other))
 
 
 @cache

@@ -14,7 +14,7 @@ from .page import Page
 NO_SLIP = {
     codes.BRACH: 'no slip is left at separation (law "brach")',
     codes.KUDLICH_SLIBAR: "the contact is at rest at the end of compression and the whole compression impulse is multiplied by "
-    '1 + e (law "kudlich-slibar")',
+    '1 + e (law "kudlich-slibar"), which turns the slip around and leaves e times as much',
 }
 
 
@@ -31,7 +31,7 @@ def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
     rule, bound = impact._asked.rule, impact._asked.bound
     change = (1.0 + contact.e) * contact.closing
     if rule == codes.FRICTION and bound == 0.0:
-        page.say("Without friction the impulse is along the normal alone, as in the paper.")
+        page.say(f"Without friction the impulse is along the normal alone, as in the paper: {page.shown(contact.tangential)}.")
         page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
     if rule == codes.IMPULSE_RATIO:
@@ -39,7 +39,7 @@ def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
         _at_ratio(page, contact, change, k)
         return
     if rule == codes.CRITICAL_FRACTION and bound == 0.0:
-        page.say("A critical fraction of 0 leaves no tangential impulse.")
+        page.say(f"A critical fraction of 0 leaves no tangential impulse: {page.shown(contact.tangential)}.")
         page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
     _without_slip(page, impact, contact, k)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ..errors import Status
 from ..reference import restitution_range
 from ..travel.chain import GRAVITY
-from .case import RATIO_OFF_BY, Balance, degrees, kmh, off_by, share
+from .case import RATIO_OFF_BY, Balance, off_by, share
 from .finding import Finding
 
 
@@ -16,7 +16,9 @@ def energy_gain(case: Balance) -> Iterator[Finding]:
     """More energy after than before."""
     gain = -case.energy_lost
     if case.solution.status == Status.ENERGY_GAIN:
-        yield from case.above("energy_gain", gain, f"the vehicles leave with {gain:.6g} J more than they came with; none can")
+        yield from case.above(
+            "energy_gain", gain, f"the vehicles leave with {case.words.energy(gain)} more than they came with; none can"
+        )
 
 
 def restitution(case: Balance) -> Iterator[Finding]:
@@ -25,11 +27,14 @@ def restitution(case: Balance) -> Iterator[Finding]:
     if closing is None or e is None:
         return
     if not closing > 0.0:
-        sentence = f"the centres do not approach along the normal: closing speed {kmh(closing)}; it must point from A into B"
+        sentence = (
+            f"the centres do not approach along the normal: closing speed {case.words.speed(closing)}; it must point from A "
+            f"into B"
+        )
         yield from case.above("restitution_negative", math.inf, sentence)
         return
     highest = restitution_range(closing)[1]
-    told = f"the restitution of the centres is {e:.3g} at a closing speed of {kmh(closing)}"
+    told = f"the restitution of the centres is {e:.3g} at a closing speed of {case.words.speed(closing)}"
     yield from case.above(
         "restitution",
         e,
@@ -49,8 +54,8 @@ def near_collinear(case: Balance) -> Iterator[Finding]:
     yield from case.below(
         "near_collinear",
         angle,
-        f"the courses of {' and '.join(solution.unknowns)} are {degrees(angle)} from one line: across it, momentum tells "
-        f"little of these speeds",
+        f"the courses of {' and '.join(solution.unknowns)} are {case.words.angle(angle)} from one line: across it, momentum "
+        f"tells little of these speeds",
         or_at=True,
     )
 
@@ -61,7 +66,7 @@ def ill_conditioned(case: Balance) -> Iterator[Finding]:
     told = []
     for answer, row in solution.sensitivity.items():
         name = max((name for name in row if name.startswith("course")), key=lambda name: abs(row[name]))
-        told.append(f"{answer} moves by {kmh(abs(row[name]) * math.pi / 180.0)} per degree of {name}")
+        told.append(f"{answer} moves by {case.words.speed(abs(row[name]) * math.pi / 180.0)} per degree of {name}")
     yield from case.above(
         "ill_conditioned",
         solution.condition,
@@ -76,7 +81,7 @@ def speed_backwards(case: Balance) -> Iterator[Finding]:
         yield from case.above(
             "speed_backwards",
             -speed,
-            f"{name} is {kmh(speed)}, backwards along its course: check the courses",
+            f"{name} is {case.words.speed(speed)}, backwards along its course: check the courses",
             name[6],
         )
 
@@ -89,8 +94,8 @@ def tyre_impulse(case: Balance) -> Iterator[Finding]:
         yield from case.above(
             "tyre_impulse",
             part,
-            f"tyres of {who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give up to {kmh(most)}, "
-            f"{part:.0%} of its delta-V of {kmh(delta_v)}",
+            f"tyres of {who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give up to "
+            f"{case.words.speed(most)}, {part:.0%} of its delta-V of {case.words.speed(delta_v)}",
             label,
         )
 

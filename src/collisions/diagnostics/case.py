@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from ..side import Side
 from ..vehicle import Vehicle
 from .finding import Finding
 from .limits import LIMITS
+from .words import Words
 
 # A ratio that comes out of an answer and rounds to its limit has not passed it.
 RATIO_OFF_BY = 1e-9
@@ -49,6 +50,8 @@ class Examined:
     told: dict[str, Told]
     duration: float
     drag: float
+    words: Words
+    measured: set[str] = field(default_factory=set)
 
     def above(
         self,
@@ -63,18 +66,21 @@ class Examined:
 
         ``limit`` is the default of a limit that depends on the case.
         """
-        allowed = self._limit(code, limit)
+        allowed = self._limit(code, limit, off=math.inf)
         if measured > allowed + rounding:
             yield self._finding(code, measured, allowed, sentence, vehicle)
 
     def below(self, code: str, measured: float, sentence: str, vehicle: str = "", *, or_at: bool = False) -> Iterator[Finding]:
         """The finding, if what was measured is below its limit, or at it where that counts."""
-        allowed = self._limit(code, math.nan)
+        allowed = self._limit(code, math.nan, off=0.0)
         if measured < allowed or (or_at and measured == allowed > 0.0):
             yield self._finding(code, measured, allowed, sentence, vehicle)
 
-    def _limit(self, code: str, otherwise: float) -> float:
+    def _limit(self, code: str, otherwise: float, off: float) -> float:
+        """The limit that holds; what is held against one that it cannot pass counts as not measured."""
         given = self.limits[code]
+        if given != off:
+            self.measured.add(code)
         return otherwise if given is None else given
 
     @staticmethod
@@ -134,13 +140,3 @@ def share(part: float, whole: float) -> float:
     if part == 0.0:
         return 0.0
     return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
-
-
-def kmh(speed: float) -> str:
-    """A speed for people."""
-    return f"{3.6 * speed:.1f} km/h"
-
-
-def degrees(angle: float) -> str:
-    """An angle for people."""
-    return f"{math.degrees(angle):.1f} degrees"

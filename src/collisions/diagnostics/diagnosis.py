@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
@@ -19,14 +20,16 @@ from ..travel.reading import one_value, read_drag
 from ..units import Input
 from . import balance, evidence, inputs, physics, robustness
 from .case import Balance, Case, Examined, Told, named
-from .finding import Finding, read_limits
+from .finding import Finding, Findings, read_limits
 from .limits import LIMITS
+from .words import read_words
 
 _Examined = TypeVar("_Examined", bound=Examined)
 _EVIDENCE: tuple[Callable[[Examined], Iterator[Finding]], ...] = (
     evidence.momentum_energy,
     evidence.pdof_off_damage,
     evidence.delta_v_off_damage,
+    inputs.suspect_drag,
     inputs.suspect_duration,
 )
 _IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
@@ -41,6 +44,7 @@ _IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     physics.normal_against_positions,
     evidence.yaw_against_lever,
     physics.impulse_off_normal,
+    physics.heading_off_course,
     physics.point_outside,
     physics.ill_conditioned,
     physics.not_unique,
@@ -50,6 +54,7 @@ _IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     robustness.law,
     robustness.normal,
     inputs.suspect_inputs,
+    inputs.suspect_distance,
 )
 _BALANCE: tuple[Callable[[Balance], Iterator[Finding]], ...] = (
     balance.energy_gain,
@@ -75,7 +80,8 @@ def diagnose(
     damage_pdof_b: Input | None = None,
     damage_delta_v_a: Input | None = None,
     damage_delta_v_b: Input | None = None,
-) -> tuple[Finding, ...]:
+    units: str = "metric",
+) -> Findings:
     """What is odd about an impact, forward or reconstructed: findings, an energy gain first.
 
     A finding is a reason to look again, not an error; no finding is no proof. Every one compares something measured with a
@@ -105,11 +111,15 @@ def diagnose(
         ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a heading.
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], optional
         Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``.
+    units : "si", "metric" or "us"
+        Of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. Measure and limit stay in SI, as do the
+        numbers in a sentence that asks for the unit which was meant.
 
     Returns
     -------
     tuple of Finding
-        In the order of ``LIMITS``, vehicle A before B; empty if nothing was found.
+        In the order of ``LIMITS``, vehicle A before B; empty if nothing was found. Its ``measured`` has the codes of all that
+        was looked at, found or not.
 
     Raises
     ------
@@ -158,6 +168,7 @@ def diagnose(
                 argument="outline_a" if "a" in outlines else "outline_b",
             )
         )
+    words = read_words(door, units)
     allowed = read_limits(limits, door)
     found = evidence.read_evidence(
         door,
@@ -183,8 +194,9 @@ def diagnose(
             },
             duration=time,
             drag=pull,
+            words=words,
         )
-        return _sorted([*_each(_EVIDENCE, solved), *_each(_BALANCE, solved)])
+        return _sorted([*_each(_EVIDENCE, solved), *_each(_BALANCE, solved)], solved)
     door.close()
     left = left_out(impact, duration=duration, drag=drag)
     _check_single(left.duration, left.drag)
@@ -198,8 +210,9 @@ def diagnose(
         told={label: Told(named(label, side), side.delta_v, side.pdof) for label, side in (("a", impact.a), ("b", impact.b))},
         duration=left.duration,
         drag=left.drag,
+        words=words,
     )
-    return _sorted([*_each(_EVIDENCE, case), *_each(_IMPACT, case)])
+    return _sorted([*_each(_EVIDENCE, case), *_each(_IMPACT, case)], case)
 
 
 def _each(checks: tuple[Callable[[_Examined], Iterator[Finding]], ...], case: _Examined) -> Iterator[Finding]:
@@ -207,9 +220,11 @@ def _each(checks: tuple[Callable[[_Examined], Iterator[Finding]], ...], case: _E
         yield from check(case)
 
 
-def _sorted(findings: list[Finding]) -> tuple[Finding, ...]:
+def _sorted(findings: list[Finding], case: Examined) -> Findings:
+    """By code and vehicle; every answer has an energy that was looked at, also one without a gain."""
     order = {code: at for at, code in enumerate(LIMITS)}
-    return tuple(sorted(findings, key=lambda finding: (order[finding.code], finding.vehicle)))
+    measured = case.measured | ({"energy_gain"} if case.limits["energy_gain"] != math.inf else set())
+    return Findings(sorted(findings, key=lambda finding: (order[finding.code], finding.vehicle)), measured)
 
 
 def _check_single(duration: Any, drag: Any) -> None:

@@ -15,7 +15,7 @@ from ..errors import MissingInputError, ShapeError
 from ..impact import Impact
 from ..reconstruct import MomentumSolution
 from ..vehicle import missing
-from .case import Case, Evidence, Examined, degrees, kmh, off_by, share
+from .case import Case, Evidence, Examined, off_by, share
 from .finding import Finding
 
 # By so much a direction of force may be off, so that a lever which it turns tells nothing.
@@ -71,8 +71,8 @@ def momentum_energy(case: Examined) -> Iterator[Finding]:
         yield from case.above(
             "momentum_energy",
             share(abs(crush - lost), lost),
-            f"the damage takes {crush:.6g} J by the crush energy given, and momentum leaves {lost:.6g} J to be lost: speeds "
-            f"or damage are wrong",
+            f"the damage takes {case.words.energy(crush)} by the crush energy given, and momentum leaves "
+            f"{case.words.energy(lost)} to be lost: speeds or damage are wrong",
             rounding=off_by(1.0),
         )
 
@@ -86,8 +86,8 @@ def pdof_off_damage(case: Examined) -> Iterator[Finding]:
             yield from case.above(
                 "pdof_off_damage",
                 off,
-                f"{who} has a PDOF of {degrees(pdof)}, {degrees(off)} off the {degrees(seen)} that its damage shows (0 ahead, "
-                f"positive clockwise)",
+                f"{who} has a PDOF of {case.words.angle(pdof)}, {case.words.angle(off)} off the {case.words.angle(seen)} that "
+                f"its damage shows (0 ahead, positive clockwise)",
                 label,
                 rounding=off_by(seen, pdof, math.tau),
             )
@@ -100,7 +100,7 @@ def delta_v_off_damage(case: Examined) -> Iterator[Finding]:
         yield from case.above(
             "delta_v_off_damage",
             share(abs(seen - delta_v), delta_v),
-            f"{who} has a delta-V of {kmh(delta_v)}, and its damage shows {kmh(seen)}",
+            f"{who} has a delta-V of {case.words.speed(delta_v)}, and its damage shows {case.words.speed(seen)}",
             label,
             rounding=off_by(1.0),
         )
@@ -124,7 +124,7 @@ def yaw_against_lever(case: Case) -> Iterator[Finding]:
             yield from case.above(
                 "yaw_against_lever",
                 -math.copysign(1.0, lever) * side.delta_yaw_rate,
-                f"{case.told[label].who} is turned by {math.degrees(side.delta_yaw_rate):.0f} degrees/s, against the lever "
-                f"({abs(lever):.2f} m) of a force from the {degrees(pdof)} that its damage shows",
+                f"{case.told[label].who} is turned by {case.words.yaw_rate(side.delta_yaw_rate)}, against the lever "
+                f"({case.words.length(abs(lever))}) of a force from the {case.words.angle(pdof)} that its damage shows",
                 label,
             )

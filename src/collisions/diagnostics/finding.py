@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -52,6 +52,17 @@ class Finding:
     def q(self) -> Any:
         """The same attributes, measured and limit as pint Quantities."""
         return Quantities(self)
+
+
+class Findings(tuple[Finding, ...]):
+    """Findings, a tuple like any other, with the codes of all that was measured, found or not."""
+
+    measured: frozenset[str]
+
+    def __new__(cls, found: Iterable[Finding] = (), measured: Iterable[str] = ()) -> Findings:
+        made = super().__new__(cls, found)
+        made.measured = frozenset(measured)
+        return made
 
 
 def read_limits(given: Any, door: Door) -> dict[str, float | None]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..reference import INTER_VEHICLE_FRICTION
+from ..travel.reading import HIGHEST_DRAG
 
 _HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
 _MESSAGES = f"EDCRASH manual, chapter 6 ({_HVE}/06-messages.md)"
@@ -151,6 +152,16 @@ LIMITS: Mapping[str, Limit] = {
         measured="angle between the impulse and the normal: above",
         source=f"the angle up to which crush energy is corrected for a force that is not perpendicular, {_METHOD}",
     ),
+    "heading_off_course": Limit(
+        default=math.radians(45.0),
+        unit="rad",
+        measured=(
+            "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by less than 0.5 rad/s "
+            "(one that spins may point anywhere): above"
+        ),
+        source=f"{_OWN}: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays "
+        f"below",
+    ),
     "point_outside": Limit(
         default=0.1,
         unit="m",
@@ -212,19 +223,22 @@ LIMITS: Mapping[str, Limit] = {
         source=f"{_OWN}: a quarter, which a rest position would show",
     ),
     "normal": Limit(
-        default=0.1,
+        default=0.2,
         unit="",
         measured=(
             "length by which the vector of delta-V moves with the normal turned by 10 degrees either way, as a share of "
             "delta-V: above"
         ),
-        source=f"the 10 percent by which delta-V may differ, and 10 degrees by which a force direction may, {_MESSAGES}",
+        source=(
+            f"a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 percent by which its size "
+            f"may differ, {_MESSAGES}, that is 20 percent"
+        ),
     ),
     "normal_yaw": Limit(
-        default=0.25,
+        default=0.5,
         unit="",
         measured="the same as law_yaw, with the normal turned by 10 degrees either way: above",
-        source=f"{_OWN}: a quarter, which a rest position would show",
+        source=f"{_OWN}: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
     ),
     "friction_low": Limit(
         default=INTER_VEHICLE_FRICTION.low,
@@ -272,16 +286,34 @@ LIMITS: Mapping[str, Limit] = {
         source=f"{_OWN}: that of a rectangle 17 m long; lb ft2 as kg m2",
     ),
     "suspect_lever": Limit(
-        default=10.0,
+        default=None,
         unit="m",
-        measured="distance of the contact point from the centre of mass: above",
-        source=f"{_OWN}: half a road train; feet or cm as m, or two origins mixed",
+        measured=(
+            "distance of the contact point from the centre of mass: above three radii of gyration of the vehicle, or 10 m "
+            "where its yaw inertia is not known or infinite"
+        ),
+        source=(
+            f"{_OWN}: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
+            f"half a road train; feet or cm as m, or two origins mixed"
+        ),
+    ),
+    "suspect_distance": Limit(
+        default=None,
+        unit="m",
+        measured="without a contact point, distance between both centres of mass: above both limits of suspect_lever together",
+        source=f"{_OWN}: as for suspect_lever",
     ),
     "suspect_angle": Limit(
         default=math.tau,
         unit="rad",
         measured="heading or course, or normal that was given as a number without a unit: above",
         source=f"{_OWN}: a full turn, as for a bare number at the door; degrees as rad",
+    ),
+    "suspect_drag": Limit(
+        default=HIGHEST_DRAG,
+        unit="",
+        measured="drag of the tyres: above",
+        source=f"{_OWN}: no road tyre holds more, as for a bare number at the door; percent or m/s2 as a fraction of gravity",
     ),
     "suspect_duration": Limit(
         default=10.0,

@@ -8,11 +8,14 @@ from collections.abc import Iterator
 from ..outlines import distance_outside, overlap, placed
 from ..reference import restitution_range
 from ..side import Side
-from .case import RATIO_OFF_BY, Case, degrees, kmh, named, off_by, outline_off_by, share
+from .case import RATIO_OFF_BY, Case, named, off_by, outline_off_by, share
 from .finding import Finding
 
 # Of positions and outlines together.
 _READ_TO = 0.3
+# Slower than this, in m/s, a course tells little; faster than this, in rad/s, a vehicle spins.
+_GOES, _SPINS = 1.0, 0.5
+_BACKWARDS = math.radians(135.0)
 
 
 def energy_gain(case: Case) -> Iterator[Finding]:
@@ -20,7 +23,9 @@ def energy_gain(case: Case) -> Iterator[Finding]:
     impact = case.impact
     if not impact.ok:
         gain = -impact.energy_loss
-        yield from case.above("energy_gain", gain, f"the impact ends with {gain:.6g} J more than it began with; none can")
+        yield from case.above(
+            "energy_gain", gain, f"the impact ends with {case.words.energy(gain)} more than it began with; none can"
+        )
 
 
 def rounding(case: Case) -> Iterator[Finding]:
@@ -37,8 +42,8 @@ def rounding(case: Case) -> Iterator[Finding]:
         if by_speeds > off:
             off = by_speeds
             what = (
-                f"kinetic energies before and after differ by {before - after:.6g} J, and the impulse takes "
-                f"{impact.energy_loss:.6g} J"
+                f"kinetic energies before and after differ by {case.words.energy(before - after)}, and the impulse takes "
+                f"{case.words.energy(impact.energy_loss)}"
             )
     yield from case.above("rounding", off, f"{what}: rounding of speeds that are large against the closing speed")
 
@@ -64,8 +69,8 @@ def restitution(case: Case) -> Iterator[Finding]:
     impact = case.impact
     highest = restitution_range(impact.closing_speed)[1]
     sentence = (
-        f"restitution {impact.restitution:.3g} at a closing speed of {kmh(impact.closing_speed)}, where {highest:.2g} is the "
-        f"highest that published values make plausible"
+        f"restitution {impact.restitution:.3g} at a closing speed of {case.words.speed(impact.closing_speed)}, where "
+        f"{highest:.2g} is the highest that published values make plausible"
     )
     yield from case.above("restitution", impact.restitution, sentence, limit=highest, rounding=RATIO_OFF_BY)
 
@@ -94,8 +99,8 @@ def friction_gain(case: Case) -> Iterator[Finding]:
     yield from case.above(
         "friction_gain",
         part,
-        f"the tangential impulse adds {gain:.6g} J, {part:.1%} of the energy absorbed, where friction can only take it: the "
-        f"slip turns round during the contact, which one impulse ratio does not tell",
+        f"the tangential impulse adds {case.words.energy(gain)}, {part:.1%} of the energy absorbed, where friction can only "
+        f"take it: the slip turns round during the contact, which one impulse ratio does not tell",
     )
 
 
@@ -127,7 +132,8 @@ def contact_points(case: Case) -> Iterator[Finding]:
     yield from case.above(
         "contact_points_approach",
         approach,
-        f"after the impact the contact points still approach at {kmh(approach)}: {impact.model} leaves the turning out",
+        f"after the impact the contact points still approach at {case.words.speed(approach)}: {impact.model} leaves the "
+        f"turning out",
     )
 
 
@@ -145,23 +151,23 @@ def outlines(case: Case) -> Iterator[Finding]:
     yield from case.above(
         "outlines_interpenetrate",
         grown,
-        f"{case.duration:.3g} s after separation the outlines overlap by {later:.2f} m, {grown:.2f} m more than at the impact "
-        f"({depth:.2f} m)",
+        f"{case.duration:.3g} s after separation the outlines overlap by {case.words.length(later)}, "
+        f"{case.words.length(grown)} more than at the impact ({case.words.length(depth)})",
         rounding=off,
     )
     crush = case.left_out.mutual_crush
     yield from case.above(
         "outlines_overlap",
         depth,
-        f"at the impact the outlines overlap by {depth:.2f} m, and the impact crushes both together by {crush:.2f} m in "
-        f"{case.duration:.3g} s; check positions and headings",
+        f"at the impact the outlines overlap by {case.words.length(depth)}, and the impact crushes both together by "
+        f"{case.words.length(crush)} in {case.duration:.3g} s; check positions and headings",
         limit=crush + _READ_TO,
         rounding=off,
     )
     yield from case.above(
         "outlines_gap",
         -now,
-        f"at the impact there is a gap of {-now:.2f} m between the outlines; check positions and headings",
+        f"at the impact there is a gap of {case.words.length(-now)} between the outlines; check positions and headings",
         rounding=off,
     )
 
@@ -181,8 +187,8 @@ def normal_against_positions(case: Case) -> Iterator[Finding]:
             yield from case.above(
                 "normal_against_positions",
                 behind,
-                f"along the normal, which points from A into B, the centre of B is {behind:.2f} m behind that of A; check the "
-                f"normal and the positions",
+                f"along the normal, which points from A into B, the centre of B is {case.words.length(behind)} behind that "
+                f"of A; check the normal and the positions",
                 rounding=off_by(*a, *b),
             )
         return
@@ -193,7 +199,7 @@ def normal_against_positions(case: Case) -> Iterator[Finding]:
                 "normal_against_positions",
                 behind,
                 f"the normal, which points from A into B, points {'away from B' if label == 'b' else 'back into A'}: the "
-                f"centre of {named(label, side)} is {behind:.2f} m on the wrong side of the contact point",
+                f"centre of {named(label, side)} is {case.words.length(behind)} on the wrong side of the contact point",
                 label,
                 rounding=off_by(*centre, *point),
             )
@@ -203,11 +209,34 @@ def impulse_off_normal(case: Case) -> Iterator[Finding]:
     """A force far from perpendicular to the damage."""
     impact = case.impact
     angle = math.atan2(abs(impact.tangential_impulse), impact.normal_impulse)
-    seen = [f"{named(label, side)} has a PDOF of {degrees(side.pdof)}" for label, side in case.sides if side.pdof is not None]
+    seen = [
+        f"{named(label, side)} has a PDOF of {case.words.angle(side.pdof)}"
+        for label, side in case.sides
+        if side.pdof is not None
+    ]
     told = f"; {', '.join(seen)} (0 ahead, positive clockwise)" if seen else ""
     yield from case.above(
-        "impulse_off_normal", angle, f"the impulse is {degrees(angle)} off the normal, the direction of damage{told}"
+        "impulse_off_normal", angle, f"the impulse is {case.words.angle(angle)} off the normal, the direction of damage{told}"
     )
+
+
+def heading_off_course(case: Case) -> Iterator[Finding]:
+    """A vehicle that does not point where it goes, and does not spin."""
+    for label, side in case.sides:
+        before = side.before
+        heading = before.heading
+        if heading is None or math.isinf(before.mass) or before.speed < _GOES or abs(before.yaw_rate) >= _SPINS:
+            continue
+        off = abs(math.remainder(before.course - heading, math.tau))
+        how = "backwards" if off > _BACKWARDS else "sideways"
+        yield from case.above(
+            "heading_off_course",
+            off,
+            f"{named(label, side)} goes {how} before, at {case.words.speed(before.speed)}, {case.words.angle(off)} off its "
+            f"heading, as only a vehicle that slides far aside or is in reverse does; check heading, vx and vy",
+            label,
+            rounding=off_by(heading, math.tau),
+        )
 
 
 def point_outside(case: Case) -> Iterator[Finding]:
@@ -222,7 +251,7 @@ def point_outside(case: Case) -> Iterator[Finding]:
             yield from case.above(
                 "point_outside",
                 distance,
-                f"the contact point is {distance:.2f} m outside the outline of {named(label, side)}",
+                f"the contact point is {case.words.length(distance)} outside the outline of {named(label, side)}",
                 label,
                 rounding=outline_off_by(outline, side.before) + off_by(*point),
             )
@@ -236,7 +265,8 @@ def tyre_impulse(case: Case) -> Iterator[Finding]:
             "tyre_impulse",
             left.tyre_share_bound,
             f"tyres of {named(label, side)} that slide for {found.duration:.3g} s with a drag of {found.drag:.2g} give up to "
-            f"{kmh(left.tyre_delta_v_bound)}, {left.tyre_share_bound:.0%} of its delta-V of {kmh(side.delta_v)}",
+            f"{case.words.speed(left.tyre_delta_v_bound)}, {left.tyre_share_bound:.0%} of its delta-V of "
+            f"{case.words.speed(side.delta_v)}",
             label,
         )
 

@@ -12,7 +12,7 @@ from ..kernels import codes
 from ..quiet import quietly
 from ..scene import required_model
 from ..side import Side
-from .case import Case, degrees, kmh, named, share
+from .case import Case, named, share
 from .finding import Finding
 
 _TURN = 10.0  # degrees
@@ -51,7 +51,8 @@ def model(case: Case) -> Iterator[Finding]:
     yield from case.above(
         "model",
         error / delta_v,
-        f"{impact.model} is predicted to err by {kmh(error)}{between}, against a delta-V of {kmh(delta_v)}: take eccentric",
+        f"{impact.model} is predicted to err by {case.words.speed(error)}{between}, against a delta-V of "
+        f"{case.words.speed(delta_v)}: take eccentric",
     )
 
 
@@ -101,18 +102,19 @@ def _told(case: Case, code: str, answers: list[tuple[str, Impact]]) -> Iterator[
         yield from case.above(
             code,
             moved,
-            f"{how} delta-V of {named(label, old)} moves by {moved:.0%} of itself, from {kmh(old.delta_v)} to "
-            f"{kmh(new.delta_v)}, and its direction by {degrees(_turn(old, new))}",
+            f"{how} delta-V of {named(label, old)} moves by {moved:.0%} of itself, from {case.words.speed(old.delta_v)} to "
+            f"{case.words.speed(new.delta_v)}, and its direction by {case.words.angle(_turn(old, new))}",
             label,
         )
     if moves:
         how, label, old, new = max(moves, key=lambda move: _yaw(*move[2:]))
-        was, now = (math.degrees(side.delta_yaw_rate) for side in (old, new))
+        was, now = (side.delta_yaw_rate for side in (old, new))
         other_way = ", the other way" if was * now < 0.0 else ""
         yield from case.above(
             f"{code}_yaw",
             _yaw(old, new),
-            f"{how} the impact turns {named(label, old)} by {now:.0f} degrees/s instead of {was:.0f}{other_way}",
+            f"{how} the impact turns {named(label, old)} by {case.words.yaw_rate(now)} instead of "
+            f"{case.words.number(was, 'yaw_rate')}{other_way}",
             label,
         )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
@@ -19,6 +20,7 @@ SIDES = ("a", "b")
 COLOURS = ("#1f5fa8", "#b3541e")
 FORCE = "#a01040"
 THIN = "\u2009"  # between thousands
+_WIDTH = 26  # letters of a name on one line
 
 _SYSTEMS: dict[str, dict[str, str]] = {
     "si": {},
@@ -99,11 +101,11 @@ def number(value: float, decimals: int = 6) -> str:
         text = f"{value:.3e}"
     else:
         beyond = 0 if size == 0.0 else 3 - math.floor(math.log10(size))
-        value = round(value, beyond)
-        # 999.96 has become 1000.
-        digits = max(0, beyond - (abs(value) >= 10.0 ** (4 - beyond)))
+        # 999.96 becomes 1000.
+        digits = max(0, beyond - (abs(round(value, beyond)) >= 10.0 ** (4 - beyond)))
         digits = min(digits, decimals) if size >= 0.5 * 10.0**-decimals else digits
-        text = f"{value:,.{digits}f}".replace(",", THIN)
+        # Once only: 128.529 is 128.5 to four digits, and 129 to the whole.
+        text = f"{round(value, min(digits, beyond)):,.{digits}f}".replace(",", THIN)
     return text.replace("-", "\u2212")
 
 
@@ -116,9 +118,16 @@ def answered(impact: Any, function: str) -> Impact:
 
 
 def who(index: int, vehicle: Vehicle) -> str:
-    """The letter of a vehicle, and its name if that says more."""
+    """The letter of a vehicle, and its name if that says more, in short lines."""
     letter = "AB"[index]
-    return letter if vehicle.name in ("", letter) else f"{letter} ({vehicle.name})"
+    return letter if vehicle.name in ("", letter) else in_lines(f"{letter} ({vehicle.name})")
+
+
+def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
+    """A text in lines that are no longer than this; what does not go into so many lines is left out, and shown to be."""
+    if len(text) <= width:
+        return text
+    return "\n".join(textwrap.wrap(text, width, max_lines=most, placeholder="\u2026"))
 
 
 def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:

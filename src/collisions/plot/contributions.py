@@ -10,10 +10,12 @@ from ..errors import InputError
 from ..uncertainty.output import Output
 from ..uncertainty.result import Propagation
 from ..units import shown
-from .canvas import GREY, INK, Units, begin, legend_below, tidy
+from .canvas import GREY, INK, Units, begin, in_lines, legend_below, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
 def contributions(
@@ -21,8 +23,8 @@ def contributions(
 ) -> Axes:
     """What share of the variance of an output each input brings: by itself (bar), and with all it takes part in (diamond).
 
-    To know the first input exactly would take that share away. Horizontal lines are standard errors on both sides; a local
-    method has none. Where diamond and bar differ, inputs act together.
+    The figure of each stands beside it. To know an input exactly would take the share of its bar away. Horizontal lines are
+    standard errors on both sides; a local method has none. Where diamond and bar differ, inputs act together.
 
     Parameters
     ----------
@@ -38,7 +40,8 @@ def contributions(
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "share of ..." with the name of the input; the diamonds are the line "total".
+        Bars by gid: "share of ..." with the name of the input; the diamonds are the line "total". Their figures are "own of
+        ..." and "total of ...".
 
     Raises
     ------
@@ -77,35 +80,45 @@ def contributions(
             label=None if row else "by itself",
         )  # fmt: skip
     axes.plot(
-        percent[:, 1], rows + 0.12, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none", zorder=5, gid="total",
+        percent[:, 1], rows + _ASIDE, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none", zorder=5, gid="total",
         label="with all it takes part in",
     )  # fmt: skip
-    for column, aside in ((0, -0.12), (1, 0.12)):
+    for column, aside in ((0, -_ASIDE), (1, _ASIDE)):
         if known[:, column].all():
             axes.errorbar(
                 percent[:, column], rows + aside, xerr=percent[:, 2 + column], fmt="none", ecolor=INK, lw=1.4, capsize=3,
                 zorder=4, label=None if column else "standard error",
             )  # fmt: skip
-    ends = np.nanmax(percent[:, :2], axis=1) + np.where(known.any(axis=1), np.nan_to_num(percent[:, 2:]).max(axis=1), 0.0)
-    for row, end in enumerate(ends):
-        axes.annotate(
-            f"{percent[row, 0]:.1f} %".replace("-", "\u2212"), (max(end, 0.0), row), (9, 0), textcoords="offset points",
-            va="center", fontsize=9.5, annotation_clip=False,
-        )  # fmt: skip
-    axes.set_yticks(rows, names, parse_math=False)
+    # Each figure beside its own mark: that of the bar above, that of the diamond below.
+    ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
+    for row, share in enumerate(percent[:, :2]):
+        for column, (before, aside) in enumerate((("", -_ASIDE), ("in all ", _ASIDE))):
+            axes.annotate(
+                f"{before}{_percent(share[column])}", (max(ends[row, column], 0.0), row + aside), (9, 0),
+                textcoords="offset points", va="center", fontsize=9, annotation_clip=False,
+                gid=f"{('own', 'total')[column]} of {names[row]}",
+            )  # fmt: skip
+    axes.set_yticks(rows, [in_lines(name, most=2) for name in names], parse_math=False)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.axvline(0.0, color=INK, lw=0.9)
-    axes.set_xlim(min(0.0, 1.1 * float(percent[:, :2].min())), 1.2 * max(float(ends.max()), 1.0))
+    axes.set_xlim(min(0.0, 1.1 * float(percent[:, :2].min())), 1.24 * max(float(ends.max()), 1.0))
     axes.set_xlabel("share of the variance [%]")
     spread = labels.text(found.std, found.unit) if found.unit else f"{found.std:.4g}"
     axes.set_title(
-        f"{found.name}: standard deviation {spread}\nshares sum to {percent[:, 0].sum():.0f} %", fontsize=10.5, parse_math=False
+        f"{in_lines(found.name, 50)}: standard deviation {spread}\nshares sum to {percent[:, 0].sum():.0f} %",
+        fontsize=10.5,
+        parse_math=False,
     )
     axes.grid(axis="x", color=GREY, alpha=0.25, lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
     legend_below(axes, 3)
     return axes
+
+
+def _percent(share: float) -> str:
+    """To a tenth, without a minus before nothing."""
+    return f"{round(share, 1) + 0.0:.1f} %".replace("-", "\u2212")
 
 
 def _output(result: Any, output: Any) -> Output:

@@ -18,10 +18,10 @@ _Box = tuple[float, float, float, float]
 _FONT = 9.5
 # Of a font size: the mean width of a letter, and the height of a line.
 _LETTER, _LINE = 0.6, 1.45
-_TURNS = tuple(math.radians(angle) for angle in (0, 30, -30, 60, -60, 90, -90, 130, -130, 180))
+_TURNS = tuple(math.radians(angle) for angle in (0, 20, -20, 40, -40, 60, -60, 90, -90, 120, -120, 150, -150, 180))
 # Of the larger extent: what is left free around, and the least there is of the other one.
 _MARGIN, _STRIP = 0.14, 0.42
-_AWAY = (5.0, 14.0, 26.0, 42.0)
+_AWAY = (5.0, 14.0, 26.0, 42.0, 60.0)
 
 
 class _Label(NamedTuple):
@@ -29,6 +29,7 @@ class _Label(NamedTuple):
     text: str
     direction: Place
     colour: str
+    of: int | None
 
 
 class Drawing:
@@ -39,6 +40,7 @@ class Drawing:
         self._labels: list[_Label] = []
         self._taken: list[Any] = []
         self._seen: list[Place] = []
+        self._areas: dict[int, list[Place]] = {}
 
     def arrow(self, tail: Place, tip: Place, gid: str, *, colour: str = INK, width: float = 1.8, style: Any = "-") -> None:
         """An arrow whose ends are exactly these; none without a length."""
@@ -78,9 +80,21 @@ class Drawing:
         """No label shall cover the line between these."""
         self._taken.append(np.linspace(one, other, 60))
 
-    def label(self, place: Place, text: str, direction: Place = (0.0, 1.0), colour: str = INK, *others: Place) -> None:
-        """A text beside a place, or one of the others, in this direction from it if there is room."""
-        self._labels.append(_Label((place, *others), text, direction, colour))
+    def area(self, index: int, corners: list[Place]) -> None:
+        """The convex outline of a vehicle, anticlockwise, which no label of the other one shall stand on."""
+        self._areas[index] = corners
+
+    def label(
+        self,
+        place: Place,
+        text: str,
+        direction: Place = (0.0, 1.0),
+        colour: str = INK,
+        *others: Place,
+        of: int | None = None,
+    ) -> None:
+        """A text beside a place, or one of the others, in this direction from it if there is room; ``of`` which vehicle."""
+        self._labels.append(_Label((place, *others), text, direction, colour, of))
 
     def finish(self) -> None:
         """Settle the limits, so that everything is in view, and put the labels where there is room."""
@@ -101,13 +115,24 @@ class Drawing:
         lines = np.array([in_points(line) * points for line in self._taken])
         inside = np.array(self.axes.bbox.extents) * points
         boxes: list[_Box] = []
-        for places, text, direction, colour in self._labels:
+        areas = {index: np.array(in_points(corners)) * points for index, corners in self._areas.items()}
+        for places, text, direction, colour, of in self._labels:
+            foreign = [] if of is None else [area for index, area in areas.items() if index != of]
             rows = text.split("\n")
             size = _FONT * _LETTER * max(map(len, rows)), _FONT * _LINE * len(rows)
             along = math.atan2(direction[1], direction[0])
             _, best, place, at = min(
                 (
-                    (_cost(box, at, lines, boxes, inside) + 0.4 * distance + 3.0 * abs(turn) + 2.0 * later, box, place, at)
+                    (
+                        _cost(box, at, lines, boxes, inside)
+                        + 0.4 * distance
+                        + 3.0 * abs(turn)
+                        + 2.0 * later
+                        + 300.0 * sum(_on(box, area) for area in foreign),
+                        box,
+                        place,
+                        at,
+                    )
                     for later, place in enumerate(places)
                     for at in [in_points(place) * points]
                     for distance in _AWAY
@@ -153,6 +178,15 @@ def _cost(box: _Box, at: Any, lines: Any, boxes: list[_Box], inside: Any) -> flo
     over = max(0.0, inside[0] - left) + max(0.0, right - inside[2]) + max(0.0, inside[1] - low) + max(0.0, high - inside[3])
     behind = np.count_nonzero(_crosses(at, (0.5 * (left + right), 0.5 * (low + high)), lines[:, 0], lines[:, -1]))
     return 8.0 * int(crossed) + 5.0 * covered + 20.0 * float(over) + 25.0 * int(behind)
+
+
+def _on(box: _Box, area: Any) -> float:
+    """Which share of a label stands on a convex area with its corners anticlockwise."""
+    across, up = np.meshgrid(np.linspace(box[0], box[2], 7), np.linspace(box[1], box[3], 3))
+    inside = np.ones(across.shape, dtype=bool)
+    for (x0, y0), (x1, y1) in zip(area, np.roll(area, -1, axis=0), strict=True):
+        inside &= (x1 - x0) * (up - y0) - (y1 - y0) * (across - x0) > 0.0
+    return float(np.mean(inside))
 
 
 def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:

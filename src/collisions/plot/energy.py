@@ -89,6 +89,8 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Ax
     axes.set_xlabel(labels.label("energy", "J"))
     lost = impact.energy_loss
     share = f"\n{number(100.0 * abs(lost) * factor / total, 1)} % of the kinetic energy in this frame" if total > 0.0 else ""
+    for label in axes.get_yticklabels():
+        label.set_fontsize(10 if "\n" not in label.get_text() else 8.5)
     axes.set_title(f"Energy {'lost' if lost >= 0.0 else 'gained'}: {labels.text(abs(lost), 'J')}{share}", fontsize=10.5)
     axes.locator_params(axis="x", nbins=5)
     tidy(axes)

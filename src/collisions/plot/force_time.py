@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..door import POSITIVE, Door
+from ..door import Door
 from ..errors import InputError
 from ..impact import Impact
 from ..travel.reading import one_value, warn_if_above
@@ -67,11 +67,17 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     labels = Units(units)
     impact = answered(impact, "force_time")
     door = Door()
-    time = one_value(door, duration, "s", "duration", POSITIVE)
+    time = one_value(door, duration, "s", "duration")
     door.close()
-    if not isinstance(time, float) or math.isinf(time):
+    if not isinstance(time, float):
         raise InputError(
             f"duration must be one finite time, got {shown(duration)}; write '100 ms'", code="bad_shape", argument="duration"
+        )
+    if not time > 0.0:
+        raise InputError(
+            f"duration must be > 0, got {shown(duration)}; it is the time from touching to parting, write '100 ms'",
+            code="not_positive",
+            argument="duration",
         )
     if not (isinstance(duration, str) or is_quantity(duration)):
         warn_if_above(_LONGEST, time, "duration", "seconds", "ms")

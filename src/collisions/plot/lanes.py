@@ -9,6 +9,7 @@ from .drawing import Place
 # All within this of one line hide each other: sine of the angle.
 ALONG_ONE_LINE = 0.03
 APART = 0.045  # of the size of the scene: between arrows that would hide each other
+_WIDE = 0.04  # of the size of the scene: what is nearer to an arrow is beneath it
 
 
 def covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
@@ -32,6 +33,14 @@ def beside(place: Place, direction: Place, far: float) -> Place:
     return place[0] + far * direction[0], place[1] + far * direction[1]
 
 
+def off_line(place: Place, start: Place, vector: Place) -> float:
+    """How far a place is from an arrow."""
+    gap = place[0] - start[0], place[1] - start[1]
+    share = (gap[0] * vector[0] + gap[1] * vector[1]) / (vector[0] ** 2 + vector[1] ** 2)
+    nearest = beside(start, vector, min(max(share, 0.0), 1.0))
+    return math.hypot(place[0] - nearest[0], place[1] - nearest[1])
+
+
 class Lanes:
     """The arrows drawn so far, so that none is drawn on another one."""
 
@@ -42,7 +51,13 @@ class Lanes:
 
     def hides(self, start: Place, vector: Place) -> bool:
         """Whether an arrow would lie on one of them."""
-        return any(covers(start, vector, *other, self.size) for other in self._drawn)
+        return any(covers(start, vector, *other, self.size) or self._buries(start, vector, *other) for other in self._drawn)
+
+    def _buries(self, start: Place, vector: Place, other: Place, along: Place) -> bool:
+        """Whether the shorter of two arrows lies wholly beneath the line and the head of the longer."""
+        if math.hypot(*vector) > math.hypot(*along):
+            start, vector, other, along = other, along, start, vector
+        return all(off_line(place, other, along) < _WIDE * self.size for place in (start, beside(start, vector, 1.0)))
 
     def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
         """The arrows, start and vector, all moved as far down, or to the right, as it takes."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..impact import Impact
 from ..side import Side
-from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, legend_below, tidy, who
+from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
 from .drawing import Drawing, Place
 from .lanes import ALONG_ONE_LINE, beside, covers, cross
 
@@ -17,14 +17,16 @@ if TYPE_CHECKING:
 
 # Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
 _LANE, _APART = 0.11, 0.04
+_TRIED = 12
 
 
 def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
 
     Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes from
-    outside, by a body of infinite mass or by a pivot, closes the diagram as an arrow of its own; a body of infinite mass has
-    no momentum to draw.
+    outside, by a body of infinite mass or by a pivot, follows A and B before as an arrow of its own, and so ends where A and B
+    after end; then no total is drawn. If A or B after would hide one of those, both are drawn beside, and thin lines join
+    what is one place. A body of infinite mass has no momentum to draw.
 
     Parameters
     ----------
@@ -38,8 +40,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> 
     Returns
     -------
     matplotlib.axes.Axes
-        Arrows by gid: "before.a", "before.b", "after.a", "after.b", "total"; where something comes from
-        outside "total.before", "total.after" (if both vehicles have a finite mass) and "outside".
+        Arrows by gid: "before.a", "before.b", "after.a", "after.b", and "total", or "outside" where something comes from
+        outside. "begin" and "end" are the thin lines.
 
     Raises
     ------
@@ -79,6 +81,10 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> 
     drawn: list[tuple[Place, Place]] = []
     apart: list[str] = []
 
+    aside = (0.0, 0.0)
+    if across is None and open_ended:
+        aside = _aside(_chain((0.0, 0.0), [*chains["before"], outside]), chains["after"], longest)
+
     def draw(tail: Place, vector: Place, gid: str, tag: str, text: str, colour: str, style: Any, width: float = 2.0) -> None:
         length = math.hypot(*vector)
         if length <= 1e-9 * longest:
@@ -97,26 +103,28 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> 
         axes.plot([], [], color=colour, lw=width, ls=style, label=told)
 
     for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
-        tail: Place = (0.0, 0.0)
+        tail: Place = (0.0, 0.0) if when == "before" else aside
         for index, vector in enumerate(chains[when]):
             draw(tail, vector, f"{when}.{SIDES[index]}", "AB"[index] + prime, when, COLOURS[index], style)
             tail = _sum([tail, vector])
     if not open_ended:
         draw((0.0, 0.0), totals["before"], "total", "total", "before and after", INK, (0, (1, 1.2)), 1.6)
     else:
-        if all(takes_part):
-            for when, prime in (("before", ""), ("after", "\u2032")):
-                draw((0.0, 0.0), totals[when], f"total.{when}", "total" + prime, when, INK, (0, (1, 1.2)), 1.6)
         draw(totals["before"], outside, "outside", "outside", _by_whom(impact), FORCE, (0, (7, 2, 1, 2)))
 
+    if aside != (0.0, 0.0):
+        for place, gid in (((0.0, 0.0), "begin"), (totals["after"], "end")):
+            drawing.line(place, _sum([place, aside]), gid, color=GREY, lw=0.8, ls=":", zorder=1)
+        apart.append("after")
     drawing.include((0.0, 0.0))
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
     axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
     axes.set_ylabel(labels.label("momentum along y", "kg*m/s"))
     note = "\nthose along one line side by side" if across is not None or apart else ""
-    named = [who(index, side.before) for index, side in enumerate((impact.a, impact.b)) if side.before.name]
-    title = "Momenta before (dashed) and after (solid)" + (f": {' and '.join(named)}" if named else "")
-    axes.set_title(title + note, fontsize=10.5, parse_math=False)
+    note = "\nthose after side by side with those before;\nthin lines join what is one place" if aside != (0.0, 0.0) else note
+    sides = enumerate((impact.a, impact.b))
+    named = [in_lines(f"{'AB'[index]}: {side.before.name}", 60, 1) for index, side in sides if side.before.name]
+    axes.set_title("\n".join(["Momenta before (dashed) and after (solid)", *named]) + note, fontsize=10.5, parse_math=False)
     axes.grid(color="#e2e2e2", lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
@@ -147,6 +155,28 @@ def _common_normal(vectors: list[Place], longest: float) -> Place | None:
     length = math.hypot(*chief)
     across = -chief[1] / length, chief[0] / length
     return across if (across[1], across[0]) > (0.0, 0.0) else (-across[0], -across[1])
+
+
+def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float) -> Place:
+    """How far a chain of arrows must stand beside others, so that none of it lies on one of them."""
+    chief = max(second, key=lambda vector: math.hypot(*vector))
+    length = math.hypot(*chief)
+    for step in range(_TRIED):
+        far = 0.0 if step == 0 else (step + 1) // 2 * _LANE * longest * (-1.0) ** step
+        moved = (-far * chief[1] / length, far * chief[0] / length) if length else (0.0, 0.0)
+        if not any(covers(*arrow, *other, longest) for arrow in _chain(moved, second) for other in drawn):
+            return moved
+    return 0.0, 0.0
+
+
+def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
+    """Tail and vector of arrows head to tail; those without a length left out."""
+    found = []
+    for vector in vectors:
+        if vector != (0.0, 0.0):
+            found.append((start, vector))
+        start = _sum([start, vector])
+    return found
 
 
 def _by_whom(impact: Impact) -> str:

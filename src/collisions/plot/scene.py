@@ -27,6 +27,7 @@ _TITLES = {
     "after": "After the impact, at the place of it",
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
+_NOTHING = 1e-9  # of the impulse: what rounding leaves of none
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
 
@@ -42,10 +43,10 @@ def scene(
     """The scene from above at the moment of impact, to scale.
 
     Velocities before point to the centre of mass, those after away from it; the vehicles stand where they were, because an
-    impulse takes no time. The impulse acts at the contact point, in a central impact at the centres of mass. Arrows that would
-    hide each other, as those of an in-line impact, are drawn side by side, which is said below the picture. The scales of the
-    arrows are stated below the picture. Positions that a central model has no need of are never made up: without them the
-    picture is a sketch, and says so.
+    impulse takes no time. The impulse acts at the contact point, in a central impact at the centres of mass; that of a pivot on
+    its vehicle acts at the pivot. Arrows that would hide each other, as those of an in-line impact, are drawn side by side,
+    which is said below the picture. The scales of the arrows are stated below the picture. Positions that a central model has
+    no need of are never made up: without them the picture is a sketch, and says so.
 
     Parameters
     ----------
@@ -64,8 +65,9 @@ def scene(
     Returns
     -------
     matplotlib.axes.Axes
-        Arrows by gid: "a.before", "a.after", "b.before", "b.after", "normal", "tangent", "impulse.a", "impulse.b"; and
-        "a.centre", "b.centre", "a.outline", "b.outline", "a.wall", "b.wall", "a.pivot", "b.pivot", "contact".
+        Arrows by gid: "a.before", "a.after", "b.before", "b.after", "normal", "tangent", "impulse.a", "impulse.b",
+        "pivot_impulse.a", "pivot_impulse.b"; and "a.centre", "b.centre", "a.outline", "b.outline", "a.wall", "b.wall",
+        "a.pivot", "b.pivot", "contact".
 
     Raises
     ------
@@ -121,7 +123,8 @@ def scene(
     n, at = impact.normal, scaled(contact)
     speed_scale = _scale([state.speed for side in sides for state in _states(side, moment)], labels.factor("m/s"), 0.55 * size)
     impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
-    impulse_scale = _scale([impulse], labels.factor("N*s"), 0.3 * size) if moment != "before" else 0.0
+    pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]
+    impulse_scale = _scale([impulse, *pulls], labels.factor("N*s"), 0.3 * size) if moment != "before" else 0.0
     for index, side in enumerate(sides):
         place = centres[index]
         if place is None:
@@ -131,7 +134,8 @@ def scene(
         if side.before.pivot is not None:
             pin = scaled(side.before.pivot)
             axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
-            drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index])
+            drawing.avoid(pin, pin)
+            drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
     wheres = [at if place is None else scaled(place) for place in centres]
     lanes = Lanes(size)
     for when in _MOMENTS[moment]:
@@ -150,7 +154,15 @@ def scene(
         for index, (start, vector) in enumerate(lanes.free(arrows)):
             tip = start[0] + vector[0], start[1] + vector[1]
             drawing.arrow(start, tip, f"impulse.{SIDES[index]}", colour=FORCE, width=2.6)
-            drawing.label(tip, f"impulse on {'AB'[index]}\n{labels.text(impulse, 'N*s')}", vector, FORCE)
+            drawing.label(tip, f"impulse on {'AB'[index]}\n{labels.text(impulse, 'N*s')}", vector, FORCE, of=index)
+        for index, side in enumerate(sides):
+            if pulls[index] > _NOTHING * impulse and side.before.pivot is not None:
+                pull = float(side.pivot_impulse_x) * share, float(side.pivot_impulse_y) * share
+                ((start, pull),) = lanes.free([(scaled(side.before.pivot), pull)])
+                tip = beside(start, pull, 1.0)
+                drawing.arrow(start, tip, f"pivot_impulse.{SIDES[index]}", colour=FORCE, width=1.6)
+                told = f"impulse of the pivot on {'AB'[index]}\n{labels.text(pulls[index], 'N*s')}"
+                drawing.label(tip, told, pull, FORCE, of=index)
     _draw_frame(drawing, at, n, lanes, marked=impact.point is not None)
 
     scales = [("velocities", speed_scale, "m/s"), ("impulses", impulse_scale, "N*s")]
@@ -248,7 +260,8 @@ def _draw_wall(drawing: Drawing, at: Place, n: Place, index: int, size: float, s
     )  # fmt: skip
     drawing.include(one, other)
     drawing.avoid(one, other)
-    drawing.label((one[0] + deep[0], one[1] + deep[1]), who(index, side.before), (away * n[0], away * n[1]), COLOURS[index])
+    corner = one[0] + deep[0], one[1] + deep[1]
+    drawing.label(corner, who(index, side.before), (away * n[0], away * n[1]), COLOURS[index], of=index)
 
 
 def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: list[Place], labels: Units) -> None:
@@ -264,6 +277,7 @@ def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: 
             zorder=2,
             gid=f"{letter}.outline",
         )
+        drawing.area(index, corners)
         (x0, y0), (x1, y1) = corners[:2]
         drawing.axes.plot([x0, x1], [y0, y1], color=colour, lw=4, solid_capstyle="butt", zorder=3, gid=f"{letter}.front")
         for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
@@ -271,7 +285,7 @@ def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: 
     marker = "os"[index]
     drawing.axes.plot(*place, marker, ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
     drawing.avoid(place, place)
-    drawing.label(place, who(index, side.before), (0.0, 1.0), colour)
+    drawing.label(place, who(index, side.before), (0.0, 1.0), colour, of=index)
 
 
 def _draw_velocity(
@@ -290,4 +304,4 @@ def _draw_velocity(
     drawing.arrow(start, tip, f"{letter}.{when}", colour=colour, style=style, width=2.0)
     away = (0.0, -1.0) if not state.speed else vector if when == "after" else (-vector[0], -vector[1])
     if state.speed or state.yaw_rate or not math.isinf(state.mass):
-        drawing.label(start if when == "before" else tip, text, away, colour)
+        drawing.label(start if when == "before" else tip, text, away, colour, of=index)

@@ -100,6 +100,11 @@ def central(
     masses = door.number(mass_a, "kg", "mass_a", POSITIVE), door.number(mass_b, "kg", "mass_b", POSITIVE)
     known = {name: _read(door, value, name) for name, value in given.items()}
     door.close()
+    texts = door.texts
+    written = [
+        {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts} for label in "ab"
+    ]
+    told = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
     cases = Cases.of({**_named(masses), **known})
     eps = codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
     numbers = {name: np.asarray(value, dtype=np.float64) for name, value in {**_named(masses), **known}.items()}
@@ -123,11 +128,11 @@ def central(
 
     def asked(answer: dict[str, Any], keep: Any) -> Asked:
         a, b = (
-            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), 0.0, 0.0)
-            for mass, name in zip(masses, ("va", "vb"), strict=True)
+            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), 0.0, 0.0)._told(given_as)
+            for mass, name, given_as in zip(masses, ("va", "vb"), written, strict=True)
         )
         e = cases.values(np.where(keep, answer["e"], 0.0))
-        return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None)
+        return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None, told)
 
     def solution(which: int) -> Impact:
         with np.errstate(all="ignore"):
@@ -138,9 +143,9 @@ def central(
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is None and status == codes.AMBIGUOUS:
             solutions = tuple(solution(k) for k in range(len(answers)))
-            told = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
+            both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
             return AmbiguousSolutionError(
-                f"two impacts fit {', '.join(known)}: {told}; both are in .solutions, and a velocity of the other kind decides",
+                f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity of the other kind decides",
                 code="ambiguous",
                 solutions=solutions,
             )

@@ -121,7 +121,7 @@ def momentum(
     }
     angles = {name: course(door, value, name) for name, value in courses.items() if value is not None}
     headings = {
-        name: course(door, value, name).direction
+        name: course(door, value, name)
         for name, value in (("heading_a", heading_a), ("heading_b", heading_b))
         if value is not None
     }
@@ -133,7 +133,7 @@ def momentum(
             **masses,
             **known,
             **{name: angle.value for name, angle in angles.items()},
-            **{f"{name}[{i}]": part for name, pair in headings.items() for i, part in enumerate(pair)},
+            **{name: heading.value for name, heading in headings.items()},
             **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
             **{f"normal[{i}]": part for i, part in enumerate(along or ())},
         }

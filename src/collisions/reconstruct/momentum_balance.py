@@ -30,7 +30,7 @@ class Question(NamedTuple):
     terms: dict[str, Term]
     masses: dict[str, Any]
     angles: dict[str, Angle]
-    headings: dict[str, tuple[Any, Any]]
+    headings: dict[str, Angle]
     impulse: tuple[Any, Any] | None
     along: tuple[Any, Any] | None
     unlike: Any
@@ -82,6 +82,12 @@ def solve(cases: Cases, question: Question, on_failure: Any) -> MomentumSolution
     found: dict[str, Any] = {name: cases.values(mass) for name, mass in masses.items()}
     for name in _COURSES:
         found[name] = cases.values(question.angles[name].radians) if name in question.angles else None
+    for name, heading in question.headings.items():
+        found[name] = cases.values(heading.radians)
+    if question.along is not None:
+        found["normal_angle"] = cases.values(angle_of(*question.along))
+    for name, part in zip(("outside_impulse_x", "outside_impulse_y"), question.impulse or (), strict=False):
+        found[name] = cases.values(part)
     for name in _SPEEDS:
         found[name] = cases.values(full[name])
     for name, value in solution.items():
@@ -102,12 +108,12 @@ def blur(one: Angle, other: Angle, eps: float) -> Any:
 
 def _faults(question: Question) -> list[tuple[Any, int]]:
     """What is wrong with values that the door does not look into: those of arrays."""
-    masses, vectors = question.masses, [*question.headings.values(), *([] if question.along is None else [question.along])]
+    masses, vectors = question.masses, [] if question.along is None else [question.along]
     speeds = [term.speed for term in question.terms.values() if term.speed is not None]
     everything = [
         *masses.values(),
         *speeds,
-        *(angle.value for angle in question.angles.values()),
+        *(angle.value for angle in (*question.angles.values(), *question.headings.values())),
         *(question.impulse or ()),
         *(part for vector in vectors for part in vector),
     ]
@@ -163,7 +169,7 @@ def _solution(full: dict[str, Any], question: Question) -> dict[str, Any]:
         loss = loss - 0.5 * question.masses[f"mass_{side}"] * (dx * (ux + wx) + dy * (uy + wy))
         pdof = None
         if f"heading_{side}" in question.headings:
-            hx, hy = question.headings[f"heading_{side}"]
+            hx, hy = question.headings[f"heading_{side}"].direction
             pdof = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
         found[f"pdof_{side}"] = pdof
     found["translational_energy_loss"] = loss

@@ -56,6 +56,11 @@ class MomentumSolution(Shown):
     sensitivity: Sensitivity = field()
     unknowns: tuple[str, ...] = field()
     status: Any = field()
+    heading_a: Value | None = field(default=None, metadata={"unit": "rad"})
+    heading_b: Value | None = field(default=None, metadata={"unit": "rad"})
+    normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
+    outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
+    outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
 
     _title = "Planar momentum"
 

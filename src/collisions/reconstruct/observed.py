@@ -199,7 +199,7 @@ def _motions(
     """What the kernel says of the contact before and after."""
     named = {"a_before": a_before, "b_before": b_before, "a_after": a_after, "b_after": b_after}
     wrong = [not_a_vehicle(label, body) for label, body in named.items() if not isinstance(body, Vehicle)]
-    e, n, _, _, contact, _ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong)
+    e, n, _, _, contact, *_ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong)
     everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
     sides = {}
     for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):

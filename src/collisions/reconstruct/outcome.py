@@ -17,9 +17,17 @@ from ..kernels import checks, codes
 from ..kernels.batch import precision
 from ..kernels.eccentric import eccentric
 from ..provenance import Reconstruction
+from ..vehicle import Vehicle
 
 # How the names of numbers begin that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
+
+
+def parted(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
+    """The texts that a vehicle was given as: of what stays, and of these parts of its motion, which will be others."""
+    texts = body._given or {}
+    kept = {name: text for name, text in texts.items() if name not in motion}
+    return kept, {name: text for name, text in texts.items() if name in motion}
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:

@@ -23,10 +23,11 @@ from ..provenance import Reconstruction
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
 from .origins import End
-from .outcome import NUMBERS, Cases, exactly, input_faults, settle
+from .outcome import NUMBERS, Cases, exactly, input_faults, parted, settle
 from .planar_refusals import refusal, warn
 
 _REGIMES = ("frictionless", "sliding", "sticking", "given")
+_MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
 _NEARLY_STICKING = 0.05  # of the jump between both ways to slide: a slip so small may be none
 
 
@@ -123,7 +124,7 @@ def planar(
                 argument="regime",
             )
         )
-    e, n, rule, bound, contact, _ = read(
+    e, n, rule, bound, contact, _, given_as = read(
         a_after,
         b_after,
         known if kind == "restitution" else 0.0,
@@ -156,7 +157,8 @@ def planar(
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
         end = End(arrays, kind, rule, law, pinned)
-        return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact), regime, on_failure)
+        told = {**door.texts, **(given_as or {})}
+        return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact, told), regime, on_failure)
 
 
 def _amount(door: Door, kind: str, value: Any) -> Any:
@@ -171,7 +173,12 @@ def _amount(door: Door, kind: str, value: Any) -> Any:
 def _answer(
     cases: Cases, end: End, a: Vehicle, b: Vehicle, contact: tuple[Any, ...], regime: str | None, on_failure: Any
 ) -> Impact:
-    e, n, rule, bound, law, point = contact
+    e, n, rule, bound, law, point, told = contact
+    kept = []
+    for label, body in (("a", a), ("b", b)):
+        staying, ended = parted(body, _MOTION)
+        kept.append(staying)
+        told |= {f"{label}_after.{name}": text for name, text in ended.items()}
     origins, fits = end.origin(regime)
     count = sum(fit.astype(int) for fit in fits) if fits else np.zeros((), dtype=int)
     blind = end.forgets_slip() & (regime != "sliding")
@@ -201,11 +208,11 @@ def _answer(
 
     def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
         moved = [
-            body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))
-            for body, motion in zip((a, b), found, strict=True)
+            body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(texts)
+            for body, motion, texts in zip((a, b), found, kept, strict=True)
         ]
         used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, 0.0))
-        return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point)
+        return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
         solutions: tuple[Impact, ...] = ()

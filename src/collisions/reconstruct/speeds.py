@@ -21,7 +21,7 @@ from ..provenance import Reconstruction
 from ..quiet import warn
 from ..units import Input, Pair
 from ..vehicle import Vehicle
-from .outcome import ASK_ALONE, NUMBERS, Cases, exactly, input_faults
+from .outcome import ASK_ALONE, NUMBERS, Cases, exactly, input_faults, parted
 from .self_consistent import RestitutionOf
 from .speeds_found import in_order, joint
 from .speeds_refusals import refusal
@@ -160,7 +160,7 @@ def speeds(
                     argument="pivot",
                 )
             )
-    e, n, rule, bound, contact, _ = read(
+    e, n, rule, bound, contact, _, given_as = read(
         a,
         b,
         0.0 if function is not None else restitution,
@@ -186,8 +186,9 @@ def speeds(
     with np.errstate(all="ignore"):
         _refuse_pairs(given, known, a, b)
         scene = Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
+        told = {**door.texts, **(given_as or {})} or None
         roots = scene.roots() if function is None else joint(scene, cases, function)
-        return _answers(cases, scene, in_order(cases, scene, roots), a, b, (n, rule, bound, law, contact, e), function)
+        return _answers(cases, scene, in_order(cases, scene, roots), a, b, (n, rule, bound, law, contact, e, told), function)
 
 
 def _refuse_pairs(given: dict[str, Any], known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
@@ -217,7 +218,7 @@ def _answers(
     contact: tuple[Any, ...],
     function: RestitutionOf | None,
 ) -> tuple[Impact, ...]:
-    n, rule, bound, law, point, e = contact
+    n, rule, bound, law, point, e, told = contact
     faults = input_faults(scene.numbers)
     told_nothing = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
     faults += [(of_wall, codes.INFINITE_MASS) for of_wall in told_nothing]
@@ -236,10 +237,11 @@ def _answers(
         for label, body, speed in (("a", a, root.speed_a), ("b", b, root.speed_b)):
             speed = np.where(there, speed * scene.speed_unit, np.nan)
             cx, cy = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
-            moved.append(body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate))
+            changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
+            moved.append(changed._told(parted(body, ("vx", "vy", "speed", "course"))[0]))
             backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
         used = e if function is None else cases.values(root.restitution)
-        asked = Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point)
+        asked = Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)
         impact = asked.ask(on_failure=None if cases.shape is None else "nan")
         answered = np.less_equal(impact._raw[0], codes.ENERGY_GAIN)
         condition = cases.values(np.where(answered, root.condition, np.nan))

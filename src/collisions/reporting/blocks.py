@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from ..derivation.page import Page
+from ..derivation.rounding import SI_UNITS
 
 # Signs that join letters; what else has no shape of its own could make a line read as another.
 _JOINERS = "\u200c\u200d"
+_SAME = 1e-9  # relative: what six figures show of a number that they hold
+_DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +77,22 @@ class Sheet(Page):
     """A page of the derivation that keeps what is put down, for the tables that a report shares with it."""
 
     def __init__(self, page: Page) -> None:
-        super().__init__(page.system, False, page.deviations)
+        super().__init__(page.system, False, page.deviations, page.ranges)
         self.blocks: list[Block] = []
+
+    def as_given(self, value: float | None, kind: str, text: str | None) -> str:
+        """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
+        if value is None:
+            return f"given as {plain(text or '')}"
+        told = self.number(value, kind)
+        if text is not None:
+            return told if plain(text) == told else f"{told}, given as {plain(text)}"
+        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
+            return told
+        printed = float(told.split()[0])
+        if abs(printed - value * self.system.scale(kind)) <= _SAME * abs(printed):
+            return told
+        return f"{told}, exactly {value:.{_DIGITS}g} {SI_UNITS[kind]}".rstrip()
 
     def title(self, text: str) -> None:
         self.blocks.append(Heading(text, 1))

@@ -17,6 +17,7 @@ from ..impact import Impact
 from ..uncertainty import Propagation
 from ..uncertainty.sampled import Sampled
 from .blocks import Block, Paragraph, Picture, plain, visible
+from .known import varies
 
 _SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2)}
 _SIZE = (6.5, 4.6)
@@ -46,6 +47,9 @@ def figures(impact: Impact, uncertainty: Propagation | None, outline_a: Any, out
     yield _drawn("energy", "Where the kinetic energy went.", partial(plot.energy, impact, units=units))
     for number, output in enumerate(() if uncertainty is None else uncertainty.outputs.values(), 1):
         name = plain(output.name)
+        if not varies(output):
+            yield Paragraph(f"{name}: no figures, because it is the same in every case.")
+            continue
         if isinstance(output, Sampled):
             caption = f"{name}: the cases drawn, given the stated inputs."
             yield _drawn(f"distribution-{number}", caption, partial(plot.distribution, output, units=units))
@@ -57,6 +61,7 @@ def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:
     """One figure, drawn with nobody's settings but these; a sentence where its numbers give none."""
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
+    from matplotlib.text import Text
 
     with rc_context(), warnings.catch_warnings():
         rcdefaults()
@@ -68,6 +73,8 @@ def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:
             draw(axes=figure.add_subplot())
         except InputError as error:
             return Paragraph(f"{caption} Not drawn: {error}.")
+        for text in figure.findobj(Text):
+            text.set_text(visible(text.get_text()))
         target = io.StringIO()
         figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
     return Picture(caption, _within_a_page(target.getvalue(), name, caption))

@@ -14,6 +14,8 @@ from ..units import shown
 from .blocks import Sheet, plain
 
 _KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
+# A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
+_ROUNDING, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
 _ANSWERS = {**{name.replace(".", "_"): name for name in NAMES}, **{name: name for name in NAMES}}
 
 
@@ -30,9 +32,18 @@ class Known:
 
     @property
     def deviations(self) -> dict[str, float]:
-        """Standard deviations; of an output that an interval leaves open the larger one holds."""
-        found = {name: float(max(_both(output.std))) for name, output in self.outputs.items()}
-        return {name: deviation for name, deviation in found.items() if math.isfinite(deviation)}
+        """Standard deviations; what an interval leaves open has none, only ranges."""
+        found = {name: _both(output.std) for name, output in self.outputs.items()}
+        return {
+            name: std[0]
+            for name, std in found.items()
+            if len(std) == 1 and math.isfinite(std[0]) and varies(self.outputs[name], kind_of(name))
+        }
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:
+        """What an interval among the inputs leaves open."""
+        return {name: output.interval() for name, output in self.outputs.items() if len(_both(output.std)) > 1}
 
     def tell(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """The figures of every output, what they are given, and whether they are of this impact."""
@@ -41,7 +52,7 @@ class Known:
             self._stray(sheet, name, output)
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
-            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output)]
+            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output, uncertainty.method)]
         sheet.table(("of", "quantity", "value"), rows)
         stated = [(plain(name), "stated as", plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
         sheet.table(("of", "quantity", "value"), [("Inputs as stated", name, text) for name, _, text in stated])
@@ -53,7 +64,7 @@ class Known:
         if uncertainty.interrupted:
             sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
 
-    def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
+    def _figures(self, sheet: Sheet, output: Output, method: str) -> list[tuple[str, str]]:
         name = next((name for name, own in self.outputs.items() if own is output), None)
         kind = kind_of(name) if name is not None else None if output.unit is None else _KINDS.get(output.unit)
         if kind is None:
@@ -64,6 +75,10 @@ class Known:
             return sheet.system.answer(value, kind, None)
 
         found = []
+        if method == "interval":
+            return [("range, wherever in the intervals the truth is", f"{number(low)} to {number(high)}")]
+        if len(mean) == 1 and not varies(output, kind):
+            return [("the same in every case", number(mean[0]))]
         if len(mean) == 1:
             found.append(("mean ± standard deviation", sheet.system.answer(mean[0], kind, std[0])))
             found.append(("95 percent interval", _ends(sheet, low, high, kind, std[0])))
@@ -78,7 +93,10 @@ class Known:
             shares = output.contributions
         except InputError:
             return []
-        return [(f"share of the variance by {plain(name)}", f"{100.0 * share:.0f} percent") for name, share in shares.items()]
+        if not varies(output):
+            return []
+        errors = output.contribution_standard_errors
+        return [(f"share of the variance by {plain(name)}", _percent(part, errors[name][0])) for name, part in shares.items()]
 
     def _stray(self, sheet: Sheet, name: str, output: Output) -> None:
         """The answer must lie where the propagation says it does, or one of the two is of something else."""
@@ -87,12 +105,26 @@ class Known:
             value = getattr(value, part)
         low, high = output.interval()
         turns = (-1, 0, 1) if kind_of(name) == "angle" else (0,)
-        if value is None or not any(low <= value + 2.0 * math.pi * turn <= high for turn in turns):
+        off = max(_ROUNDING * max(abs(low), abs(high)), _NOTHING.get(kind_of(name), _ROUNDING))
+        if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
             told = "none" if value is None else sheet.system.answer(float(value), kind_of(name))
             sheet.stress(
                 f"{name} of this impact, {told}, lies outside the 95 percent interval of the propagation: are both of the same "
                 f"case?"
             )
+
+
+def varies(output: Output, kind: str = "") -> bool:
+    """Whether an output is another in other cases, by more than rounding."""
+    return bool(max(_both(output.std)) > max(_ROUNDING * max(map(abs, _both(output.mean))), _NOTHING.get(kind, _ROUNDING)))
+
+
+def _percent(share: float, error: float) -> str:
+    """A share of the variance, which sampling may put outside of 0 to 1, with its standard error where that shows."""
+    if math.isnan(share):
+        return "not known"
+    told = f"{100.0 * min(max(share, 0.0), 1.0):.0f}"
+    return f"{told} ± {100.0 * error:.0f} percent" if error >= 0.005 else f"{told} percent"
 
 
 def _both(figure: Any) -> tuple[float, ...]:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
+from inspect import signature
 from typing import Any
+
+import numpy as np
 
 from ..derivation.explaining import explain
 from ..derivation.page import Page
 from ..derivation.rounding import SYSTEMS, System
 from ..diagnostics import diagnose
-from ..door import Door
-from ..errors import InputError
+from ..door import UNIT_INTERVAL, Door
+from ..errors import InputError, ShapeError
 from ..idealisation import left_out
 from ..impact import Impact
 from ..one_case import need_one_case
@@ -23,10 +27,12 @@ from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
 from .figures import figures as pictures
 from .known import Known
 from .markdown import markdown
+from .options import EVIDENCE, kept, plain_options
 from .record import record
 from .web import html
 
 _FORMS = ("html", "markdown")
+_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 def report(
@@ -41,6 +47,11 @@ def report(
     duration: Input = 0.1,
     drag: Input = 0.7,
     limits: Mapping[str, Any] | None = None,
+    crush_energy: Input | None = None,
+    damage_pdof_a: Input | None = None,
+    damage_pdof_b: Input | None = None,
+    damage_delta_v_a: Input | None = None,
+    damage_delta_v_b: Input | None = None,
     share_a: Input | None = None,
     notes: str | Sequence[str] | None = None,
     figures: bool = True,
@@ -50,7 +61,8 @@ def report(
 
     An energy gain stands first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, by the
     rounding of ``explain``. The same arguments give the same page, byte for byte, one fact a line, without a date; from the
-    record at its end ``reporting.replay`` gives the impact again, and ``report`` of that the same page.
+    record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options, and ``report`` of both
+    the same page.
 
     Parameters
     ----------
@@ -66,6 +78,8 @@ def report(
         Of ``uncertainty.propagate``. Outputs with the name of an answer, such as "b.after.vx" or "b_after_vx", also round it.
     outline_a, outline_b, duration, drag, limits
         As for ``diagnose``; the first two are also drawn.
+    crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
+        What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity, optional
         A's share of the energy absorbed, 0 to 1, for ``Impact.ees``; without it no EES is given.
     notes : str or sequence of str, optional
@@ -101,10 +115,14 @@ def report(
     | A (Golf) | delta-V | 32.3 mph |
     | B | delta-V | 37.3 mph |
     """
+    given = dict(locals())
     from .. import __version__
 
     momentum = ". A MomentumSolution, which knows no contact, has its page by explain(...)"
     need_one_case(impact, (Impact,), "report", instead=momentum)
+    readable = _readable(impact)
+    options = plain_options(given)
+    duration, drag, limits, share_a = (options[name] for name in ("duration", "drag", "limits", "share_a"))
     door = Door()
     _option(door, "form", form, _FORMS)
     _option(door, "units", units, SYSTEMS)
@@ -123,17 +141,21 @@ def report(
             )
         )
     outlines = {
-        label: read_outline(door, given, f"outline_{label}")
-        for label, given in (("a", outline_a), ("b", outline_b))
-        if given is not None
+        label: read_outline(door, options[f"outline_{label}"], f"outline_{label}")
+        for label in "ab"
+        if options[f"outline_{label}"] is not None
     }
+    if share_a is not None and isinstance(door.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
+        door.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
     door.close()
-    findings = diagnose(impact, outline_a=outline_a, outline_b=outline_b, duration=duration, drag=drag, limits=limits)
+    evidence = {name: options[name] for name in EVIDENCE}
+    looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
+    findings = diagnose(impact, **looked_at, **evidence)
     known = Known(impact, uncertainty)
-    sheet = Sheet(Page(System(units), False, known.deviations))
+    sheet = Sheet(Page(System(units), False, known.deviations, known.ranges))
     sheet.title(heading or plain(f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"))
     sections.gain(sheet, impact)
-    sections.inputs(sheet, impact)
+    sections.inputs(sheet, impact, evidence)
     sections.assumptions(sheet, impact, left_out(impact, duration=duration, drag=drag), outlines, limits)
     sections.results(sheet, impact, share_a)
     if uncertainty is not None:
@@ -146,17 +168,33 @@ def report(
     if figures:
         sheet.heading("Figures")
         sheet.blocks += (
-            pictures(impact, uncertainty, outline_a, outline_b, units)
+            pictures(readable, uncertainty, options["outline_a"], options["outline_b"], units)
             if form == "html"
             else [Paragraph("The figures are in the HTML form of this report.")]
         )
     if derivation:
         sheet.heading("Derivation")
-        text = explain(impact, units=units, form="text" if form == "html" else form, uncertainty=known.deviations)
+        spread = uncertainty if known.ranges else known.deviations
+        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=spread)
         sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
     sections.sources(sheet, findings, __version__)
-    sheet.blocks += [Heading("Record"), Record(record(impact, __version__))]
+    sheet.blocks += [Heading("Record"), Record(record(impact, __version__, kept(options, _USUAL), uncertainty))]
     return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
+
+
+_USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
+
+
+def _readable(impact: Impact) -> Impact:
+    """The same impact with names that a file can hold, where one has half a letter."""
+    if not any(map(_SURROGATE.search, (impact.a.before.name, impact.b.before.name))):
+        return impact
+    rebuild, (asked, raw, provenance) = impact.__reduce__()
+    a, b = (vehicle._told(None) for vehicle in (asked.a, asked.b))
+    for vehicle in (a, b):
+        vehicle.__setstate__({"name": plain(vehicle.name)})
+    named: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
+    return named
 
 
 def _option(door: Door, argument: str, value: Any, allowed: tuple[str, ...]) -> None:

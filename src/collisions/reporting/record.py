@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from html.parser import HTMLParser
 from typing import Any
 
 from ..door import Door
-from ..errors import InputError
+from ..errors import CollisionsError, InputError
 from ..fields import unit_of
 from ..impact import Impact
+from ..uncertainty import Propagation
 from ..units import shown
 from ..vehicle import NAMES, Vehicle
 from .markdown import FENCE
+from .options import UNITS, given_again
+from .told import unlike
 from .web import RECORD
 
 _FORMAT = "collisions report 1"
@@ -22,12 +25,17 @@ _FORMAT = "collisions report 1"
 _NAMES = (*(name for name in NAMES if name not in ("name", "pivot")), "pivot[0]", "pivot[1]", "speed", "course")
 # A text is read again by the same rules; the velocity of a pinned vehicle may differ by 1e-9 from the one that was given.
 _SAME = 2e-9
+# Results that another machine gives may differ by its rounding, relative or in SI; nobody would read more.
+_OFF = 1e-6
 
 
-def record(impact: Impact, version: str) -> str:
-    """The impact and how its vehicles were given, as JSON."""
+def record(impact: Impact, version: str, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
+    """The impact, how its vehicles were given, and the options of the report, as JSON."""
     given = {label: dict(side.before._given or {}) for label, side in (("a", impact.a), ("b", impact.b))}
-    whole = {"format": _FORMAT, "version": version, "given": given, "impact": impact.to_dict()}
+    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": dict(options), "given": given}
+    if uncertainty is not None:
+        whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
+    whole["impact"] = impact.to_dict()
     return json.dumps(whole, indent=1, allow_nan=False)
 
 
@@ -61,6 +69,69 @@ def replay(text: str) -> Impact:
     >>> report(replay(page), form="markdown") == page
     True
     """
+    found = _whole(text)
+    if not isinstance(found.get("impact"), Mapping):
+        raise _bad("it has no impact")
+    try:
+        impact = Impact.from_dict(found["impact"])
+    except CollisionsError as error:
+        raise _bad(str(error)) from error
+    differing = next(_differences(found["impact"]["results"], impact.to_dict()["results"]), None)
+    if differing is not None:
+        raise _bad(f"its inputs do not give its {differing}")
+    stray = next(unlike(impact), None)
+    if stray is not None:
+        raise _bad(stray)
+    given = found.get("given")
+    if not isinstance(given, Mapping) or set(given) != {"a", "b"}:
+        raise _bad("it does not say how a and b were given")
+    rebuild, (asked, raw, provenance) = impact.__reduce__()
+    a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", asked.a), ("b", asked.b)))
+    whole: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
+    return whole
+
+
+def options(text: str) -> dict[str, Any]:
+    """The options that a report was made with, to be given to ``report`` again with what ``replay`` gives.
+
+    Parameters
+    ----------
+    text : str
+        A whole report, HTML or Markdown, as ``report`` gave it.
+
+    Returns
+    -------
+    dict
+        By argument of ``report``, what was not left at its default. ``uncertainty`` is missing: a propagation holds a model,
+        which is code, and the record has only its method, number of cases and seed.
+
+    Raises
+    ------
+    InputError
+        No report with a record, or a record that cannot be read.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> from collisions.reporting import options, replay, report
+    >>> impact = col.linear_central(col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4)
+    >>> page = report(impact, form="markdown", units="metric", duration="90 ms")
+    >>> options(page)
+    {'form': 'markdown', 'units': 'metric', 'duration': '90 ms'}
+    >>> report(replay(page), **options(page)) == page
+    True
+    """
+    found = _whole(text).get("options", {})
+    try:
+        if found.keys() <= UNITS.keys():
+            return given_again(found)
+    except (AttributeError, TypeError):
+        pass
+    raise _bad("its options are none that report takes")
+
+
+def _whole(text: Any) -> Mapping[str, Any]:
+    """The record of a report."""
     if not isinstance(text, str):
         raise InputError(
             f"text must be the text of a report, got {type(text).__name__}; write replay(open(path, encoding='utf-8').read())",
@@ -74,20 +145,41 @@ def replay(text: str) -> Impact:
         raise _bad(f"it is no JSON ({error})") from error
     if not isinstance(found, Mapping) or found.get("format") != _FORMAT:
         raise _bad(f"it is not of the format {_FORMAT!r}")
-    if not isinstance(found.get("impact"), Mapping):
-        raise _bad("it has no impact")
-    impact = Impact.from_dict(found["impact"])
-    given = found.get("given")
-    if not isinstance(given, Mapping) or set(given) != {"a", "b"}:
-        raise _bad("it does not say how a and b were given")
-    rebuild, (asked, raw, provenance) = impact.__reduce__()
-    a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", asked.a), ("b", asked.b)))
-    whole: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
-    return whole
+    return found
+
+
+def _differences(told: Any, found: Any, name: str = "") -> Iterator[str]:
+    """Results of the record that its inputs do not give, by more than another machine may round."""
+    scale = max((abs(number) for number in _floats(found)), default=0.0)
+    yield from _apart(told, found, name, max(_OFF, 1e-12 * scale))
+
+
+def _floats(found: Any) -> Iterator[float]:
+    if isinstance(found, Mapping):
+        found = list(found.values())
+    if isinstance(found, list):
+        for part in found:
+            yield from _floats(part)
+    elif isinstance(found, float):
+        yield found
+
+
+def _apart(told: Any, found: Any, name: str, off: float) -> Iterator[str]:
+    if isinstance(told, Mapping) and isinstance(found, Mapping):
+        for key in (key for key in found if key in told):
+            yield from _apart(told[key], found[key], f"{name}.{key}" if name else str(key), off)
+    elif isinstance(told, list) and isinstance(found, list) and len(told) == len(found):
+        for i, (one, other) in enumerate(zip(told, found, strict=True)):
+            yield from _apart(one, other, f"{name}[{i}]", off)
+    elif isinstance(told, (int, float)) and isinstance(found, float):
+        if not math.isclose(told, found, rel_tol=_OFF, abs_tol=off):
+            yield f"{name}, {told!r}, but {found!r}"
+    elif told != found:
+        yield f"{name}, {shown(told)}, but {shown(found)}"
 
 
 def _record_in(text: str) -> str:
-    text = text.replace("\r\n", "\n")
+    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
     if text.lstrip().startswith("<"):
         finder = _Finder()
         finder.feed(text)
@@ -142,9 +234,7 @@ def _told(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
         size = {"rad": 2.0 * math.pi, "m/s": vehicle.speed}.get(unit, abs(number))
         if not abs(apart) <= _SAME * size:
             raise _bad(f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} {unit}")
-    told: Vehicle = object.__new__(Vehicle)
-    told.__setstate__({**vehicle.__getstate__(), "_given": dict(texts)})
-    return told
+    return vehicle._told(dict(texts))
 
 
 def _value(vehicle: Vehicle, name: str) -> Any:

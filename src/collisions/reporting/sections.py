@@ -11,7 +11,7 @@ from .. import reference
 from ..derivation import answers, origin
 from ..derivation.rounding import SI_UNITS
 from ..diagnostics import LIMITS, Finding
-from ..diagnostics.finding import read_limits
+from ..diagnostics.finding import Findings, read_limits
 from ..door import Door
 from ..errors import Status
 from ..idealisation import LeftOut, LeftOutSide
@@ -20,18 +20,35 @@ from ..plot.canvas import who
 from ..units import Input
 from ..vehicle import Vehicle
 from .blocks import Items, Sheet, Table, plain
+from .told import knowns
 
 _HEAD = ("of", "quantity", "value")
-_FIELDS = {
-    "mass": ("mass",),
-    "velocity along x": ("vx",),
-    "velocity along y": ("vy",),
-    "yaw rate": ("yaw_rate",),
-    "yaw inertia about the centre of mass": ("yaw_inertia",),
-    "position x of the centre of mass": ("x",),
-    "position y of the centre of mass": ("y",),
-    "heading": ("heading",),
-    "pivot O (x, y)": ("pivot[0]", "pivot[1]"),
+# By what the row is of: the arguments, and their kind.
+_FIELDS: dict[str, tuple[tuple[str, ...], str]] = {
+    "mass": (("mass",), "mass"),
+    "velocity along x": (("vx",), "speed"),
+    "velocity along y": (("vy",), "speed"),
+    "yaw rate": (("yaw_rate",), "yaw rate"),
+    "yaw inertia about the centre of mass": (("yaw_inertia",), "inertia"),
+    "position x of the centre of mass": (("x",), "length"),
+    "position y of the centre of mass": (("y",), "length"),
+    "heading": (("heading",), "angle"),
+    "pivot O (x, y)": (("pivot[0]", "pivot[1]"), "length"),
+}
+_CONTACT: dict[str, tuple[tuple[str, ...], str]] = {
+    "normal, direction from A into B": (("normal",), "angle"),
+    "contact point (x, y)": (("point[0]", "point[1]"), "length"),
+    "restitution e": (("restitution",), "number"),
+    "friction (bound on the impulse ratio)": (("friction",), "number"),
+    "impulse ratio": (("impulse_ratio",), "number"),
+    "critical fraction": (("critical_fraction",), "number"),
+}
+_EVIDENCE = {
+    "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
+    "damage_pdof_a": ("A", "PDOF that the damage shows", "angle"),
+    "damage_pdof_b": ("B", "PDOF that the damage shows", "angle"),
+    "damage_delta_v_a": ("A", "delta-V that the damage or the recorder shows", "speed"),
+    "damage_delta_v_b": ("B", "delta-V that the damage or the recorder shows", "speed"),
 }
 _MODELS = {
     "linear_central": (
@@ -58,8 +75,8 @@ _LAWS = {
 }
 _REGIMES = {
     "frictionless": "none: the contact is frictionless",
-    "sliding": "the contact slips to the end, and the impulse ratio is the friction given",
-    "sticking": "slip ends before the vehicles part, with less than the friction given",
+    "sliding": "the contact slips to the end, and the impulse ratio has the size of the friction given",
+    "sticking": "slip ends during the contact, with less than the friction given",
     "given": "by the ratio that was given, not by a law of friction",
 }
 _KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
@@ -81,8 +98,8 @@ def gain(sheet: Sheet, impact: Impact) -> None:
         )
 
 
-def inputs(sheet: Sheet, impact: Impact) -> None:
-    """What went in, with the texts that the vehicles were given as, and why this model or how the state was found."""
+def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
+    """What went in, with the texts that it was given as, and why this model or how the state was found."""
     backwards = impact.reconstruction is not None
     sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
     aside = sheet.aside()
@@ -91,19 +108,41 @@ def inputs(sheet: Sheet, impact: Impact) -> None:
     rows: list[tuple[str, str, str]] = []
     for of, quantity, value in _rows(aside):
         vehicle = None if of == "contact" else vehicles[of[0]]
-        texts = {} if vehicle is None else vehicle._given or {}
-        text = ", ".join(texts[name] for name in _FIELDS.get(quantity, ()) if name in texts)
-        rows.append((of, quantity, value if text in ("", value) else f"{value}, given as {plain(text)}"))
+        texts = (impact._asked.given if vehicle is None else vehicle._given) or {}
+        names, kind = (_CONTACT if vehicle is None else _FIELDS).get(quantity, ((), ""))
+        text = plain(", ".join(texts[name] for name in names if isinstance(texts.get(name), str)))
+        if text:
+            value = value if text == value else f"{value}, given as {text}"
+        elif names and not texts.keys() & {*names, *(("speed", "course") if kind == "speed" else ())}:
+            value = ", ".join(sheet.as_given(float(part), kind, None) for part in _numbers(impact, vehicle, names[0]))
+        rows.append((of, quantity, value))
         if vehicle is not None and quantity == "mass":
             rows += [(of, what, told) for what, told in _speed(sheet, vehicle, texts)]
+    for name, (of, what, kind) in _EVIDENCE.items():
+        if evidence[name] is not None:
+            read = Door(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
+            given_as = evidence[name] if isinstance(evidence[name], str) else None
+            rows.append((of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)))
     sheet.table(_HEAD, rows)
     sheet.say(
-        "Where a value says how it was given, it was converted from that text; others were given or found as SI numbers, or "
-        "are 0 because nothing was given. The record has all digits."
+        "A value that says how it was given was converted from that text. Any other was given so, or without a unit, which is "
+        "SI, or as one of many cases, or it is the answer to another question, or 0 because nothing was given. The record has "
+        "all digits."
     )
     origin.chosen(sheet, impact)
     if impact.reconstruction is not None:
         origin.told(sheet, impact.reconstruction)
+        told = knowns(sheet, impact)
+        if told:
+            sheet.table(_HEAD, told)
+
+
+def _numbers(impact: Impact, vehicle: Vehicle | None, name: str) -> tuple[Any, ...]:
+    """The number of an input, or both of a place."""
+    field = name.partition("[")[0]
+    contact = {"normal": impact.normal_angle, "point": impact.point, "restitution": impact.restitution}
+    found = getattr(vehicle, field) if vehicle is not None else contact.get(field, impact._asked.bound)
+    return found if isinstance(found, tuple) else (found,)
 
 
 def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
@@ -184,22 +223,28 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
     sheet.table(_HEAD, [(plain(names.get(of, of)), what, told) for of, what, told in rows])
+    if sheet.ranges:
+        sheet.say("A range in brackets comes of an interval among the inputs, in which no value is said to be likelier.")
 
 
-def findings(sheet: Sheet, found: Sequence[Finding]) -> None:
-    """What is odd, each with its measure and its limit."""
+def findings(sheet: Sheet, found: Findings) -> None:
+    """What is odd, each with its measure and its limit; what was measured, and what not."""
     sheet.heading("Findings")
+    others = ", ".join(code for code in LIMITS if code not in found.measured)
+    others = f" Not made, as they lack what they need, do not apply, or are switched off: {others}." if others else ""
     if not found:
-        sheet.say(f"None of {len(LIMITS)} checks found anything. No finding is no proof.")
+        sheet.say(f"None of the {len(found.measured)} checks that were made found anything. No finding is no proof.{others}")
         return
     lines = []
     for finding in found:
         measured, limit = (_amount(sheet, value, finding.unit) for value in (finding.measured, finding.limit))
         of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
-        told = f"{plain(finding.sentence).rstrip('.')}. Measured {measured}, limit {limit}; limit: {finding.source}."
+        sentence = plain(finding.sentence).rstrip(".")
+        end = "" if sentence.endswith("?") else "."
+        told = f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}."
         lines.append((f"{finding.code}{of}:", told))
     sheet.blocks.append(Items(tuple(lines)))
-    sheet.say("A finding is a reason to look again, not an error.")
+    sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
 
 def sources(sheet: Sheet, found: Sequence[Finding], version: str) -> None:
