@@ -23,8 +23,8 @@ from .units import Input, Value, is_quantity
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
-# Cases at a time: the solver is asked twice more for each, with scratch of its own.
-_STRETCH = 4096
+# Cases at a time: from two blocks on the solver repeats recorded steps, which halves the cost.
+_STRETCH = 16384
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
