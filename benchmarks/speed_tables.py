@@ -135,9 +135,9 @@ def solving(found: dict[str, Any]) -> str:
     known = {key: row["median"] for key, row in rows(found, "batch").items()}
     thirds = sum(known[model] for model in ("linear_central", "oblique_central", "eccentric")) / 3.0
     return (
-        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`: every case is worked out by "
-        "all three models up to their impulses, which is the prediction; then the cases of each model are gathered, solved, and "
-        "put back in their places. It was wanted that a case costs what its model costs. So it is in solving, but for the "
+        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`: every case is worked out "
+        "by all three models up to their impulses, which is the prediction; then the cases of each model are gathered, solved, "
+        "and put back in their places. It was wanted that a case costs what its model costs. So it is in solving, but for the "
         "gathering: a third of the cases for each model, without the prediction, cost "
         f"{number(known['solve_known'] / thirds)} times the mean of the three. The prediction costs every case the same."
     )

@@ -116,7 +116,7 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
     if sorted(placed) != sorted(told):
         raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
-        "Each example is a script in `examples/` and ends with checks of its answers. Here it was run when these pages were built.",
+        "Each example is a script in `examples/` and ends with checks of its answers. It was run as these pages were built.",
         "",
     ]
     for group, stems in GALLERY.items():

@@ -223,6 +223,7 @@ CASES = {
         lambda: (silent(lambda: square(a={"heading": 90.0})), {}),
         lambda: (square(a={"heading": "360 deg"}), {}),
     ),
+    "suspect_friction": (lambda: (square(friction=50.0), {}), lambda: (square(friction=math.inf), {})),
     "suspect_drag": (lambda: (square(), {"drag": "160 %"}), lambda: (square(), {"drag": "140 %"})),
     "suspect_duration": (lambda: (square(), {"duration": "1.1 s"}), lambda: (square(), {"duration": "900 ms"})),
     "model_unknown": (lambda: (central(a={"x": None, "y": None}), {}), lambda: (central(), {})),
@@ -1237,3 +1238,16 @@ def test_every_limit_says_where_it_is_from(code):
     assert limit.source.startswith("set here: ") or re.search(r"EDCRASH|reference\.|paper|Coulomb", limit.source)
     assert re.search(r"above|below", limit.measured)
     assert (limit.default is None) == (code in ("restitution", "outlines_overlap", "suspect_lever", "suspect_distance"))
+
+
+def test_an_outline_without_a_place_is_refused_also_alone():
+    """Of a linear impact of vehicles that have no position."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
+    with pytest.raises(col.MissingInputError, match="outline_a"):
+        diagnose(impact, outline_a=(4.4, 1.8))
+
+
+def test_a_tuple_of_answers_is_refused_with_what_to_write():
+    """What ``reconstruct.speeds`` gives."""
+    with pytest.raises(col.InputError, match=r"tuple of 2.*diagnose\(found\[0\]\)"):
+        diagnose((square(), square()))

@@ -288,9 +288,34 @@ def test_a_case_that_was_refused_says_why():
     with pytest.raises(col.NoImpactError) as caught:
         many.case(1)
     assert caught.value.closing_speed == -9.0
-    with pytest.raises(col.InputError, match="mass must be") as wrong:
+    with pytest.raises(col.InputError, match=r"^a: mass must be > 0") as wrong:
         many.case(2)
     assert wrong.value.fields["argument"] == "mass"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "code"),
+    [
+        ({"mass": math.nan}, "not_finite"),
+        ({"mass": -5.0}, "not_positive"),
+        ({"vx": math.nan}, "not_finite"),
+        ({"x": math.inf}, "not_finite"),
+        ({"pivot": (math.nan, 0.0)}, "not_finite"),
+    ],
+    ids=str,
+)
+def test_of_two_faults_a_batch_and_its_case_name_the_same(wrong, code):
+    """What is wrong with a vehicle comes before a restitution below 0, as a vehicle is made before it meets another."""
+    lanes = {
+        name: tuple(map(np.array, ([part] for part in value))) if name == "pivot" else np.array([value])
+        for name, value in wrong.items()
+    }
+    a = A.replace(name="Golf", **({"vx": 0.0, "vy": 0.0} if "pivot" in wrong else {}), **lanes)
+    many = col.eccentric(a, B, np.array([-0.1]), normal=0.1, point=(1.7, 0.3), friction=0.2, on_failure="nan")
+    assert col.Status(many.status[0]).label == code
+    with pytest.raises(col.InputError, match=r"^a \(Golf\): ") as caught:
+        many.case(0)
+    assert caught.value.code == code
 
 
 def test_a_case_of_a_reverse_solver_keeps_how_it_was_found():

@@ -17,10 +17,11 @@ from .kernels import checks, codes
 from .kernels.select import verdict
 from .progress import reporter
 from .quiet import warn_of_cases
-from .vehicle import DOMAINS, Vehicle
+from .vehicle import DOMAINS
 
 if TYPE_CHECKING:
     from .kernels.batch import Check
+    from .provenance import ModelChoice
 
 # What finds the motion that a model cannot hold, and the values it looks at.
 Scope: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -102,22 +103,21 @@ def solved(
     return solve_lanes(kernel, (*settings, eps), inputs, checked, shape, dtype, threads, reporter(progress))
 
 
-def concluded(asked: Asked, raw: Any, on_failure: Any, **options: Any) -> Impact:
-    """The Impact of a batch, after what is to be said of its refused and its gaining cases.
-
-    ``options`` are what else a case is asked with alone.
-    """
-    status = raw[0]
+def concluded(asked: Asked, raw: Any, on_failure: Any, choice: ModelChoice | None = None) -> Impact:
+    """The Impact of a batch, after what is to be said of its refused and its gaining cases."""
+    impact, status = build(asked, raw), raw[0]
+    if choice is not None:
+        impact._cache["choice"] = choice
     if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
-            raise _first_refusal(asked, status, options)
+            raise _first_refusal(impact)
         if on_failure is None:
             warn_of_refusals(status)
     gaining = status == codes.ENERGY_GAIN
     if gaining.any():
         most = float(-raw[codes.OUTPUTS.index("energy_loss")][gaining].min())
         _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
-    return build(asked, raw)
+    return impact
 
 
 def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
@@ -151,7 +151,7 @@ def numbers_of(asked: Asked) -> list[tuple[str, Any]]:
 
 
 def value_checks(asked: Asked, eps: float) -> list[Check]:
-    """What the door checks of scalars, for the arrays of the question."""
+    """What the door checks of scalars, for the arrays of the question: the vehicles first, which are made first."""
     from .kernels.batch import Check
 
     found: list[Check] = []
@@ -159,50 +159,40 @@ def value_checks(asked: Asked, eps: float) -> list[Check]:
     def add(passes: Callable[..., bool] | None, values: tuple[Any, ...], *findings: tuple[int, Callable[..., Any]]) -> None:
         found.append(Check(lambda *block: verdict(*((at_fault(*block), code) for code, at_fault in findings)), values, passes))
 
-    for label, value in numbers_of(asked):
-        if not isinstance(value, np.ndarray):
-            continue
-        if label == "restitution":
-            add(checks.all_in_unit_interval, (value,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
-            continue
-        domain = TANGENTIAL_DOMAINS[asked.rule] if label == asked.rule else DOMAINS.get(label.partition(".")[2], FINITE)
-        findings, passes = _FAULTS[domain]
-        add(passes, (value,), *findings)
-    if any(isinstance(part, np.ndarray) for part in asked.normal):
-        add(checks.all_with_length, asked.normal, (codes.ZERO_NORMAL, checks.without_length))
+    def add_array(value: Any, domain: str) -> None:
+        if isinstance(value, np.ndarray):
+            findings, passes = _FAULTS[domain]
+            add(passes, (value,), *findings)
+
     for vehicle in (asked.a, asked.b):
+        for name, domain in DOMAINS.items():
+            add_array(getattr(vehicle, name), domain)
         if vehicle.pivot is not None:
+            for part in vehicle.pivot:
+                add_array(part, FINITE)
             add(None, (vehicle.mass, vehicle.yaw_inertia), (codes.PINNED_INFINITE, checks.either_infinite))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
             add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
+    if isinstance(asked.restitution, np.ndarray):
+        add(checks.all_in_unit_interval, (asked.restitution,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
+    if any(isinstance(part, np.ndarray) for part in asked.normal):
+        for part in asked.normal:
+            add_array(part, FINITE)
+        add(checks.all_with_length, asked.normal, (codes.ZERO_NORMAL, checks.without_length))
+    for part in asked.point or ():
+        add_array(part, FINITE)
+    add_array(asked.bound, TANGENTIAL_DOMAINS[asked.rule])
     return found
 
 
-def _first_refusal(asked: Asked, status: Any, options: dict[str, Any]) -> CollisionsError:
+def _first_refusal(impact: Impact) -> CollisionsError:
     """The error of the first refused case, found by asking for it alone."""
-    index, place = first_refused(status)
-
-    def lane(value: Any) -> Any:
-        if isinstance(value, tuple):
-            return tuple(lane(part) for part in value)
-        return float(np.broadcast_to(value, status.shape)[index]) if isinstance(value, np.ndarray) else value
-
-    def lane_of(vehicle: Vehicle) -> Vehicle:
-        return vehicle.replace(**{name: lane(getattr(vehicle, name)) for name in (*DOMAINS, "pivot")})
-
+    index, place = first_refused(impact.status)
     try:
-        one = asked._replace(
-            a=lane_of(asked.a),
-            b=lane_of(asked.b),
-            restitution=lane(asked.restitution),
-            normal=lane(asked.normal),
-            bound=lane(asked.bound),
-            point=lane(asked.point),
-        )
-        one.ask(**{name: lane(value) for name, value in options.items()})
+        impact.case(index)
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
-    outcome = Status(status[index])
+    outcome = Status(impact.status[index])
     return InputError(place + outcome.sentence, code=outcome.label)
 
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .errors import InputError, ShapeError
 from .units import shown
 from .vehicle import NAMES, Vehicle
+
+if TYPE_CHECKING:
+    from .impact import Asked
 
 
 def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
@@ -28,6 +31,19 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
     if is_dataclass(whole) and not isinstance(whole, type):
         return type(whole)(**{f.name: part_of(getattr(whole, f.name), take) for f in fields(whole)})
     return whole
+
+
+def question_of(asked: Asked, take: Callable[[Any], Any]) -> Asked:
+    """The question put to some cases; what is wrong with a vehicle of one case is said of that vehicle."""
+
+    def taken(label: str, value: Any) -> Any:
+        try:
+            return part_of(value, take)
+        except InputError as error:
+            who = f"{label} ({value.name})" if value.name else label
+            raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
+
+    return type(asked)(**{name: taken(name, value) for name, value in asked._asdict().items()})
 
 
 def place_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:

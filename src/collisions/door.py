@@ -252,7 +252,10 @@ def _outside(value: float, domain: str, argument: str, given: Any) -> InputError
         return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
     if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
         code = "bad_restitution" if argument == "restitution" else "bad_fraction"
-        return InputError(f"{argument} must be from 0 to 1, got {shown(given)}", code=code, argument=argument)
+        text = f"{argument} must be from 0 to 1, got {shown(given)}"
+        if 1.0 < value <= 100.0:
+            text += f"; if percent were meant, write '{value:g} %'"
+        return InputError(text, code=code, argument=argument)
     if domain == NOT_NEGATIVE and not value >= 0.0:
         return InputError(
             f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",

@@ -388,9 +388,9 @@ class Impact:
 
     def _part(self, take: Callable[[Any], Any], **options: Any) -> Impact:
         """Some cases of a batch, asked again: those that ``take`` takes of every array."""
-        from .cases import part_of
+        from .cases import part_of, question_of
 
-        asked, origin = part_of(self._asked, take), self.reconstruction
+        asked, origin = question_of(self._asked, take), self.reconstruction
         if self.choice is not None:
             options["tolerance"] = part_of(self.choice, take)
         impact: Impact = asked.ask(**options)

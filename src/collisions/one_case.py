@@ -29,6 +29,13 @@ def need_one_case(
     with a batch; ``refused`` makes the error of a refused case from its status, a text and fields.
     """
     if not isinstance(answer, kinds):
+        if isinstance(answer, tuple) and answer and all(isinstance(one, kinds) for one in answer):
+            raise InputError(
+                f"impact must be one answer, got a tuple of {len(answer)}, all that fit; write {function}(found[0]) for the "
+                f"first",
+                code="not_an_impact",
+                argument="impact",
+            )
         wanted = " or ".join(f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}" for kind in kinds)
         raise InputError(
             f"impact must be {wanted}, got {type(answer).__name__}; write {function}(collisions.eccentric(...)), for a Fit "

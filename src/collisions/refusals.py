@@ -29,7 +29,7 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
         facing = f"the normal must point from A into B, given ({nx:.4g}, {ny:.4g})"
         if status is Status.SEPARATING:
             what = f"move apart along the normal, closing speed {closing:.6g} m/s; {facing}"
-            hint = f"if A and B were meant the other way round, write normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})"
+            hint = f"if A and B were meant the other way round, exchange them or write normal=({0.0 - nx:.4g}, {0.0 - ny:.4g})"
         else:
             what = f"neither approach nor part along the normal, closing speed 0 m/s; {facing}"
             hint = "give the speeds just before contact, or the normal of the surfaces that met"

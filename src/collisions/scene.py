@@ -139,11 +139,11 @@ def solve(
     else:
         which = choice._which
     if isinstance(which, np.ndarray):
-        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure, tolerance=choice.tolerance)
+        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure, choice)
     else:
         model = _model(which, asked)
         impact = answer(*model, tuple(asked), question.plain, None, on_failure, threads, progress)
-    impact._cache["choice"] = choice
+        impact._cache["choice"] = choice
     return impact
 
 

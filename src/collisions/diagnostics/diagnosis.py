@@ -54,6 +54,7 @@ _IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
     robustness.law,
     robustness.normal,
     inputs.suspect_inputs,
+    inputs.suspect_friction,
     inputs.suspect_distance,
 )
 _BALANCE: tuple[Callable[[Balance], Iterator[Finding]], ...] = (

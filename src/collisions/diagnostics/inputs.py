@@ -50,6 +50,14 @@ def suspect_inputs(case: Case) -> Iterator[Finding]:
             yield from case.above("suspect_angle", abs(vehicle.heading), sentence, label, rounding=off_by(math.tau))
 
 
+def suspect_friction(case: Case) -> Iterator[Finding]:
+    """A friction that no contact has; one that is infinite says that the contact sticks."""
+    friction = case.impact.friction
+    if friction is not None and not math.isinf(friction):
+        sentence = f"the friction between the vehicles is {friction:.6g}; was percent meant, or a contact that sticks (inf)?"
+        yield from case.above("suspect_friction", friction, sentence)
+
+
 def suspect_distance(case: Case) -> Iterator[Finding]:
     """Centres of mass that are too far apart to have met, where no contact point tells."""
     vehicles = [side.before for _, side in case.sides]

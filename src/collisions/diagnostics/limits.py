@@ -309,6 +309,12 @@ LIMITS: Mapping[str, Limit] = {
         measured="heading or course, or normal that was given as a number without a unit: above",
         source=f"{_OWN}: a full turn, as for a bare number at the door; degrees as rad",
     ),
+    "suspect_friction": Limit(
+        default=5.0,
+        unit="",
+        measured="finite friction between the vehicles: above",
+        source=f"{_OWN}: over twice the highest impulse ratio of the small-overlap tests (2.05); percent as a plain number",
+    ),
     "suspect_drag": Limit(
         default=HIGHEST_DRAG,
         unit="",

@@ -139,12 +139,14 @@ def contact_points(case: Case) -> Iterator[Finding]:
 
 def outlines(case: Case) -> Iterator[Finding]:
     """Outlines that lie in each other or apart at the impact, or move into each other after."""
+    # Also one outline alone is placed, so that one without a place is refused.
+    both = [
+        [placed(case.outlines[label], side.after, label, time) for label, side in case.sides if label in case.outlines]
+        for time in (0.0, case.duration)
+    ]
     if len(case.outlines) < 2:
         return
-    now, later = (
-        overlap(*(placed(case.outlines[label], side.after, label, time) for label, side in case.sides))
-        for time in (0.0, case.duration)
-    )
+    now, later = (overlap(*outlines) for outlines in both)
     off = sum(outline_off_by(case.outlines[label], side.after, case.duration) for label, side in case.sides)
     depth = max(now, 0.0)
     grown = later - depth

@@ -41,7 +41,7 @@ class Model:
             error.add_note(
                 f"The model was called with arrays of {count} cases for {', '.join(values) or 'nothing'}; it must work "
                 f"case by case on arrays (numpy in place of math, numpy.where in place of if), and refused cases must be NaN: "
-                f"on_failure='nan'."
+                f"on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by itself)."
             )
             raise
         if not isinstance(answered, Mapping) or not answered:
