@@ -203,11 +203,12 @@ def test_the_other_law_is_compared_where_it_sticks(committed):
 
 
 def test_memory_of_a_batch_is_told(tables, committed):
-    """eccentric and solve work in blocks; what left_out takes is said."""
+    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of a stretch of 16384 cases."""
     taken = committed[0]["memory"]
     assert taken["eccentric"] < 8.0
     assert taken["solve"] < 8.0
-    assert f"{taken['left_out']:g} MiB" in tables.memory(committed[0])
+    assert taken["left_out"] < 20.0
+    assert "whatever the number of cases" in tables.memory(committed[0])
 
 
 def test_errors_of_the_choices_are_what_the_page_says(committed):

@@ -38,6 +38,7 @@ col.Impact.from_dict("a record")  # refused
 text: str = impact.energy_loss  # refused
 
 col.diagnose(a)  # refused
+col.explain(impact, units="imperial")  # refused
 reconstruct.central(1500.0, 1200.0, 10.0, 0.0, 0.1)  # refused
 reconstruct.momentum(1500.0)  # refused
 travel.speed("12 m")  # refused

@@ -14,7 +14,7 @@ from ..one_case import need_one_case
 from ..reconstruct import MomentumSolution
 from ..reconstruct.outcome import plain_error
 from ..uncertainty.result import Propagation
-from ..units import shown
+from ..units import UnitSystem, shown
 from . import answers, momentum
 from .changes import changes
 from .eccentric import eccentric
@@ -31,7 +31,7 @@ _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": ec
 def explain(
     impact: Impact | MomentumSolution,
     *,
-    units: str = "si",
+    units: UnitSystem = "si",
     form: str = "markdown",
     uncertainty: Propagation | Mapping[str, Any] | None = None,
 ) -> str:

@@ -17,7 +17,7 @@ from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..reconstruct import MomentumSolution
 from ..travel.reading import one_value, read_drag
-from ..units import Input
+from ..units import Input, UnitSystem
 from . import balance, evidence, inputs, physics, robustness
 from .case import Balance, Case, Examined, Told, named
 from .finding import Finding, Findings, read_limits
@@ -81,7 +81,7 @@ def diagnose(
     damage_pdof_b: Input | None = None,
     damage_delta_v_a: Input | None = None,
     damage_delta_v_b: Input | None = None,
-    units: str = "metric",
+    units: UnitSystem = "metric",
 ) -> Findings:
     """What is odd about an impact, forward or reconstructed: findings, an energy gain first.
 

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..uncertainty.output import Output
 from ..uncertainty.result import Propagation
-from ..units import shown
+from ..units import UnitSystem, shown
 from .canvas import GREY, INK, Units, begin, in_lines, legend_below, tidy
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
 def contributions(
-    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: str = "si"
+    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem = "si"
 ) -> Axes:
     """What share of the variance of an output each input brings: by itself (bar), and with all it takes part in (diamond).
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..uncertainty.bounds import Bounds
 from ..uncertainty.output import COVERAGE, Output
+from ..units import UnitSystem
 from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, legend_below, number, tidy, with_unit
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def distribution(
-    output: Output, *, coverage: float = COVERAGE, bins: int = 40, axes: Axes | None = None, units: str = "si"
+    output: Output, *, coverage: float = COVERAGE, bins: int = 40, axes: Axes | None = None, units: UnitSystem = "si"
 ) -> Axes:
     """The cases of an output that was sampled as a histogram, with mean, median and interval, given the stated inputs.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError, MissingInputError
 from ..impact import Impact
+from ..units import UnitSystem
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def energy(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
     """The energy split: kinetic energy of A and B before, what was lost along normal and tangent, and what A and B have after.
 
     Every bar begins where the one above ends, so that the last ends at zero: what came in is what went out. Kinetic energies

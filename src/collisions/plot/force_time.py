@@ -11,7 +11,7 @@ from ..door import Door
 from ..errors import InputError
 from ..impact import Impact
 from ..travel.reading import one_value, warn_if_above
-from ..units import Input, is_quantity, shown
+from ..units import Input, UnitSystem, is_quantity, shown
 from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ _POINTS = 400
 _LONGEST = 1.0
 
 
-def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: str = "si") -> Axes:
+def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
 
     Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;

@@ -10,6 +10,7 @@ import numpy as np
 from ..impact import Impact
 from ..kernels import codes
 from ..quiet import quietly
+from ..units import UnitSystem
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 _FAR = 4.0
 
 
-def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
     """Normal against tangential impulse on B, with the lines that decide the answer.
 
     An impulse changes the closing speed and the slip in proportion to itself. So compression ends on one line, restitution on

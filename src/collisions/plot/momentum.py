@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..impact import Impact
 from ..side import Side
+from ..units import UnitSystem
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
 from .drawing import Drawing, Place
 from .lanes import ALONG_ONE_LINE, beside, covers, cross
@@ -20,7 +21,7 @@ _LANE, _APART = 0.11, 0.04
 _TRIED = 12
 
 
-def momentum(impact: Impact, *, axes: Axes | None = None, units: str = "si") -> Axes:
+def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
 
     Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes from

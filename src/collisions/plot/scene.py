@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..side import Side
-from ..units import shown
+from ..units import UnitSystem, shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, THIN, Units, answered, begin, tidy, who
 from .drawing import Drawing, Place
@@ -38,7 +38,7 @@ def scene(
     outline_a: Any = None,
     outline_b: Any = None,
     axes: Axes | None = None,
-    units: str = "si",
+    units: UnitSystem = "si",
 ) -> Axes:
     """The scene from above at the moment of impact, to scale.
 

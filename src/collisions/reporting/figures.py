@@ -16,6 +16,7 @@ from ..errors import InputError
 from ..impact import Impact
 from ..uncertainty import Propagation
 from ..uncertainty.sampled import Sampled
+from ..units import UnitSystem
 from .blocks import Block, Paragraph, Picture, plain, visible
 from .known import varies
 
@@ -28,7 +29,9 @@ _TAG = re.compile(r"<[^>]*>")
 _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 
-def figures(impact: Impact, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: str) -> Iterator[Block]:
+def figures(
+    impact: Impact, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: UnitSystem
+) -> Iterator[Block]:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
         import_module("matplotlib.figure")

@@ -21,7 +21,7 @@ from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
 from ..uncertainty import Propagation
-from ..units import Input, shown
+from ..units import Input, UnitSystem, shown
 from . import sections
 from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
 from .figures import figures as pictures
@@ -40,7 +40,7 @@ def report(
     *,
     title: str | None = None,
     form: str = "html",
-    units: str = "si",
+    units: UnitSystem = "si",
     uncertainty: Propagation | None = None,
     outline_a: Any = None,
     outline_b: Any = None,
