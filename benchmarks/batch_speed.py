@@ -23,7 +23,7 @@ SOURCE = Path(__file__).resolve().parent.parent / "src"
 if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
-import collisions as col  # noqa: E402
+import collisions as col
 
 CASES = 1_000_000
 ROUNDS = 9

@@ -35,15 +35,15 @@ ROOT = Path(__file__).resolve().parent.parent
 if str(ROOT / "src") not in sys.path:
     sys.path.insert(0, str(ROOT / "src"))
 
-import batch_speed  # noqa: E402
-import speed_errors  # noqa: E402
-import speed_rivals  # noqa: E402
-import time_resolved  # noqa: E402
+import batch_speed
+import speed_errors
+import speed_rivals
+import time_resolved
 
-import collisions as col  # noqa: E402
-from collisions import arguments, reconstruct  # noqa: E402
-from collisions.kernels.eccentric import eccentric as eccentric_kernel  # noqa: E402
-from collisions.kernels.linear import linear_central as linear_kernel  # noqa: E402
+import collisions as col
+from collisions import arguments, reconstruct
+from collisions.kernels.eccentric import eccentric as eccentric_kernel
+from collisions.kernels.linear import linear_central as linear_kernel
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"

@@ -24,8 +24,8 @@ TESTS = Path(__file__).resolve().parent.parent / "tests"
 if str(TESTS) not in sys.path:
     sys.path.insert(0, str(TESTS))
 
-import collisions as col  # noqa: E402
-import reference  # noqa: E402
+import collisions as col
+import reference
 
 MASS, INERTIA, REACH, CLOSING, RESTITUTION = 1500.0, 2400.0, 1.9, 15.0, 0.1
 GYRATION = math.sqrt(INERTIA / MASS)

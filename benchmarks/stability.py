@@ -26,10 +26,10 @@ for folder in (ROOT / "src", ROOT / "tests"):
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
 
-import collisions as col  # noqa: E402
-import test_reference as asserted  # noqa: E402
-from reference import EPS, Answer, Body, Scene, evaluate  # noqa: E402
-from scenes import LAWS, RULES, answerable, cases, draw, solved, solved_together  # noqa: E402
+import collisions as col
+import test_reference as asserted
+from reference import EPS, Answer, Body, Scene, evaluate
+from scenes import LAWS, RULES, answerable, cases, draw, solved, solved_together
 
 DATA = ROOT / "docs" / "_generated" / "stability.json"
 PLOT = ROOT / "docs" / "_static" / "stability_forms.svg"

@@ -16,9 +16,9 @@ SOURCE = Path(__file__).resolve().parent.parent / "src"
 if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
-import collisions as col  # noqa: E402
-from collisions import reconstruct  # noqa: E402
-from collisions.uncertainty import Normal, Propagation, propagate  # noqa: E402
+import collisions as col
+from collisions import reconstruct
+from collisions.uncertainty import Normal, Propagation, propagate
 
 Numbers = dict[str, Any]
 

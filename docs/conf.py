@@ -18,7 +18,7 @@ os.environ["PYTHONPATH"] = os.pathsep.join([*SEARCHED, *filter(None, [os.environ
 os.environ["JUPYTER_PATH"] = str(HERE / "_ext" / "jupyter")
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
 
-import collisions  # noqa: E402
+import collisions
 
 project = "collisions"
 author = "The collisions developers"
@@ -117,6 +117,8 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
         raise ValueError(f"GALLERY in docs/conf.py and examples/ differ: {set(placed) ^ set(told)}")
     page += [
         "Each example is a script in `examples/` and ends with checks of its answers. It was run as these pages were built.",
+        "Pictures need the extra `plot`, tables and dask the extra `tools`: in the folder of the README,",
+        '`pip install ".[plot,tools]"`.',
         "",
     ]
     for group, stems in GALLERY.items():

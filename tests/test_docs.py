@@ -1,7 +1,9 @@
 """The pages: each is listed, the glossary names every attribute, and every convention of signs has its figure."""
 
 import ast
+import importlib
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,7 +15,7 @@ from collisions.side import Side
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle}
 
-pytestmark = pytest.mark.skipif(not DOCS.is_dir(), reason="the sdist has no docs")
+pytestmark = pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are")
 
 
 def page(name):
@@ -98,3 +100,19 @@ def test_every_example_that_draws_has_its_picture_in_the_gallery():
     scripts = (DOCS.parent / "examples").glob("*.py")
     drawing = {path.stem for path in scripts if re.search(r"\bplt?\b|\bplot\.", path.read_text(encoding="utf-8"))}
     assert {path.stem for path in (DOCS / "_static" / "gallery").glob("*.png")} == drawing
+
+
+def test_the_page_of_public_names_has_every_module():
+    """Its tables are made from ``__all__``; each name says in its first sentence what it is."""
+    sys.path.insert(0, str(DOCS / "_ext"))
+    try:
+        from attributes import names_table
+    finally:
+        sys.path.remove(str(DOCS / "_ext"))
+    (listed,) = re.findall(r"^modules = \((.*)\)$", page("public_names"), re.MULTILINE)
+    for name in ast.literal_eval(f"[{listed}]"):
+        module = importlib.import_module(f"collisions{name}")
+        table = names_table(module)
+        for public in module.__all__:
+            assert f"`{public}`" in table
+        assert "| |" not in table.replace("|  |", "| |"), "a name says nothing of itself"

@@ -350,7 +350,10 @@ def test_degrees_beside_a_quarter_turn_keep_their_digits():
 def test_normals_as_tuple_array_and_list():
     """A tuple is a vector and is normalised, an array is angles, a list is refused with both spellings."""
     a, b = col.Vehicle(mass=1.0, vx=3.0, vy=4.0), col.Vehicle(mass=1.0)
-    solve = lambda normal: col.oblique_central(a, b, 0.5, normal=normal, friction=0.0)  # noqa: E731  # one call, four normals
+
+    def solve(normal):
+        return col.oblique_central(a, b, 0.5, normal=normal, friction=0.0)
+
     assert solve((3, 4)).normal == (0.6, 0.8)
     assert solve((3e-200, 4e-200)).normal == pytest.approx((0.6, 0.8), rel=2**-51)
     assert solve((3e300, 4e300)).normal == pytest.approx((0.6, 0.8), rel=2**-51)

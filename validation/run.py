@@ -14,14 +14,14 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-import central_solutions  # noqa: E402
-import measured_fits  # noqa: E402
-import other_lists  # noqa: E402
-import planar_solutions  # noqa: E402
-import untuned_predictions  # noqa: E402
-import validation_figures  # noqa: E402
-import validation_tables as tables  # noqa: E402
-from published_records import record_names, table_of  # noqa: E402
+import central_solutions
+import measured_fits
+import other_lists
+import planar_solutions
+import untuned_predictions
+import validation_figures
+import validation_tables as tables
+from published_records import record_names, table_of
 
 DOCS = HERE.parent / "docs"
 

@@ -37,6 +37,10 @@ print(impact.a.after.delta_v)  # refused
 col.Impact.from_dict("a record")  # refused
 text: str = impact.energy_loss  # refused
 
+reconstruct.planar(a, b, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.5, law="brah")  # refused
+reconstruct.planar(a, b, normal=0.0, point=(0.0, 0.0), restitution=0.1, friction=0.5, regime="stiking")  # refused
+col.explain(impact, form="html")  # refused
+col.report(impact, form="pdf")  # refused
 col.diagnose(a)  # refused
 col.explain(impact, units="imperial")  # refused
 reconstruct.central(1500.0, 1200.0, 10.0, 0.0, 0.1)  # refused

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 from ..amounts import at_least_zero
 from ..door import Door
@@ -24,7 +24,8 @@ from .origin import chosen, found
 from .page import Page
 from .rounding import SI_UNITS, SYSTEMS, System
 
-_FORMS = ("markdown", "text")
+Form: TypeAlias = Literal["markdown", "text"]
+_FORMS = get_args(Form)
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
 
 
@@ -32,7 +33,7 @@ def explain(
     impact: Impact | MomentumSolution,
     *,
     units: UnitSystem = "si",
-    form: str = "markdown",
+    form: Form = "markdown",
     uncertainty: Propagation | Mapping[str, Any] | None = None,
 ) -> str:
     """The derivation of an answer with the numbers in it, step by step.

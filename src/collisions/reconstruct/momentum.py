@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import check_options
+from ..arguments import OnFailure, check_options
 from ..directions import Angle, between, course, direction
 from ..door import POSITIVE, Door
 from ..errors import InputError, MissingInputError
@@ -37,7 +37,7 @@ def momentum(
     together: bool = False,
     normal: Input | tuple[Input, Input] | None = None,
     outside_impulse: Pair | None = None,
-    on_failure: str | None = None,
+    on_failure: OnFailure | None = None,
 ) -> MomentumSolution:
     """Two unknown speeds of an impact from planar momentum, with all courses known.
 

@@ -7,12 +7,12 @@ every origin of an end state is a candidate impulse taken off that state; the fo
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import read
+from ..arguments import Law, OnFailure, read
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import CollisionsError, InputError
@@ -26,7 +26,8 @@ from .origins import End
 from .outcome import NUMBERS, Cases, exactly, input_faults, parted, settle
 from .planar_refusals import refusal, warn
 
-_REGIMES = ("frictionless", "sliding", "sticking", "given")
+Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
+_REGIMES = get_args(Regime)
 _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
 _NEARLY_STICKING = 0.05  # of the jump between both ways to slide: a slip so small may be none
 
@@ -43,9 +44,9 @@ def planar(
     friction: Input | None = None,
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
-    law: str = "brach",
-    regime: str | None = None,
-    on_failure: str | None = None,
+    law: Law = "brach",
+    regime: Regime | None = None,
+    on_failure: OnFailure | None = None,
 ) -> Impact:
     """The impact that ended in these motions: ``eccentric`` backwards.
 

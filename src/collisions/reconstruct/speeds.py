@@ -9,7 +9,7 @@ import numpy as np
 
 from ..amounts import amount
 from ..answering import warn_of_refusals
-from ..arguments import read
+from ..arguments import Law, read
 from ..directions import course
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
@@ -40,7 +40,7 @@ def speeds(
     friction: Input | None = None,
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
-    law: str = "brach",
+    law: Law = "brach",
     speed_a: Input | None = None,
     speed_b: Input | None = None,
     delta_v_a: Input | None = None,

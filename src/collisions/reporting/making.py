@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from inspect import signature
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -31,7 +31,8 @@ from .options import EVIDENCE, kept, plain_options
 from .record import record
 from .web import html
 
-_FORMS = ("html", "markdown")
+Form: TypeAlias = Literal["html", "markdown"]
+_FORMS = get_args(Form)
 _SURROGATE = re.compile("[\ud800-\udfff]")
 
 
@@ -39,7 +40,7 @@ def report(
     impact: Impact,
     *,
     title: str | None = None,
-    form: str = "html",
+    form: Form = "html",
     units: UnitSystem = "si",
     uncertainty: Propagation | None = None,
     outline_a: Any = None,
