@@ -295,6 +295,8 @@ def memory(count: int) -> dict[str, float]:
         "eccentric": lambda: col.eccentric(**mixed, on_failure="nan"),
         "solve": lambda: col.solve(**mixed, tolerance=TOLERANCE, on_failure="nan"),
         "left_out": lambda: col.left_out(impact),
+        "eccentric_threads": lambda: col.eccentric(**mixed, on_failure="nan", threads=2),
+        "solve_threads": lambda: col.solve(**mixed, tolerance=TOLERANCE, on_failure="nan", threads=2),
     }
     return {name: rounded(_beyond_what_is_kept(work)) for name, work in works.items()}
 

@@ -149,7 +149,9 @@ def memory(found: dict[str, Any]) -> str:
     return (
         f"Beyond inputs and answers a batch of {cases} cases takes {number(taken['eccentric'])} MiB in `eccentric`, "
         f"{number(taken['solve'])} MiB in `solve` and {number(taken['left_out'])} MiB in `left_out`, whatever the number of "
-        f"cases."
+        f"cases. Each thread has scratch of its own: with two threads `eccentric` takes "
+        f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB. The budget of 8 MiB below is "
+        f"that of `eccentric` on one thread."
     )
 
 
@@ -175,19 +177,22 @@ def laws(found: dict[str, Any]) -> str:
 
 def drawn(found: dict[str, Any]) -> str:
     """How good the estimates of ``left_out`` are over random impacts."""
-    spread = found["drawn"]
-    told = []
-    for key, name in (("tyres", "tyres"), ("moving", "changing geometry")):
-        row = spread[key]
-        least, low, *_, high, most = row["quantiles"]
-        told.append(
-            f"of {name}, for {row['vehicles']} vehicles: {low:.2f} to {high:.2f} of the integrated change in 9 of 10, "
-            f"{least:.2f} to {most:.2f} in all, and outside a factor of 1.5 in {100.0 * row['outside_1.5']:.1f} %"
+    sentences = []
+    for drawn_as, frictions in found["frictions"].items():
+        spread, told = found[drawn_as], []
+        for key, name in (("tyres", "tyres"), ("moving", "changing geometry")):
+            row = spread[key]
+            least, low, *_, high, most = row["quantiles"]
+            told.append(
+                f"of {name}, for {row['vehicles']} vehicles: {low:.2f} to {high:.2f} of the integrated change in 9 of 10, "
+                f"{least:.2f} to {most:.2f} in all, and outside a factor of 1.5 in {100.0 * row['outside_1.5']:.1f} %"
+            )
+        sentences.append(
+            f"Over {spread['impacts']} random impacts of two cars without spin before, with a friction of {frictions[0]:g} to "
+            f"{frictions[-1]:g} and a restitution of 0 to 0.4, where the change is more than {100.0 * spread['matters']:.0f} % "
+            f"of delta-V, the estimate was, {'; '.join(told)}."
         )
-    return (
-        f"Over {spread['impacts']} random impacts, where the change is more than {100.0 * spread['matters']:.0f} % of delta-V, "
-        f"the estimate was, {'; '.join(told)}."
-    )
+    return "\n\n".join(sentences)
 
 
 def budgets(found: dict[str, Any]) -> str:

@@ -4,7 +4,7 @@
 plane push at each other for 0.1 s with a force of a given shape in time, as large as it takes for the contact points to part
 at restitution times closing speed; Coulomb friction along the contact, tyres that slide on the ground. Nothing here but the
 first column and the estimates comes from the library. Nothing is timed. Nine scenes are listed one by one; over seeded random
-ones only the ratio of estimate to integration is kept.
+ones only the ratio of estimate to integration is kept, once with a friction of 0.2 to 0.8 and once of 0 to 0.1.
 
 The contact point is carried by the mean of the two places of the bodies that met, and the normal turns by the mean of the
 rotations; with a fixed wall the point is the body's and the normal the wall's. What a contact that stays with one of the
@@ -28,8 +28,8 @@ SOURCE = Path(__file__).resolve().parent.parent / "src"
 if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
-import collisions as col  # noqa: E402
-from collisions.idealisation import left_out  # noqa: E402
+import collisions as col
+from collisions.idealisation import left_out
 
 DURATION = 0.1
 DRAG = 0.7
@@ -128,10 +128,11 @@ SCENES = (
 
 
 DRAWN, SEED = 150, 20240613
+FRICTION, LITTLE_FRICTION = (0.2, 0.5, 0.8), (0.0, 0.05, 0.1)
 
 
-def drawn(count: int = DRAWN) -> tuple[Scene, ...]:
-    """Random impacts of two cars that close at 2 m/s and more, up to 28 m/s, and slide at up to 16 m/s."""
+def drawn(count: int = DRAWN, frictions: tuple[float, ...] = FRICTION) -> tuple[Scene, ...]:
+    """Random impacts of two cars that do not spin before, close at 2 m/s and more, up to 28 m/s, and slide at up to 16 m/s."""
     rng = random.Random(SEED)
     found: list[Scene] = []
     while len(found) < count:
@@ -144,7 +145,7 @@ def drawn(count: int = DRAWN) -> tuple[Scene, ...]:
             mass = rng.uniform(900.0, 2200.0)
             velocity, place = ((u * n[0] - v * n[1], u * n[1] + v * n[0]) for u, v in ((along, across), (reach, lever)))
             bodies.append((mass, mass * rng.uniform(1.2, 2.0), *velocity, 0.0, *place, rng.uniform(-math.pi, math.pi)))
-        e, friction = rng.uniform(0.0, 0.4), rng.choice([0.2, 0.5, 0.8])
+        e, friction = rng.uniform(0.0, 0.4), rng.choice(frictions)
         scene = Scene(f"drawn_{len(found)}", "", *bodies, e, normal, (0.0, 0.0), friction)
         try:
             closes = scene.impact().closing_speed >= 2.0
@@ -365,7 +366,9 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
         "drag": DRAG,
         "steps": steps,
         "halving_the_step": _rounded(convergence(scenes, steps)),
+        "frictions": {"drawn": list(FRICTION), "drawn_with_little_friction": list(LITTLE_FRICTION)},
         "drawn": estimates_of_drawn(),
+        "drawn_with_little_friction": estimates_of_drawn(frictions=LITTLE_FRICTION),
         "rows": rows,
     }
 
@@ -375,9 +378,9 @@ MATTERS, AT_LEAST = 0.02, 0.05
 QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
 
 
-def estimates_of_drawn(count: int = DRAWN, steps: int = 200) -> dict[str, Any]:
+def estimates_of_drawn(count: int = DRAWN, steps: int = 200, frictions: tuple[float, ...] = FRICTION) -> dict[str, Any]:
     """The ratio of what ``left_out`` estimates to what is integrated, over random impacts, where the change matters."""
-    scenes = drawn(count)
+    scenes = drawn(count, frictions)
     impulse = of_impacts(scenes)
     size = np.hypot(*impulse[:2])
     told = [left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
@@ -443,13 +446,15 @@ def table(found: dict[str, Any]) -> str:
     lines.append(
         f"without tyres, with fixed geometry: within {worst:.1g} of the impulse; half the step: {found['halving_the_step']:.1g}"
     )
-    for name in ("tyres", "moving"):
-        spread = found["drawn"][name]
-        low, high = spread["quantiles"][1], spread["quantiles"][-2]
-        lines.append(
-            f"{found['drawn']['impacts']} random impacts, {name}: estimate / integrated {low:.2f} to {high:.2f} for 9 in 10 of "
-            f"{spread['vehicles']} vehicles, outside a factor of 1.5 {100.0 * spread['outside_1.5']:.1f}%"
-        )
+    for key, frictions in found["frictions"].items():
+        for name in ("tyres", "moving"):
+            spread = found[key][name]
+            low, high = spread["quantiles"][1], spread["quantiles"][-2]
+            lines.append(
+                f"{found[key]['impacts']} random impacts, friction {frictions[0]:g} to {frictions[-1]:g}, {name}: estimate / "
+                f"integrated {low:.2f} to {high:.2f} for 9 in 10 of {spread['vehicles']} vehicles, outside a factor of 1.5 "
+                f"{100.0 * spread['outside_1.5']:.1f}%"
+            )
     return "\n".join(lines)
 
 

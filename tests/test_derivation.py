@@ -554,12 +554,12 @@ def test_the_same_for_the_same():
 
 
 def test_answers_are_rounded_as_documented():
-    """0.1 km/h, 0.1 mph, 0.01 m/s; 1 degree, 0.01 rad; three figures of an energy; each against pint's own conversion."""
+    """0.1 km/h, 0.1 mph, 0.01 m/s; 1 degree, 0.01 rad, a second too; three figures of an energy; each against pint's own conversion."""
     impact = crossroads()
-    for units, speed, places, angle, angle_places, rate, energy in (
-        ("si", "m/s", 2, "rad", 2, "rad/s", "J"),
-        ("metric", "km/h", 1, "deg", 0, "deg/s", "kJ"),
-        ("us", "mph", 1, "deg", 0, "deg/s", "ft*lbf"),
+    for units, speed, places, angle, angle_places, rate, rate_places, energy in (
+        ("si", "m/s", 2, "rad", 2, "rad/s", 2, "J"),
+        ("metric", "km/h", 1, "deg", 0, "deg/s", 0, "kJ"),
+        ("us", "mph", 1, "deg", 0, "deg/s", 0, "ft*lbf"),
     ):
         text = explain(impact, form="text", units=units)
         for label, side in (("A", impact.a), ("B", impact.b)):
@@ -567,7 +567,7 @@ def test_answers_are_rounded_as_documented():
             pdof = side.q.pdof.m_as(angle)
             assert answer(text, label, "PDOF (0 from ahead, positive clockwise)") == f"{pdof:.{angle_places}f} {angle}"
             spin = side.after.q.yaw_rate.m_as(rate)
-            assert answer(text, label, "yaw rate after") == f"{spin:.{angle_places}f} {rate}"
+            assert answer(text, label, "yaw rate after") == f"{spin:.{rate_places}f} {rate}"
         loss = float(answer(text, "contact", "energy lost").removesuffix(f" {energy}"))
         assert loss == float(f"{impact.q.energy_loss.m_as(energy):.2e}")
 
@@ -706,7 +706,7 @@ def test_a_refused_impact_is_refused_again():
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        ({"units": "imperial"}, "bad_option", "'si', 'metric', 'us'"),
+        ({"units": "imperial"}, "bad_option", "'si', 'metric' or 'us'"),
         ({"units": None}, "bad_option", "units"),
         ({"form": "html"}, "bad_option", "'markdown', 'text'"),
         ({"impact": 3.0}, "not_an_impact", "got float"),

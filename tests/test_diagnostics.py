@@ -1251,3 +1251,78 @@ def test_a_tuple_of_answers_is_refused_with_what_to_write():
     """What ``reconstruct.speeds`` gives."""
     with pytest.raises(col.InputError, match=r"tuple of 2.*diagnose\(found\[0\]\)"):
         diagnose((square(), square()))
+
+
+def test_no_yaw_is_not_turned_the_other_way():
+    """A force through the centre of mass turns nothing, but for rounding; under a turned normal it turns something."""
+    k = math.radians(50.0)
+    c, n = math.cos(k), math.sin(k)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=15.0 * c, vy=15.0 * n, x=-2.0 * c, y=-2.0 * n)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=2.0 * c, y=2.0 * n)
+    impact = col.eccentric(a, b, 0.1, normal="50 deg", point=(0.0, 0.0), friction=0.0)
+    (finding,) = of("normal_yaw", impact)
+    # Rounding of a lever of 0 beside places of 2 m.
+    assert abs(impact.a.delta_yaw_rate) < 1e-12
+    assert "the other way" not in finding.sentence
+
+
+@pytest.mark.parametrize(("units", "told"), [("si", "0.175 rad"), ("metric", "10.0 degrees"), ("us", "10.0 degrees")])
+def test_the_turn_of_the_normal_is_in_the_units_of_the_page(units, told):
+    impact = square(a={"y": 0.05, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
+    (finding,) = of("normal_yaw", impact, units=units)
+    assert re.search(rf"with the normal turned by [-+]{told} ", finding.sentence)
+
+
+def test_a_speed_that_was_found_is_no_input():
+    """What was given is to be checked; of a speed that was given the unit is asked for."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.SuspectUnitsWarning)
+        found = reconstruct.central(1500.0, 1200.0, vb=0.0, vb_after=130.0, restitution=0.1)
+        given = reconstruct.central(1500.0, 1200.0, va=130.0, vb=0.0, restitution=0.1)
+    (one,), (other,) = (of("suspect_speed", impact) for impact in (found, given))
+    assert one.sentence.startswith("vehicle A was found to go at")
+    assert one.sentence.endswith("; check what was given")
+    assert other.sentence == "vehicle A goes at 130 m/s before; were km/h or mph meant?"
+
+
+def test_a_yaw_rate_that_was_found_is_no_input():
+    """As of a speed."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.SuspectUnitsWarning)
+        forward = square(a={"yaw_rate": 40.0})
+    assert of("suspect_yaw_rate", forward)[0].sentence.endswith("were degrees/s meant?")
+    after = (forward.a.after, forward.b.after)
+    ratio = forward.impulse_ratio
+    back = reconstruct.planar(*after, normal=0.0, point=(0.0, 0.0), restitution=forward.restitution, impulse_ratio=ratio)
+    (finding,) = of("suspect_yaw_rate", back)
+    assert finding.sentence.startswith("vehicle A was found to turn at 40 rad/s")
+
+
+def test_tyres_of_a_pinned_body_are_an_estimate():
+    """Their levers about the pivot are not known; those of a free body have a bound."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=2.0, x=-2.0, y=2.0)
+    b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=1.0, y=2.0, pivot=(1.0, 0.0))
+    impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 2.0), friction=0.0)
+    free, hung = of("tyre_impulse", impact)
+    assert "give up to" in free.sentence
+    assert "give about" in hung.sentence
+
+
+def test_every_other_law_is_asked(monkeypatch):
+    """Also where more than two are known."""
+    from collisions.diagnostics import robustness
+
+    impact, _ = CASES["law"][0]()
+    asked = []
+    again = col.Impact._again
+
+    def noted(self, **changes):
+        if "law" not in changes:
+            return again(self, **changes)
+        asked.append(changes["law"])
+        return self
+
+    monkeypatch.setattr(robustness.codes, "LAWS", ("one", *LAWS))
+    monkeypatch.setattr(col.Impact, "_again", noted)
+    of("law", impact)
+    assert asked == ["one", *(law for law in LAWS if law != impact.law)]

@@ -12,6 +12,8 @@ import pytest
 
 import collisions as col
 from collisions.fields import attributes
+from collisions.provenance import Again
+from collisions.reporting import replay
 from collisions.side import Side
 
 A = col.Vehicle(mass=1100.0, vx=20.0, vy=1.0, yaw_rate=0.1, yaw_inertia=1800.0, x=0.0, y=0.0, heading=0.0, name="A")
@@ -273,12 +275,27 @@ def test_a_case_of_solve_is_answered_by_its_own_model():
     a, b = A.replace(vx=np.array([20.0, 9.0]), x=-1.0), B.replace(x=2.0)
     contact = {"normal": 0.1, "point": (1.0, 0.3), "friction": 0.2}
     choice = col.required_model(a, b, 0.1, tolerance=np.array([99.0, 0.0]), **contact)
-    many = col.solve(a.replace(vy=5.0), b, 0.1, tolerance=choice, **contact)
+    many = col.solve(a.replace(vy=5.0), b, 0.1, tolerance=Again(choice), **contact)
     assert list(many.model) == ["linear_central", "eccentric"]
     for place in (0, 1, -1):
         one = many.case(place)
         assert one.model == many.model[place]
         assert one.a.delta_v == pytest.approx(many.a.delta_v[place], rel=1e-13)
+
+
+@pytest.mark.parametrize("at", [0, 1])
+def test_a_case_of_solve_gives_the_reason_of_its_own_choice(at):
+    """Not that of the batch, which counts its cases: so a record of the case and a report of it say the same again."""
+    a = A.replace(vx=np.array([20.0, 20.0]), x=-2.0, y=0.0, yaw_inertia=2000.0)
+    b = B.replace(vx=0.0, vy=0.0, x=2.0, y=0.0, yaw_inertia=1700.0)
+    contact = {"normal": 0.0, "point": (0.0, np.array([0.0, 0.5])), "friction": 0.3, "tolerance": 0.1}
+    many = col.solve(a, b, 0.2, **contact)
+    one, alone = many.case(at), col.solve(a.replace(vx=20.0), b, 0.2, **{**contact, "point": (0.0, (0.0, 0.5)[at])})
+    assert "cases" in many.choice.reason
+    assert one.choice.reason == alone.choice.reason
+    assert one.choice.reason.startswith(one.model)
+    assert col.Impact.from_dict(one.to_dict()).choice == one.choice
+    assert replay(col.report(one, form="markdown")) == one
 
 
 def test_a_case_that_was_refused_says_why():

@@ -291,7 +291,7 @@ def test_inputs_are_shown_as_given():
     assert ("B (Polo)", "speed", "8.333 m/s, given as 30 km/h") in si
     assert ("B (Polo)", "course", "-1.571 rad, given as -90 deg") in si
     assert ("A (Golf)", "yaw inertia about the centre of mass", "2600 kg*m**2") in si
-    assert ("B", "pivot O (x, y)", "0 m, 0 m, given as 0 ft") in rows(report(pinned(), form="markdown"))
+    assert ("B", "pivot O (x, y)", "x: 0 m, given as 0 ft; y: 0 m") in rows(report(pinned(), form="markdown"))
 
 
 @pytest.mark.parametrize("units", ["si", "metric", "us"])
@@ -387,9 +387,12 @@ def test_uncertainty_is_told():
     assert ("b.delta_v", "mean ± standard deviation", f"{output.mean:.2f} ± {output.std:.2f} m/s") in rows(part)
     low, high = output.interval()
     assert ("b.delta_v", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
-    share = output.contributions["speed"]
-    error = output.contribution_standard_errors["speed"][0]
-    assert ("b.delta_v", "share of the variance by speed", f"{100 * share:.0f} ± {100 * error:.0f} percent") in rows(part)
+    shares = (output.contributions["speed"], output.total_contributions["speed"])
+    alone, in_all = (
+        f"{100 * share:.0f} ± {100 * error:.0f} percent"
+        for share, error in zip(shares, output.contribution_standard_errors["speed"], strict=True)
+    )
+    assert ("b.delta_v", "share of the variance by speed", f"{alone} by itself, {in_all} in all") in rows(part)
     assert any(row[:2] == ("own", "figures") for row in rows(part))
     assert "64 cases, 0 without an answer, seed 1" in part
     assert "Normal(mean=15 m/s, sd=0.5556 m/s)" in part
@@ -465,7 +468,7 @@ def test_the_derivation_is_that_of_explain(impacts):
     ("change", "code", "said"),
     [
         ({"form": "pdf"}, "bad_option", "form must be one of 'html', 'markdown', got 'pdf'"),
-        ({"units": "imperial"}, "bad_option", "units must be one of 'si', 'metric', 'us'"),
+        ({"units": "imperial"}, "bad_option", "units must be 'si', 'metric' or 'us', got 'imperial'"),
         ({"figures": "no"}, "bad_option", "figures must be True or False"),
         ({"derivation": 1}, "bad_option", "derivation must be True or False"),
         ({"title": 7}, "not_a_text", "title must be a text that says something, got 7"),
@@ -844,7 +847,8 @@ def test_shares_stay_within_0_and_100_percent():
     told = [row[2] for row in rows(part) if row[1].startswith("share")]
     assert told
     for text in told:
-        assert re.fullmatch(r"(\d|[1-9]\d|100)( ± \d+)? percent", text), text
+        share = r"(\d|[1-9]\d|100)( ± \d+)? percent"
+        assert re.fullmatch(f"{share} by itself, {share} in all", text), text
 
 
 # The page is made again from itself.
@@ -927,4 +931,104 @@ def test_sticking_and_sliding_say_what_is_so():
         assert "the impulse ratio has the size of the friction given" in report(impact, form="markdown")
     back = crash(law="kudlich-slibar")
     assert back.slip_after * back.slip_before < 0.0
-    assert "slip ends during the contact, with less than the friction given" in report(back, form="markdown")
+    ends = "slip ends during the contact, with less than the friction given"
+    assert f"{ends}, and comes back." in report(back, form="markdown")
+    for impact in (crash(), crash(law="kudlich-slibar", e=0.0)):
+        assert impact.regime == "sticking"
+        assert f"{ends}." in report(impact, form="markdown")
+
+
+# Every row of the inputs is true.
+
+
+def test_a_velocity_that_was_worked_out_says_of_what():
+    """That of a pinned body of its yaw rate, and that of speed and course of these, which both stand there."""
+    pin = {"x": 0.0, "y": 2.0, "pivot": (0.0, 0.0), "yaw_inertia": 1333.0, "yaw_rate": 0.5}
+    a = col.Vehicle(mass=900, vx=20.0, yaw_inertia=2000.0, x=-2.0, y=4.0)
+    hung = rows(
+        report(col.eccentric(a, col.Vehicle(mass=1000, **pin), 0.1, normal=0, point=(0, 4), friction=0), form="markdown")
+    )
+    # 0.5 rad/s x 2 m, to the left of the arm.
+    assert ("B", "velocity along x", "-1 m/s, worked out from yaw rate and pivot") in hung
+    b = col.Vehicle.from_speed(speed="30 km/h", course=-0.5 * math.pi, mass=1200, yaw_inertia=2100, x=0.9, y=0.1)
+    shown = rows(report(crash(b=b), form="markdown", units="metric"))
+    assert ("B", "speed", "30 km/h") in shown
+    assert ("B", "course", "-90 deg") in shown
+    assert ("B", "velocity along y", "-30 km/h, worked out from speed and course") in shown
+
+
+def test_half_a_place_as_text_says_which_half():
+    """The other half keeps the digits that were typed."""
+    shown = rows(report(crash(point=(0.123456789, "2 in")), form="markdown"))
+    told = "x: 0.1235 m, exactly 0.123456789 m; y: 0.0508 m, given as 2 in"
+    assert ("contact", "contact point (x, y)", told) in shown
+
+
+@pytest.mark.parametrize("contact", [{"normal": (3.0, 4.0)}, {"normal": 6.2}, {"e": UREG.Quantity(10, "percent")}])
+def test_no_row_is_said_to_be_as_it_was_given(contact):
+    """What is kept of it is a number, of a normal its direction."""
+    page = report(crash(**contact), form="markdown")
+    assert "Any other was given so" not in page
+    assert "Of any other only the number is kept, of a normal only its direction" in page
+
+
+def test_shares_of_inputs_that_act_together():
+    """A product of two with mean 0: each has nothing by itself, and everything in all."""
+    inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
+    known = uncertainty.propagate(
+        lambda one, other: {"product": one * other}, inputs, method="quasi_random", samples=2048, seed=2
+    )
+    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    shown = {row[1]: row[2] for row in rows(part) if row[0] == "product"}
+    for name in inputs:
+        alone, in_all = re.findall(r"(\d+)(?: ± \d+)? percent", shown[f"share of the variance by {name}"])
+        # Four standard errors, about 5 percent each.
+        assert int(alone) < 20
+        assert int(in_all) > 80
+    assert int(shown["sum of the shares by themselves"].removesuffix(" percent")) < 40
+    assert "by more than their errors, the rest comes of inputs together" in part
+    # Sums have none: by themselves and in all are the same, and the shares make up the whole.
+    linear = uncertainty.propagate(lambda one, other: {"sum": one + other}, inputs, method="first_order")
+    shown = rows(section(report(crash(), form="markdown", uncertainty=linear), "Uncertainty, given the stated inputs"))
+    assert ("sum", "share of the variance by one", "50 percent by itself, 50 percent in all") in shown
+    assert ("sum", "sum of the shares by themselves", "100 percent") in shown
+
+
+def test_a_pivot_is_no_force_that_is_left_out(impacts):
+    """And its tyres are an estimate, since where they act on its levers is not known."""
+    told = section(report(impacts["pinned"], form="markdown"), "Assumptions")
+    assert "tyres and all other forces but the pivot's are left out" in told
+    assert "(estimates, except the bound)" in told
+    assert ("A", "delta-V by its own tyres, bound") in {row[:2] for row in rows(told)}
+    assert ("B", "delta-V by its own tyres, about") in {row[:2] for row in rows(told)}
+    free = section(report(impacts["eccentric"], form="markdown"), "Assumptions")
+    assert "tyres and all other forces are left out" in free
+
+
+# A record is whole, and its words are no part of what is compared.
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda results: results.pop("energy_loss"), "energy_loss, which is missing"),
+        (lambda results: results["a"].pop("delta_v"), "a.delta_v, which is missing"),
+        (lambda results: results["a"]["after"].pop("vx"), "a.after.vx, which is missing"),
+        (lambda results: results.update(blame=1.0), "blame, which no impact has"),
+        (lambda results: results["b"].update(injury=1.0), "b.injury, which no impact has"),
+    ],
+)
+def test_results_of_a_record_are_all_there_and_no_others(change, said):
+    page = tampered(report(crash(), form="markdown"), lambda r: change(r["impact"]["results"]))
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        replay(page)
+    assert caught.value.code == "bad_record"
+
+
+def test_the_reason_of_a_choice_may_be_worded_otherwise(impacts):
+    """Its numbers may not."""
+    impact = impacts["solve, linear"]
+    page = report(impact, form="markdown")
+    assert replay(tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another."))) == impact
+    with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.errors"):
+        replay(tampered(page, lambda r: r["impact"]["results"]["choice"]["errors"].update(linear_central=3.0)))

@@ -14,6 +14,7 @@ import pytest
 
 import collisions as col
 from collisions.kernels.batch import BLOCK
+from collisions.provenance import Again
 
 MODELS = ("linear_central", "oblique_central", "eccentric")
 LAWS = ("brach", "kudlich-slibar")
@@ -358,6 +359,22 @@ def test_a_pivot_is_beyond_the_central_models():
     assert "pivot" in choice.reason
 
 
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_errors_beside_a_pivot_are_infinite_where_there_is_an_answer(kind):
+    """Of cases that part, or whose numbers are refused, no error is known; in the precision of the batch, as alone."""
+    speeds = np.array([10.0, -10.0, math.nan], dtype=kind)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0, pivot=(3.0, 1.0))
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "tolerance": 0.1}
+    choice = col.required_model(col.Vehicle(mass=1500.0, vx=speeds, yaw_inertia=2400.0, x=-2.0, y=0.0), b, 0.2, **contact)
+    assert list(choice.model) == ["eccentric"] * 3
+    for error in choice.errors.values():
+        assert error.dtype == kind
+        np.testing.assert_array_equal(error, [math.inf, math.nan, math.nan])
+    apart = col.required_model(col.Vehicle(mass=1500.0, vx=-10.0, yaw_inertia=2400.0, x=-2.0, y=0.0), b, 0.2, **contact)
+    assert apart.model == "eccentric"
+    assert all(math.isnan(error) for error in apart.errors.values())
+
+
 def batch(size=500):
     """Scenes of all kinds in arrays, and the same one by one."""
     rng = random.Random(3)
@@ -558,6 +575,22 @@ def test_a_large_batch_takes_no_copies_of_its_arrays():
     assert most - kept < 8 * 2**20
 
 
+def test_two_threads_share_the_scratch_that_a_batch_may_take():
+    """Each has that of all three models, and the inputs and answers of a block: 8 MiB together, as on one thread."""
+    a, b, contact = large(80 * BLOCK)
+    choice = col.required_model(a, b, **contact)
+    contact["tolerance"] = Again(choice)
+    col.solve(a, b, **contact, threads=2)
+    tracemalloc.start()
+    try:
+        impact = col.solve(a, b, **contact, threads=2)
+        kept, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert impact.status.size == 80 * BLOCK
+    assert most - kept < 9 * 2**20
+
+
 def test_what_solve_wrote_is_read_before_solve_is_imported():
     """A record and a pickle of it in a new process, which has imported no more than the package."""
     a, b = col.Vehicle(mass=1.0, vx=1.0, x=-1.0, y=0.0), col.Vehicle(mass=1.0, x=1.0, y=0.0)
@@ -610,3 +643,14 @@ def test_the_work_on_each_vehicle_is_that_of_the_model_taken():
     assert impact.a.kinetic_energy_change + impact.b.kinetic_energy_change == pytest.approx(
         -impact.energy_loss, abs=1e-15 * 8 * 150e3
     )
+
+
+def test_a_choice_is_no_tolerance():
+    """Made for other inputs it may lack what these need; only an answer that is asked again takes its own."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0, x=-2.0, y=0.4), col.Vehicle(mass=1200.0, x=2.0, y=0.0)
+    contact = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.4), "friction": 0.0}
+    choice = col.required_model(a, b, **contact, tolerance=0.1)
+    assert choice.missing["eccentric"]
+    for ask in (col.solve, col.required_model):
+        with pytest.raises(col.InputError, match="tolerance must be a number"):
+            ask(a, b, **contact, tolerance=choice)

@@ -208,6 +208,8 @@ def test_memory_of_a_batch_is_told(tables, committed):
     assert taken["eccentric"] < 8.0
     assert taken["solve"] < 8.0
     assert taken["left_out"] < 20.0
+    assert max(taken["eccentric_threads"], taken["solve_threads"]) < 9.0
+    assert "with two threads" in tables.memory(committed[0])
     assert "whatever the number of cases" in tables.memory(committed[0])
 
 

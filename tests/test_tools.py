@@ -486,3 +486,57 @@ def test_every_attribute_is_in_the_schema():
     assert results["energy_loss"]["description"].startswith("Energy dissipated [J]")
     inner = {"no_slip_normal", "no_slip_tangential", "sticks", "coupling"}
     assert {name for name in OUTPUTS if not name.startswith(("delta_", "impulse_"))} - inner <= results.keys()
+
+
+# How a record says its inputs were given.
+
+
+def refused(**changes):
+    """Two bodies that lose no energy with a restitution of 1 percent: the answer is none."""
+    given = {"va": 0.0, "restitution": "1.0 %", "energy_loss": 0.0, "on_failure": "nan"}
+    return reconstruct.central(300.0, 300.0, **(given | changes))
+
+
+@pytest.mark.parametrize("loss", [0.0, [0.0, 1000.0], [[1000.0], [0.0]]])
+def test_a_refused_answer_of_a_reverse_solver_is_read_back(loss):
+    """It does not hold the restitution that was given; a case that was answered does, and must."""
+    impact = refused(energy_loss=loss)
+    assert np.any(impact.refused)
+    record = strict(impact)
+    again = col.Impact.from_dict(record)
+    assert again == impact
+    assert strict(again) == record
+    record["inputs"]["given_as"]["restitution"] = "2 %"
+    if not np.all(impact.refused):
+        with pytest.raises(col.InputError, match="its restitution"):
+            col.Impact.from_dict(record)
+
+
+def end_of(model, **contact):
+    """An impact by its model, with a contact of texts."""
+    a = col.Vehicle(mass=1500.0, vx=15.0, yaw_inertia=2600.0, x=-2.0, y=0.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, x=2.0, y=0.0)
+    return getattr(col, model)(a, b, "10 %", normal="0 deg", **contact)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: end_of("linear_central"), "friction"),
+        (lambda: end_of("oblique_central", friction="50 %"), "impulse_ratio"),
+        (lambda: end_of("oblique_central", friction="50 %"), "point[0]"),
+        (lambda: end_of("eccentric", friction="50 %", point=("0 m", "0 m")), "energy_loss"),
+        (lambda: end_of("eccentric", friction="50 %", point=("0 m", "0 m")), "point[2]"),
+        (lambda: end_of("solve", friction="50 %", point=("0 m", "0 m")), "colour"),
+        (lambda: reconstruct.central(1500.0, 1200.0, va="10 m/s", vb=0.0, restitution="10 %"), "closing_speed"),
+    ],
+)
+def test_only_arguments_of_the_question_can_have_been_given(make, name):
+    """Those that the model or the reverse solver takes are read."""
+    record = strict(make())
+    assert col.Impact.from_dict(record).to_dict()["inputs"]["given_as"]
+    record["inputs"]["given_as"][name] = "5"
+    with pytest.raises(col.InputError) as caught:
+        col.Impact.from_dict(record)
+    assert caught.value.code == "bad_record"
+    assert f"it has no '{name}' that could have been given" in str(caught.value)

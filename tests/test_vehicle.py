@@ -206,3 +206,22 @@ def test_repr_and_table_carry_units():
     assert "1000 kg" in html
     assert "<A>" not in html
     assert "&lt;A&gt;" in html
+
+
+@pytest.mark.parametrize("still", ["x", "yaw_rate"])
+def test_a_plain_number_beyond_float32_is_not_made_infinite_by_an_array_beside_it(still):
+    """As in the solvers, what float32 cannot hold is worked out in float64."""
+    fast = float(np.finfo(np.float32).max) * (1.0 + 1e-6)
+    numbers = {"vy": fast, "yaw_rate": 1.0, "x": 0.0, "y": 0.0} | {still: np.zeros(3, dtype=np.float32)}
+    _, vy = col.Vehicle(mass=300.0, **numbers).velocity_at((0.0, 0.0))
+    assert (vy == fast).all()
+    impact = col.eccentric(
+        col.Vehicle(mass=300.0, vx=1.0, yaw_inertia=200.0, **numbers),
+        col.Vehicle.barrier(),
+        0.0,
+        normal=0.0,
+        point=(0.0, 0.0),
+        friction=0.0,
+    )
+    # Frictionless and plastic, through the centre: the wall takes m vx^2 / 2, whatever is beside it.
+    assert impact.a.kinetic_energy_change == pytest.approx(-150.0, rel=1e-15)

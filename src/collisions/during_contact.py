@@ -10,12 +10,11 @@ import numpy as np
 from .directions import from_radians
 from .fields import hypot, numeric
 from .impact import Impact
+from .kernels import codes
 from .kernels.select import select
 from .kernels.turning import turning_velocity
 from .provenance import MODELS
-from .quiet import quietly
 from .side import Side
-from .vehicle import Vehicle
 
 # Share of the impulse that has passed at moments that split the half-sine into parts that weigh the same in time.
 _PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
@@ -36,7 +35,7 @@ class Kick(NamedTuple):
 
     @classmethod
     def of(cls, side: Side, point: Any, most: Any) -> Kick:
-        """``most`` is the change of velocity by tyres that pull one way throughout."""
+        """``most`` is the change of velocity of a free body by tyres that pull one way throughout."""
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
         moves = numeric(before.mass).isfinite(before.mass)
         most = select(moves, most, 0.0)
@@ -56,7 +55,8 @@ class Kick(NamedTuple):
         turning = before.mass / (before.yaw_inertia + before.mass * square)
         yaw = turning * (arm_x * y - arm_y * x)
         at_point = turning_velocity(yaw, point[0], point[1], before.pivot[0], before.pivot[1])
-        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * turning * square)
+        # Of wheels at the radius of gyration k from the centre, the mean distance from the pivot is hypot(arm, k) at most.
+        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * (turning * square) ** 0.5)
 
 
 def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
@@ -68,16 +68,15 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
     # Taken the way round that brings the vehicles nearer, for which the restitution that is wanted is below 1.
     part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
     faster = closing + part * nearer
-    again = _ask(
-        impact,
-        *(
-            side.before._moved(
-                side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
-            )
-            for side, kick in zip((impact.a, impact.b), kicks, strict=True)
-        ),
-        restitution=impact.restitution * (closing / faster),
+    # The pull need not be along the normal, which the linear model would refuse; without friction the oblique one is the same.
+    carrying = {"model": "oblique_central", "law": codes.BRACH} if impact._asked.model == "linear_central" else {}
+    moved_a, moved_b = (
+        side.before._moved(
+            side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
+        )
+        for side, kick in zip((impact.a, impact.b), kicks, strict=True)
     )
+    again = impact._again(a=moved_a, b=moved_b, restitution=impact.restitution * (closing / faster), **carrying)
     return [
         hypot(kick.x + (new.delta_vx - old.delta_vx) / part, kick.y + (new.delta_vy - old.delta_vy) / part)
         for old, new, kick in zip((impact.a, impact.b), (again.a, again.b), kicks, strict=True)
@@ -86,7 +85,9 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
 
 def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
     """How far delta-V of each vehicle moves when the geometry is the one of later in the contact; None without a geometry."""
-    placed = point is not None if impact.choice is None else impact.choice._which == MODELS.index("eccentric")
+    if point is None:
+        return [None] * 2
+    placed = True if impact.choice is None else impact.choice._which == MODELS.index("eccentric")
     if placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):
@@ -116,9 +117,9 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
         places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
         bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
     on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
-    again = _ask(
-        impact,
-        *bodies,
+    again = impact._again(
+        a=bodies[0],
+        b=bodies[1],
         point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),
         normal=_turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1]),
     )
@@ -126,12 +127,6 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
         select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
         for old, new in ((impact.a, again.a), (impact.b, again.b))
     ]
-
-
-def _ask(impact: Impact, a: Vehicle, b: Vehicle, **changes: Any) -> Impact:
-    """The question of the impact again with other numbers; what is to be said of it was said the first time."""
-    with quietly():
-        return impact._again(a=a, b=b, **changes)
 
 
 def _turned(x: Any, y: Any, angle: Any) -> tuple[Any, Any]:

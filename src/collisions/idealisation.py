@@ -16,7 +16,7 @@ from .fields import Shown, lock, numeric
 from .impact import Impact
 from .kernels.batch import flat, precision
 from .kernels.select import select
-from .quiet import warn_of_cases
+from .quiet import quietly, warn_of_cases
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag, warn_if_above
 from .units import Input, Value, is_quantity
@@ -36,8 +36,9 @@ class LeftOutSide(Shown):
     tyre_impulse_bound : float or array [N*s]
         The most that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
     tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
-        The change of velocity of the centre of mass by that impulse, and its share. Of a pinned vehicle: with the force across
-        the arm.
+        The change of velocity of the centre of mass by that impulse, and its share. Of a pinned vehicle no bound but an
+        estimate, since it is not known how far from the pivot its wheels are: taken to be at the radius of gyration from the
+        centre of mass, all across their arms. Wheels that lie farther out can give more.
     tyre_impulse : float or array [N*s]
         Estimate: the tyres pull against the motion of the centre of mass, as it changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
@@ -49,8 +50,8 @@ class LeftOutSide(Shown):
         Turn during the contact, counter-clockwise.
     geometry_delta_v, geometry_share : float or array [m/s], [-]
         Estimate of how far delta-V moves, as a vector, because positions and normal change during the contact, if those of the
-        impact are the ones at first contact; None for the central models, which have no geometry. In a batch of ``solve`` NaN
-        where a central model answered.
+        impact are the ones at first contact; None for the central models, which have no geometry, and for any impact without a
+        point. In a batch of ``solve`` with a point NaN where a central model answered.
     """
 
     _title = "Left out for one vehicle"
@@ -144,11 +145,14 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
       which is where restitution holds. The contact point goes with the mean of the two places that met, the normal with the
       mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
 
-    Measured against the integration in benchmarks/time_resolved.py, over 150 random impacts of cars that close at 2 to 28 m/s,
-    for vehicles whose delta-V changes by more than 2 percent: the estimate is 0.89 to 1.09 of the change by tyres in 9 of 10,
-    0.49 to 1.29 in all; and 0.86 to 1.37 of that by geometry in 9 of 10, 0.69 to 1.69 in all. If the contact stayed with one
-    of the vehicles instead of going between them, that of geometry would be 0.5 to 1.5 times as large, and that on yaw rates
-    could have either sign: none is given.
+    Measured against the integration in benchmarks/time_resolved.py, over 150 random impacts of two cars that do not spin
+    before and close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V
+    changes by more than 2 percent: the estimate is 0.89 to 1.09 of the change by tyres in 9 of 10, 0.49 to 1.29 in all; and
+    0.86 to 1.37 of that by geometry in 9 of 10, 0.69 to 1.69 in all. Over as many with a friction of 0 to 0.1 it is worse:
+    0.82 to 1.16 of the change by tyres in 9 of 10, 0.44 to 1.89 in all; and 0.86 to 2.34 of that by geometry in 9 of 10, 0.47
+    to 3.03 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. If the contact stayed with
+    one of the vehicles instead of going between them, that of geometry would be 0.5 to 1.5 times as large, and that on yaw
+    rates could have either sign: none is given.
 
     Positions at maximum engagement, as they are found in a real crash, leave a half to a fifteenth of the effect of geometry;
     then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
@@ -203,7 +207,10 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
         def cut(value: Any, block: slice = block) -> Any:
             return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
 
-        for name, value in _estimated(impact._part(cut, on_failure="nan"), cut(time), cut(pull), cut(unusable)).items():
+        # What is to be said of its cases was said of the impact.
+        with quietly():
+            some = impact._part(cut, on_failure="nan")
+        for name, value in _estimated(some, cut(time), cut(pull), cut(unusable)).items():
             if name not in whole:
                 whole[name] = None if value is None else np.empty(size, dtype=dtype)
             if value is not None:

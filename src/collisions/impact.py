@@ -16,6 +16,7 @@ from .fields import Quantities, attributes, derived, hypot, lock, numeric, retur
 from .kernels import codes
 from .kernels.checks import outside_unit_interval
 from .kernels.select import select
+from .quiet import quietly
 from .side import Side
 from .units import Input, Value, shown
 from .vehicle import Vehicle
@@ -345,9 +346,15 @@ class Impact:
         return answered
 
     def _again(self, **changes: Any) -> Impact:
-        """The answer of the same model to the same question with some of it changed, NaN where it is refused."""
-        options = {} if self.choice is None else {"tolerance": self.choice}
-        return self._asked._replace(**changes, given=None).ask(on_failure="nan", **options)
+        """The answer of the same model to the same question with some of it changed, NaN where it is refused.
+
+        What is to be said of refused cases and of energy was said of the impact itself.
+        """
+        from .provenance import Again
+
+        options = {} if self.choice is None else {"tolerance": Again(self.choice)}
+        with quietly():
+            return self._asked._replace(**changes, given=None).ask(on_failure="nan", **options)
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
@@ -392,7 +399,9 @@ class Impact:
 
         asked, origin = question_of(self._asked, take), self.reconstruction
         if self.choice is not None:
-            options["tolerance"] = part_of(self.choice, take)
+            from .provenance import Again
+
+            options["tolerance"] = Again(part_of(self.choice, take))
         impact: Impact = asked.ask(**options)
         if origin is None:
             return impact

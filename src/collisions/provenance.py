@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -134,3 +134,9 @@ class ModelChoice(Shown):
             if needed:
                 yield f"{prefix}missing.{name}", ", ".join(needed)
         yield prefix + "tolerance", show(self.tolerance, "m/s")
+
+
+class Again(NamedTuple):
+    """A choice that an answer was made by, given to ``solve`` in place of a tolerance when that answer is asked again."""
+
+    choice: ModelChoice

@@ -26,6 +26,14 @@ _MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
 _GIVEN = "given_as"  # texts, and a normal of more than a turn as the number without a unit that it was
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
+# What a reverse solver may be told beside the contact, by its name.
+_ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
+_PAIRS = tuple(f"{name}_{label}" for name in ("speed", "course", "delta_v", "ees") for label in "ab")
+_TOLD = {
+    "central": ("va_after", "vb_after", "energy_loss"),
+    "planar": (*_ENDS, "closing_speed", "energy_loss"),
+    "speeds": (*_PAIRS, "energy_loss"),
+}
 _SAME = 1e-5  # between cosines and sines of one angle, also in float32
 _READ = 2e-9  # relative, between a number and the text it was given as, which is read by the same rules
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
@@ -54,8 +62,6 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
         question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
         if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
             raise bad_record(f"its model is {shown(question['model'])} and its rule {shown(question['rule'])}")
-        if _GIVEN in inputs:
-            question["given"] = _given(inputs[_GIVEN], question)
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
@@ -64,6 +70,11 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
         if choice is not None:
             options["tolerance"] = _number(choice["tolerance"])
         origin = record["results"]["reconstruction"]
+        if _GIVEN in inputs:
+            # A reverse solver that gave no answer does not hold all that it was told.
+            lost = np.array(listed) > Status.ENERGY_GAIN if origin is not None else np.zeros(len(listed), dtype=bool)
+            lost = lost.reshape(status["shape"] if isinstance(status, Mapping) else ())
+            question["given"] = _given(inputs[_GIVEN], question, "" if origin is None else str(origin["method"]), lost)
         if origin is not None:
             known = tuple(str(name) for name in origin["known"])
             condition, answers = _number(origin["condition"]), _count(origin.get("answers", 1))
@@ -79,27 +90,36 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
     return question, options, origin, status
 
 
-def _given(record: Mapping[str, Any], question: Mapping[str, Any]) -> dict[str, Any]:
-    """How the inputs were given; what is told of the contact must give its numbers."""
+def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, lost: Any) -> dict[str, Any]:
+    """How the inputs were given; what is told of the contact must give its numbers, but in cases that are lost."""
     given = {str(name): text if isinstance(text, str) else lock(_number(text)) for name, text in record.items()}
     if not all(isinstance(text, str) for name, text in given.items() if name != "normal"):
         raise bad_record("how its inputs were given is no dict of texts")
-    numbers = {"restitution": (question["restitution"], ""), question["rule"]: (question["bound"], "")}
+    numbers = {"restitution": (question["restitution"], ""), "normal": (question["normal"], "rad")}
+    if question["law"] is not None:
+        numbers[question["rule"]] = question["bound"], ""
     numbers |= {f"point[{i}]": (part, "m") for i, part in enumerate(question["point"] or ())}
+    stray = [name for name in given if name not in numbers and name not in _TOLD.get(method, ())]
+    if stray:
+        raise bad_record(f"it has no {shown(stray[0])} that could have been given")
     for name, text in given.items():
+        if name not in numbers:
+            continue
         door = Door()
-        if name == "normal":
-            number: Any = question["normal"]
-            unit = "" if isinstance(text, str) else " rad"
-            read: Any = direction(door, text, name) if isinstance(text, str) else from_radians(text)
-        elif name in numbers:
-            number, kind = numbers[name]
-            read, unit = door.number(text, kind, name), ""
+        number, kind = numbers[name]
+        unit = ""
+        if name != "normal":
+            read: Any = door.number(text, kind, name)
+        elif isinstance(text, str):
+            read = direction(door, text, name)
         else:
+            read, unit = from_radians(text), " rad"
+        # A unit of another registry cannot be read here.
+        if door.problems:
             continue
         off = _SAME if name == "normal" else 0.0
-        # A unit of another registry cannot be read here.
-        if not door.problems and not np.allclose(read, number, rtol=_READ, atol=off, equal_nan=True):
+        parts = zip(read, number, strict=True) if name == "normal" else [(read, number)]
+        if not all(np.all(np.isclose(*both, rtol=_READ, atol=off, equal_nan=True) | lost) for both in parts):
             raise bad_record(f"its {name}, {shown(number)}, is not that of {shown(text)}{unit}, as which it was given")
     return given
 

@@ -19,7 +19,7 @@ from .kernels.eccentric import eccentric as eccentric_kernel
 from .kernels.oblique import oblique_central as oblique_kernel
 from .kernels.shortfall import ECCENTRIC, LACKING, LINEAR, Known, least_model, linear_carried
 from .progress import Progress, reporter
-from .provenance import MODELS, ModelChoice
+from .provenance import MODELS, Again, ModelChoice
 from .units import Input, Pair
 from .vehicle import Vehicle
 
@@ -137,6 +137,7 @@ def solve(
         if np.any(lacks):
             _refuse_without(a, b, point, lacks)
     else:
+        choice = _taken_again(choice, asked)
         which = choice._which
     if isinstance(which, np.ndarray):
         impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure, choice)
@@ -173,7 +174,7 @@ def _read(
     tolerance: Any,
 ) -> _Question:
     door = Door()
-    given = tolerance if isinstance(tolerance, ModelChoice) else None
+    given = tolerance.choice if isinstance(tolerance, Again) else None
     limit = amount(door, tolerance, "m/s", "tolerance") if given is None else given.tolerance
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
         _refuse_first(door, limit)
@@ -252,12 +253,12 @@ def _chosen(question: _Question, threads: int) -> tuple[ModelChoice, Any, Any]:
 def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int) -> tuple[Any, Any, Any]:
     """Which model by number, and the errors of the central ones; infinite beside a pivot, which they cannot hold."""
     asked = question.asked
-    bodies = (asked.a, asked.b)
-    if any(body.pivot is not None for body in bodies):
-        which, error = LACKING if question.missing else ECCENTRIC, math.inf
+    pinned = asked.a.pivot is not None, asked.b.pivot is not None
+    if any(pinned) and question.missing:
         if shape is None:
-            return which, error, error
-        return np.full(shape, which, dtype=np.uint8), np.full(shape, error), np.full(shape, error)
+            return LACKING, math.inf, math.inf
+        errors = np.full(shape, math.inf, dtype=_precision(question))
+        return np.full(shape, LACKING, dtype=np.uint8), errors, errors
     known = Known(
         places=(
             asked.point is not None and asked.a.x is not None and asked.a.y is not None,
@@ -265,17 +266,32 @@ def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int)
         ),
         inertias=(asked.a.yaw_inertia is not None, asked.b.yaw_inertia is not None),
         all=not question.missing,
+        pinned=pinned,
     )
     inputs = (asked.restitution, *asked.normal, asked.bound, *_contact_numbers(asked), question.tolerance)
     if shape is None:
         return least_model(*inputs, asked.rule, asked.law, known, codes.EPS)
     # As for batches of one model: single cases never come here.
-    from .kernels.batch import precision
     from .kernels.mixed import least_models
 
-    dtype = precision(value for _, value in numbers_of(asked))
+    dtype = _precision(question)
     eps = float(np.finfo(dtype).eps)
     return least_models((asked.rule, asked.law, known, eps), inputs, value_checks(asked, eps), shape, dtype, threads)
+
+
+def _precision(question: _Question) -> Any:
+    """What a batch is worked out in."""
+    from .kernels.batch import precision
+
+    return precision(value for _, value in numbers_of(question.asked))
+
+
+def _taken_again(choice: ModelChoice, asked: Asked) -> ModelChoice:
+    """The choice for some cases of a batch, or for one of them, with a reason that is about these."""
+    which, errors, missing = choice._which, choice.errors, choice.missing[_ECCENTRIC]
+    question = _Question(asked, choice.tolerance, choice, missing, False)
+    reason = _reason(which, errors[_LINEAR], errors[_OBLIQUE], bool(missing), question)
+    return ModelChoice(reason=reason, errors=errors, missing=choice.missing, tolerance=choice.tolerance, _which=which)
 
 
 def _reason(which: Any, linear: Any, oblique: Any, lacks: Any, question: _Question) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from weakref import WeakKeyDictionary
 
 from .errors import UnitsError
@@ -45,8 +45,6 @@ if TYPE_CHECKING:
 else:
     Value = Input = Pair = Any
 
-# In which explanations, reports, findings and figures can be written.
-UnitSystem: TypeAlias = Literal["si", "metric", "us"]
 _ANY_KIND = "a number with a unit"
 _EXAMPLES = {
     "kg": "1100 (kg), '1100 kg' or '2425 lb'",

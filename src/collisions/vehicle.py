@@ -322,9 +322,17 @@ class Vehicle(_Written):
         door = Door()
         px, py = door.pair(point, "m", "point")
         door.close()
-        broadcast({"point[0]": px, "point[1]": py} | {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")})
+        own = {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")}
+        yaw_rate: Any = self.yaw_rate
+        if broadcast({"point[0]": px, "point[1]": py} | own) is not None:
+            from .kernels.batch import precision
+
+            # Beside float32 arrays a plain number beyond them would be infinite.
+            kind = precision([px, py, *own.values()])
+            px, py = np.asarray(px, dtype=kind), np.asarray(py, dtype=kind)
+            yaw_rate = yaw_rate.astype(kind) if isinstance(yaw_rate, np.ndarray) else yaw_rate
         with np.errstate(all="ignore"):
-            turn_x, turn_y = self._turn_at(self.yaw_rate, px, py, "velocity_at")
+            turn_x, turn_y = self._turn_at(yaw_rate, px, py, "velocity_at")
             return self.vx + turn_x, self.vy + turn_y
 
     def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:

@@ -14,7 +14,8 @@ from ..one_case import need_one_case
 from ..reconstruct import MomentumSolution
 from ..reconstruct.outcome import plain_error
 from ..uncertainty.result import Propagation
-from ..units import UnitSystem, shown
+from ..unit_systems import SI_UNITS, UnitSystem, bad_system
+from ..units import shown
 from . import answers, momentum
 from .changes import changes
 from .eccentric import eccentric
@@ -22,7 +23,7 @@ from .linear import linear
 from .oblique import oblique
 from .origin import chosen, found
 from .page import Page
-from .rounding import SI_UNITS, SYSTEMS, System
+from .rounding import System
 
 Form: TypeAlias = Literal["markdown", "text"]
 _FORMS = get_args(Form)
@@ -89,7 +90,9 @@ def explain(
         = (16.667 - 7.8283) / (22.222 - 0)
         = 0.3977
     """
-    _allowed("units", units, SYSTEMS)
+    problem = bad_system(units)
+    if problem is not None:
+        raise problem
     _allowed("form", form, _FORMS)
     need_one_case(impact, (Impact, MomentumSolution), "explain", refused=plain_error)
     system = System(units)

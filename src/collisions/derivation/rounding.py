@@ -1,64 +1,16 @@
-"""Units and digits: in which unit each kind of quantity is printed, and how many figures of it."""
+"""Digits: how many figures of each number are printed, and the conversions between units that a line needs."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from functools import cache
 from typing import NamedTuple, TypeAlias
 
-from ..units import to_quantity
+from ..unit_systems import decimals_of, scale_of, unit_of
 
 # Labels of units with their powers.
 Powers: TypeAlias = tuple[tuple[str, float], ...]
 
-# The unit inside the package, and how each system prints it.
-SYSTEMS = ("si", "metric", "us")
-SI_UNITS = {
-    "number": "",
-    "mass": "kg",
-    "speed": "m/s",
-    "angle": "rad",
-    "yaw rate": "rad/s",
-    "length": "m",
-    "time": "s",
-    "inertia": "kg*m**2",
-    "impulse": "N*s",
-    "angular momentum": "kg*m**2/s",
-    "energy": "J",
-    "per mass": "1/kg",
-}
-_UNITS = {
-    "si": {**SI_UNITS},
-    "metric": {
-        **SI_UNITS,
-        "speed": "km/h",
-        "angle": "deg",
-        "yaw rate": "deg/s",
-        "impulse": "kN*s",
-        "angular momentum": "kN*m*s",
-        "energy": "kJ",
-    },
-    "us": {
-        **SI_UNITS,
-        "mass": "lb",
-        "speed": "mph",
-        "angle": "deg",
-        "yaw rate": "deg/s",
-        "length": "ft",
-        "inertia": "lb*ft**2",
-        "impulse": "lbf*s",
-        "angular momentum": "lbf*ft*s",
-        "energy": "ft*lbf",
-        "per mass": "1/lb",
-    },
-}
-# Decimals of an answer: 0.1 km/h, 0.1 mph and the next finer power of ten in m/s; 1 degree and the next finer in rad.
-_DECIMALS = {
-    "si": {"speed": 2, "angle": 2, "yaw rate": 2, "length": 2, "number": 2},
-    "metric": {"speed": 1, "angle": 0, "yaw rate": 0, "length": 2, "number": 2},
-    "us": {"speed": 1, "angle": 0, "yaw rate": 0, "length": 2, "number": 2},
-}
 # What is this near to nothing in SI is what rounding left of it, and printed as 0.
 _NOTHING = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
 _FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
@@ -96,7 +48,7 @@ class System:
 
     def label(self, kind: str) -> str:
         """The unit of a kind, as pint writes it."""
-        return _UNITS[self.name][kind]
+        return unit_of(kind, self.name)
 
     def unit(self, kind: str, latex: bool) -> str:
         """The unit behind a number, with the space before it."""
@@ -107,14 +59,14 @@ class System:
 
     def scale(self, kind: str) -> float:
         """What an SI value of this kind is multiplied by."""
-        return _scale(SI_UNITS[kind], self.label(kind))
+        return scale_of(kind, self.name)
 
     def working(self, value: float, kind: str, more: int = 0) -> str:
         """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         shown = value * self.scale(kind)
-        least = _DECIMALS[self.name].get(kind)
+        least = decimals_of(kind, self.name)
         if abs(value) <= _NOTHING.get(kind, 1e-10):
             return "0"
         return self.figures(shown, least, more)
@@ -135,7 +87,7 @@ class System:
 
         Of a number that is 0 it is that of the ``size`` of what has cancelled to it.
         """
-        least = _DECIMALS[self.name].get(kind)
+        least = decimals_of(kind, self.name)
         scale = self.scale(kind)
         decimals = len(self.working(value, kind).partition(".")[2])
         nothing = abs(value) <= _NOTHING.get(kind, 1e-10)
@@ -153,7 +105,7 @@ class System:
             spread = deviation * scale
             places = 1 - _magnitude(spread, 2)
             return f"{_plain(shown, places)} ± {_plain(spread, places)}{unit}"
-        decimals = _DECIMALS[self.name].get(kind)
+        decimals = decimals_of(kind, self.name)
         places = _FIGURES - 1 - _magnitude(shown, _FIGURES) if decimals is None else decimals
         return _plain(shown, places) + unit
 
@@ -164,11 +116,6 @@ class System:
         size = 1.0 / factor if divides else factor
         number = f"{size:.{6 + more}g}" if size < 999999.5 else f"{size:.{more}f}"
         return Conversion(divides, number, _named(one), _named(other))
-
-
-@cache
-def _scale(inside: str, label: str) -> float:
-    return 1.0 if inside == label else float(to_quantity(1.0, inside).m_as(label))
 
 
 def _magnitude(value: float, figures: int) -> int:

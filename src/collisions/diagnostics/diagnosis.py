@@ -17,7 +17,8 @@ from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..reconstruct import MomentumSolution
 from ..travel.reading import one_value, read_drag
-from ..units import Input, UnitSystem
+from ..unit_systems import UnitSystem
+from ..units import Input
 from . import balance, evidence, inputs, physics, robustness
 from .case import Balance, Case, Examined, Told, named
 from .finding import Finding, Findings, read_limits

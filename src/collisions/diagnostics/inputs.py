@@ -16,7 +16,7 @@ _RADII, _FURTHEST = 3.0, 10.0
 
 def suspect_inputs(case: Case) -> Iterator[Finding]:
     """Masses, speeds, yaw rates, inertias, levers, headings and a normal that no road vehicle has."""
-    normal = case.impact._asked.bare_normal
+    normal, origin = case.impact._asked.bare_normal, case.impact.reconstruction
     if normal is not None:
         turns = abs(normal) / math.tau
         sentence = f"the normal was given as {normal:.6g} rad, {turns:.3g} turns; were degrees meant?"
@@ -29,8 +29,12 @@ def suspect_inputs(case: Case) -> Iterator[Finding]:
             sentence = f"{who} has a mass of {mass:.6g} kg; were grams meant, or an immovable body (inf)?"
             yield from case.above("suspect_heavy", mass, sentence, label)
         sentence = f"{who} goes at {vehicle.speed:.6g} m/s before; were km/h or mph meant?"
+        if origin is not None and not {f"v{label}", f"speed_{label}"} & set(origin.known):
+            sentence = f"{who} was found to go at {vehicle.speed:.6g} m/s before; check what was given"
         yield from case.above("suspect_speed", vehicle.speed, sentence, label)
         sentence = f"{who} turns at {vehicle.yaw_rate:.6g} rad/s before; were degrees/s meant?"
+        if origin is not None and origin.method == "planar":
+            sentence = f"{who} was found to turn at {vehicle.yaw_rate:.6g} rad/s before; check what was given"
         yield from case.above("suspect_yaw_rate", abs(vehicle.yaw_rate), sentence, label)
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)

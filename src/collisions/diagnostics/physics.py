@@ -260,13 +260,14 @@ def point_outside(case: Case) -> Iterator[Finding]:
 
 
 def tyre_impulse(case: Case) -> Iterator[Finding]:
-    """Tyres that could do a good part of what the impact does."""
+    """Tyres that could do a good part of what the impact does; of a body that turns about a pivot as if at its centre."""
     found = case.left_out
     for (label, side), left in zip(case.sides, (found.a, found.b), strict=True):
+        how = "up to" if side.before.pivot is None else "about"
         yield from case.above(
             "tyre_impulse",
             left.tyre_share_bound,
-            f"tyres of {named(label, side)} that slide for {found.duration:.3g} s with a drag of {found.drag:.2g} give up to "
+            f"tyres of {named(label, side)} that slide for {found.duration:.3g} s with a drag of {found.drag:.2g} give {how} "
             f"{case.words.speed(left.tyre_delta_v_bound)}, {left.tyre_share_bound:.0%} of its delta-V of "
             f"{case.words.speed(side.delta_v)}",
             label,

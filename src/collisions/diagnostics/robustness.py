@@ -61,8 +61,9 @@ def law(case: Case) -> Iterator[Finding]:
     impact = case.impact
     if impact.law is None or impact.model == "linear_central":
         return
-    other = next(name for name in codes.LAWS if name != impact.law)
-    yield from _told(case, "law", [(f"under the law {other!r} instead of {impact.law!r}", _again(impact, law=other))])
+    others = [name for name in codes.LAWS if name != impact.law]
+    answers = [(f"under the law {other!r} instead of {impact.law!r}", _again(impact, law=other)) for other in others]
+    yield from _told(case, "law", answers)
 
 
 def normal(case: Case) -> Iterator[Finding]:
@@ -74,7 +75,7 @@ def normal(case: Case) -> Iterator[Finding]:
     turned = []
     for angle in (-_TURN, _TURN):
         c, s = from_degrees(angle)
-        how = f"with the normal turned by {angle:+.0f} degrees"
+        how = f"with the normal turned by {'+' if angle > 0.0 else ''}{case.words.angle(math.radians(angle))}"
         turned.append((how, _again(impact, normal=(c * nx - s * ny, s * nx + c * ny))))
     yield from _told(case, "normal", turned)
 
@@ -109,12 +110,13 @@ def _told(case: Case, code: str, answers: list[tuple[str, Impact]]) -> Iterator[
     if moves:
         how, label, old, new = max(moves, key=lambda move: _yaw(*move[2:]))
         was, now = (side.delta_yaw_rate for side in (old, new))
-        other_way = ", the other way" if was * now < 0.0 else ""
+        both_turn = min(abs(was), abs(now)) > _SEEN
+        other_way = ", the other way" if both_turn and was * now < 0.0 else ""
         yield from case.above(
             f"{code}_yaw",
             _yaw(old, new),
             f"{how} the impact turns {named(label, old)} by {case.words.yaw_rate(now)} instead of "
-            f"{case.words.number(was, 'yaw_rate')}{other_way}",
+            f"{case.words.number(was, 'yaw rate')}{other_way}",
             label,
         )
 

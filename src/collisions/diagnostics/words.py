@@ -5,51 +5,26 @@ from __future__ import annotations
 from typing import Any
 
 from ..door import Door
-from ..errors import InputError
-from ..units import shown
+from ..unit_systems import bad_system, decimals_of, scale_of, unit_of
 
-SYSTEMS = ("si", "metric", "us")
-# By system: of a kind, what an SI number is divided by, the decimals and the unit. All but the degree are exact by definition.
-_TABLE: dict[str, dict[str, tuple[float, int, str]]] = {
-    "si": {
-        "speed": (1.0, 2, "m/s"),
-        "length": (1.0, 2, "m"),
-        "angle": (1.0, 3, "rad"),
-        "yaw_rate": (1.0, 2, "rad/s"),
-        "energy": (1.0, -1, "J"),
-    },
-    "metric": {
-        "speed": (1.0 / 3.6, 1, "km/h"),
-        "length": (1.0, 2, "m"),
-        "angle": (0.017453292519943295, 1, "degrees"),
-        "yaw_rate": (0.017453292519943295, 0, "degrees/s"),
-        "energy": (1000.0, -1, "kJ"),
-    },
-    "us": {
-        "speed": (0.44704, 1, "mph"),
-        "length": (0.3048, 2, "ft"),
-        "angle": (0.017453292519943295, 1, "degrees"),
-        "yaw_rate": (0.017453292519943295, 0, "degrees/s"),
-        "energy": (0.3048 * 0.45359237 * 9.80665, -1, "ft lbf"),
-    },
-}
+_FIGURES = 4  # of what has no decimals of its own: an energy
 
 
 class Words:
     """Numbers as sentences in one system of units have them."""
 
     def __init__(self, system: str) -> None:
-        self._of = _TABLE[system]
+        self._system = system
 
-    def number(self, value: float, kind: str) -> str:
-        """The number alone; an energy to four figures."""
-        size, decimals, _ = self._of[kind]
-        told = value / size
-        text = f"{told:.{decimals}f}" if decimals >= 0 else f"{float(f'{told:.4g}'):.12g}"
+    def number(self, value: float, kind: str, more: int = 0) -> str:
+        """The number alone, with so many decimals more than an answer has; an energy to four figures."""
+        told = value * scale_of(kind, self._system)
+        decimals = decimals_of(kind, self._system)
+        text = f"{float(f'{told:.{_FIGURES}g}'):.12g}" if decimals is None else f"{told:.{decimals + more}f}"
         return text.lstrip("-") if float(text) == 0.0 else text
 
-    def _told(self, value: float, kind: str) -> str:
-        return f"{self.number(value, kind)} {self._of[kind][2]}"
+    def _told(self, value: float, kind: str, more: int = 0) -> str:
+        return f"{self.number(value, kind, more)} {unit_of(kind, self._system).replace('deg', 'degrees').replace('*', ' ')}"
 
     def speed(self, value: float) -> str:
         """A speed [m/s]."""
@@ -60,12 +35,12 @@ class Words:
         return self._told(value, "length")
 
     def angle(self, value: float) -> str:
-        """An angle [rad]."""
-        return self._told(value, "angle")
+        """An angle [rad], to one decimal more than an answer has, because it stands beside a limit."""
+        return self._told(value, "angle", more=1)
 
     def yaw_rate(self, value: float) -> str:
         """A yaw rate [rad/s]."""
-        return self._told(value, "yaw_rate")
+        return self._told(value, "yaw rate")
 
     def energy(self, value: float) -> str:
         """An energy [J]."""
@@ -74,14 +49,8 @@ class Words:
 
 def read_words(door: Door, units: Any) -> Words:
     """The words of a system of units, which must be one of the known ones."""
-    if not isinstance(units, str) or units not in SYSTEMS:
-        door.refuse(
-            InputError(
-                f"units must be 'si', 'metric' or 'us', got {shown(units)}; the SI units of the numbers are known, only those "
-                f"of the sentences are chosen",
-                code="bad_option",
-                argument="units",
-            )
-        )
+    problem = bad_system(units)
+    if problem is not None:
+        door.refuse(problem)
         return Words("metric")
     return Words(units)

@@ -108,7 +108,12 @@ def _solved(
     lanes = _lanes(chain.from_iterable(model.inputs for model in models), checks, shape)
     numbers = flat(which, shape)
     works = [_work(model, size, kinds, dtype) for model in models]
-    length = BLOCK if size <= BLOCK else block_length(size, threads, max(work.scratch for work in works))
+    length = BLOCK
+    if size > BLOCK:
+        # A thread keeps the scratch of every model, and has at a time the inputs and the answers of a block of one.
+        given = sum(not isinstance(lane, float) for lane in lanes.values()) * dtype.itemsize
+        answered = sum(kind.itemsize for kind in kinds if kind is not None)
+        length = block_length(size, threads, sum(work.scratch for work in works) + given + answered)
     stretch = length * len(models)
     mine = threading.local()
 

@@ -22,26 +22,30 @@ LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
 class Known(NamedTuple):
-    """Whether the places of both bodies beside the contact are known, their yaw inertias, and all that is needed."""
+    """Whether the places of both bodies beside the contact are known, their yaw inertias, all that is needed, and any pivot."""
 
     places: tuple[bool, bool]
     inertias: tuple[bool, bool]
     all: bool
+    pinned: tuple[bool, bool]
 
 
 def least_model(*given: Any) -> tuple[Any, Any, Any]:
     """Which model is the least within the tolerance, by number, and what the linear and the oblique one err by.
 
-    Given are six numbers of the contact, nine of each free body (those that are not known filled in so that they make no
-    torque), the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless
-    it is known that the bodies do not approach.
+    Given are six numbers of the contact, nine of each body (those that are not known filled in so that they make no torque),
+    the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless it is
+    known that the bodies do not approach; beside a pivot nothing may be lacking.
     """
     restitution, nx, ny, tangential, px, py = given[:6]
     bodies, tolerance = (given[6:15], given[15:24]), given[24]
     rule, law, known, eps = given[25:]
     linear, oblique, torques, impulse = shortfalls(
-        restitution, nx, ny, tangential, px, py, *bodies, rule, law, False, False, eps
+        restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned[0], known.pinned[1], eps
     )
+    if any(known.pinned):
+        # The central models cannot hold a pivot.
+        linear, oblique = (select(error == error, inf, nan) for error in (linear, oblique))
     lacking: Any = False
     approach: Any = True
     if not known.all:

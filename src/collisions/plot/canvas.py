@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, MissingInputError
 from ..impact import Impact
 from ..one_case import need_one_case
-from ..units import shown, to_quantity
+from ..unit_systems import KIND_OF, SI_UNITS, bad_system, decimals_of, scale_of, unit_of
+from ..units import shown
 from ..vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -21,62 +22,28 @@ COLOURS = ("#1f5fa8", "#b3541e")
 FORCE = "#a01040"
 THIN = "\u2009"  # between thousands
 _WIDTH = 26  # letters of a name on one line
-
-_SYSTEMS: dict[str, dict[str, str]] = {
-    "si": {},
-    "metric": {
-        "m/s": "km/h",
-        "rad": "deg",
-        "rad/s": "deg/s",
-        "s": "ms",
-        "N": "kN",
-        "N*s": "kN*s",
-        "kg*m/s": "kN*s",
-        "J": "kJ",
-    },
-    "us": {
-        "m/s": "mph",
-        "m/s**2": "ft/s**2",
-        "m": "ft",
-        "rad": "deg",
-        "rad/s": "deg/s",
-        "s": "ms",
-        "kg": "lb",
-        "kg*m**2": "lbf*ft*s**2",
-        "N": "lbf",
-        "N/m": "lbf/in",
-        "N*s": "lbf*s",
-        "kg*m/s": "lbf*s",
-        "J": "ft*lbf",
-    },
-}
-
-# Nobody knows a speed or an angle better than this.
-_DECIMALS = {"m/s": 2, "km/h": 1, "mph": 1, "°": 0, "°/s": 0}
+_MOST_DECIMALS = 6
 
 
 class Units:
-    """The units a picture is labelled in."""
+    """The units a picture is labelled in, by kind of quantity or by SI unit; units of no known kind stay as they are."""
 
     def __init__(self, system: Any) -> None:
-        if not isinstance(system, str) or system not in _SYSTEMS:
-            raise InputError(
-                f"units must be 'si', 'metric' or 'us', got {shown(system)}; the SI units of the numbers are known, only those "
-                f"of the labels are chosen",
-                code="bad_option",
-                argument="units",
-            )
-        self._names = _SYSTEMS[system]
+        problem = bad_system(system)
+        if problem is not None:
+            raise problem
+        self._system: str = system
 
     def factor(self, unit: str) -> float:
         """What a number in this SI unit is multiplied by."""
-        wanted = self._names.get(unit, unit)
-        return 1.0 if wanted == unit else float(to_quantity(1.0, unit).m_as(wanted))
+        kind = _kind(unit)
+        return 1.0 if kind is None else scale_of(kind, self._system)
 
     def name(self, unit: str) -> str:
         """The unit a number in this SI unit is shown in, as it is printed."""
-        printed = self._names.get(unit, unit).replace("**2", "²").replace("*", " ")
-        return printed.replace("deg", "°")
+        kind = _kind(unit)
+        printed = unit if kind is None else unit_of(kind, self._system)
+        return printed.replace("**2", "²").replace("*", " ").replace("deg", "°")
 
     def label(self, what: str, unit: str) -> str:
         """What an axis shows, and its unit."""
@@ -84,15 +51,17 @@ class Units:
 
     def text(self, value: float, unit: str) -> str:
         """A number in this SI unit with the unit it is shown in."""
-        return with_unit(value * self.factor(unit), self.name(unit))
+        kind, name = _kind(unit), self.name(unit)
+        decimals = None if kind is None else decimals_of(kind, self._system)
+        told = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
+        return f"{told}{'' if name[:1] in ('°', '') else ' '}{name}"
 
 
-def with_unit(value: float, name: str) -> str:
-    """A number and the name of its unit; the sign of degrees stands close."""
-    return f"{number(value, _DECIMALS.get(name, 6))}{'' if name[:1] in ('°', '') else ' '}{name}"
+def _kind(unit: str) -> str | None:
+    return unit if unit in SI_UNITS else KIND_OF.get(unit)
 
 
-def number(value: float, decimals: int = 6) -> str:
+def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     """Four digits, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
     size = abs(value)
     if value != value or math.isinf(value):

@@ -9,7 +9,8 @@ import numpy as np
 from ..errors import InputError
 from ..uncertainty.output import Output
 from ..uncertainty.result import Propagation
-from ..units import UnitSystem, shown
+from ..unit_systems import UnitSystem
+from ..units import shown
 from .canvas import GREY, INK, Units, begin, in_lines, legend_below, tidy
 
 if TYPE_CHECKING:

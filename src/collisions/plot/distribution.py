@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..uncertainty.bounds import Bounds
 from ..uncertainty.output import COVERAGE, Output
-from ..units import UnitSystem
-from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, legend_below, number, tidy, with_unit
+from ..unit_systems import UnitSystem
+from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, legend_below, number, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,7 +78,7 @@ def distribution(
     factor = labels.factor(unit) if unit else 1.0
 
     def told(value: Any) -> str:
-        return with_unit(value * factor, labels.name(unit) if unit else "") if unit else number(value)
+        return labels.text(value, unit) if unit else number(value)
 
     axes.axvspan(low * factor, high * factor, color=LIGHT, alpha=0.5, lw=0, zorder=0)
     axes.stairs(

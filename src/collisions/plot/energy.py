@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError, MissingInputError
 from ..impact import Impact
-from ..units import UnitSystem
+from ..unit_systems import UnitSystem
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
 

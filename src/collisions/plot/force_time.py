@@ -11,7 +11,8 @@ from ..door import Door
 from ..errors import InputError
 from ..impact import Impact
 from ..travel.reading import one_value, warn_if_above
-from ..units import Input, UnitSystem, is_quantity, shown
+from ..unit_systems import UnitSystem
+from ..units import Input, is_quantity, shown
 from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     rise = np.sin(0.5 * math.pi * share)
     # The height for which the polygon drawn, not only the sine, has the area A1; A2 then has its own.
     peak = compression / (turn * float(np.mean(0.5 * (rise[1:] + rise[:-1]))))
-    in_time, in_force = labels.factor("s"), labels.factor("N")
+    in_time, in_force = labels.factor("duration"), labels.factor("N")
     for name, what, impulse, start, end, heights, hatch, shade in (
         ("A1", "compression", compression, 0.0, turn, rise, "///", "#d9a7b5"),
         ("A2", "restitution", restitution, turn, time, rise[::-1], "...", "#f6e9ed"),
@@ -119,7 +120,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     )
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
-    axes.set_xlabel(labels.label("time", "s"))
+    axes.set_xlabel(labels.label("time", "duration"))
     axes.set_ylabel(labels.label("normal force", "N"))
     axes.set_title(f"e = A2/A1 = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed", fontsize=10.5)
     tidy(axes)

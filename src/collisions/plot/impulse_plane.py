@@ -10,7 +10,7 @@ import numpy as np
 from ..impact import Impact
 from ..kernels import codes
 from ..quiet import quietly
-from ..units import UnitSystem
+from ..unit_systems import UnitSystem
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..impact import Impact
 from ..side import Side
-from ..units import UnitSystem
+from ..unit_systems import UnitSystem
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
 from .drawing import Drawing, Place
 from .lanes import ALONG_ONE_LINE, beside, covers, cross

@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..side import Side
-from ..units import UnitSystem, shown
+from ..unit_systems import UnitSystem
+from ..units import shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, THIN, Units, answered, begin, tidy, who
 from .drawing import Drawing, Place

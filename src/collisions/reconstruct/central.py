@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
+from ..arguments import OnFailure
 from ..door import POSITIVE, UNIT_INTERVAL, Door
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..fields import show
@@ -36,7 +37,7 @@ def central(
     vb_after: Input | None = None,
     restitution: Input | None = None,
     energy_loss: Input | None = None,
-    on_failure: str | None = None,
+    on_failure: OnFailure | None = None,
 ) -> Impact:
     """In-line impact from exactly three of four velocities, restitution and energy loss.
 

@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..impact import Impact
 from ..uncertainty import Propagation
 from ..uncertainty.sampled import Sampled
-from ..units import UnitSystem
+from ..unit_systems import UnitSystem
 from .blocks import Block, Paragraph, Picture, plain, visible
 from .known import varies
 
@@ -56,7 +56,7 @@ def figures(
         if isinstance(output, Sampled):
             caption = f"{name}: the cases drawn, given the stated inputs."
             yield _drawn(f"distribution-{number}", caption, partial(plot.distribution, output, units=units))
-        caption = f"{name}: the share of its variance that each input brings."
+        caption = f"{name}: the share of its variance that each input brings, by itself and in all."
         yield _drawn(f"contributions-{number}", caption, partial(plot.contributions, output, units=units))
 
 

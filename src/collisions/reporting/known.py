@@ -6,14 +6,13 @@ import math
 from typing import Any
 
 from ..derivation.answers import NAMES, kind_of
-from ..derivation.rounding import SI_UNITS
 from ..errors import InputError
 from ..impact import Impact
 from ..uncertainty import Output, Propagation
+from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import shown
 from .blocks import Sheet, plain
 
-_KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
 # A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
 _ROUNDING, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
 _ANSWERS = {**{name.replace(".", "_"): name for name in NAMES}, **{name: name for name in NAMES}}
@@ -54,6 +53,12 @@ class Known:
         for output in uncertainty.outputs.values():
             rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output, uncertainty.method)]
         sheet.table(("of", "quantity", "value"), rows)
+        if any(what.startswith("share of the variance") for _, what, _ in rows):
+            sheet.say(
+                "By itself an input brings its share without what it does together with others; in all, with that. "
+                "Where the shares by themselves fall short of 100 percent by more than their errors, the rest comes of inputs "
+                "together."
+            )
         stated = [(plain(name), "stated as", plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
         sheet.table(("of", "quantity", "value"), [("Inputs as stated", name, text) for name, _, text in stated])
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
@@ -66,7 +71,7 @@ class Known:
 
     def _figures(self, sheet: Sheet, output: Output, method: str) -> list[tuple[str, str]]:
         name = next((name for name, own in self.outputs.items() if own is output), None)
-        kind = kind_of(name) if name is not None else None if output.unit is None else _KINDS.get(output.unit)
+        kind = kind_of(name) if name is not None else None if output.unit is None else KIND_OF.get(output.unit)
         if kind is None:
             return [("figures", plain(output.row()[1])), *self._shares(output)]
         mean, std, (low, high) = _both(output.mean), _both(output.std), output.interval()
@@ -95,8 +100,16 @@ class Known:
             return []
         if not varies(output):
             return []
-        errors = output.contribution_standard_errors
-        return [(f"share of the variance by {plain(name)}", _percent(part, errors[name][0])) for name, part in shares.items()]
+        whole, errors = output.total_contributions, output.contribution_standard_errors
+        found = [
+            (
+                f"share of the variance by {plain(name)}",
+                f"{_percent(_within(part), errors[name][0])} by itself, "
+                f"{_percent(_within(whole[name]), errors[name][1])} in all",
+            )
+            for name, part in shares.items()
+        ]
+        return [*found, ("sum of the shares by themselves", _percent(sum(map(_within, shares.values()))))]
 
     def _stray(self, sheet: Sheet, name: str, output: Output) -> None:
         """The answer must lie where the propagation says it does, or one of the two is of something else."""
@@ -119,12 +132,17 @@ def varies(output: Output, kind: str = "") -> bool:
     return bool(max(_both(output.std)) > max(_ROUNDING * max(map(abs, _both(output.mean))), _NOTHING.get(kind, _ROUNDING)))
 
 
-def _percent(share: float, error: float) -> str:
-    """A share of the variance, which sampling may put outside of 0 to 1, with its standard error where that shows."""
+def _percent(share: float, error: float = math.nan) -> str:
+    """A share of the variance, with its standard error where that shows."""
     if math.isnan(share):
         return "not known"
-    told = f"{100.0 * min(max(share, 0.0), 1.0):.0f}"
+    told = f"{100.0 * share:.0f}"
     return f"{told} ± {100.0 * error:.0f} percent" if error >= 0.005 else f"{told} percent"
+
+
+def _within(share: float) -> float:
+    """A share, which sampling may put outside of 0 to 1."""
+    return share if math.isnan(share) else min(max(share, 0.0), 1.0)
 
 
 def _both(figure: Any) -> tuple[float, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..derivation.explaining import explain
 from ..derivation.page import Page
-from ..derivation.rounding import SYSTEMS, System
+from ..derivation.rounding import System
 from ..diagnostics import diagnose
 from ..door import UNIT_INTERVAL, Door
 from ..errors import InputError, ShapeError
@@ -21,7 +21,8 @@ from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
 from ..uncertainty import Propagation
-from ..units import Input, UnitSystem, shown
+from ..unit_systems import UnitSystem, bad_system
+from ..units import Input, shown
 from . import sections
 from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
 from .figures import figures as pictures
@@ -126,7 +127,9 @@ def report(
     duration, drag, limits, share_a = (options[name] for name in ("duration", "drag", "limits", "share_a"))
     door = Door()
     _option(door, "form", form, _FORMS)
-    _option(door, "units", units, SYSTEMS)
+    problem = bad_system(units)
+    if problem is not None:
+        door.refuse(problem)
     heading = "" if title is None else _text(door, "title", title)
     words = [_text(door, "notes", note) for note in ([notes] if isinstance(notes, str) else _listed(door, notes))]
     for name, value in (("figures", figures), ("derivation", derivation)):

@@ -27,6 +27,8 @@ _NAMES = (*(name for name in NAMES if name not in ("name", "pivot")), "pivot[0]"
 _SAME = 2e-9
 # Results that another machine gives may differ by its rounding, relative or in SI; nobody would read more.
 _OFF = 1e-6
+# Words about the numbers, which another version may choose otherwise.
+_SENTENCES = ("choice.reason",)
 
 
 def record(impact: Impact, version: str, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
@@ -149,7 +151,7 @@ def _whole(text: Any) -> Mapping[str, Any]:
 
 
 def _differences(told: Any, found: Any, name: str = "") -> Iterator[str]:
-    """Results of the record that its inputs do not give, by more than another machine may round."""
+    """Results of the record that its inputs do not give, by more than another machine may round; all must be there."""
     scale = max((abs(number) for number in _floats(found)), default=0.0)
     yield from _apart(told, found, name, max(_OFF, 1e-12 * scale))
 
@@ -166,8 +168,14 @@ def _floats(found: Any) -> Iterator[float]:
 
 def _apart(told: Any, found: Any, name: str, off: float) -> Iterator[str]:
     if isinstance(told, Mapping) and isinstance(found, Mapping):
-        for key in (key for key in found if key in told):
-            yield from _apart(told[key], found[key], f"{name}.{key}" if name else str(key), off)
+        for key in dict.fromkeys([*found, *told]):
+            path = f"{name}.{key}" if name else str(key)
+            if key not in told:
+                yield f"{path}, which is missing"
+            elif key not in found:
+                yield f"{path}, which no impact has"
+            elif path not in _SENTENCES:
+                yield from _apart(told[key], found[key], path, off)
     elif isinstance(told, list) and isinstance(found, list) and len(told) == len(found):
         for i, (one, other) in enumerate(zip(told, found, strict=True)):
             yield from _apart(one, other, f"{name}[{i}]", off)

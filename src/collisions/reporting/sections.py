@@ -9,7 +9,6 @@ from typing import Any
 
 from .. import reference
 from ..derivation import answers, origin
-from ..derivation.rounding import SI_UNITS
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import Findings, read_limits
 from ..door import Door
@@ -17,6 +16,7 @@ from ..errors import Status
 from ..idealisation import LeftOut, LeftOutSide
 from ..impact import Impact
 from ..plot.canvas import who
+from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import Input
 from ..vehicle import Vehicle
 from .blocks import Items, Sheet, Table, plain
@@ -79,7 +79,6 @@ _REGIMES = {
     "sticking": "slip ends during the contact, with less than the friction given",
     "given": "by the ratio that was given, not by a law of friction",
 }
-_KINDS = {unit: kind for kind, unit in SI_UNITS.items()}
 _RANGE = (
     reference.RESTITUTION_FIT,
     reference.RESTITUTION_LOW_SPEED,
@@ -110,11 +109,18 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         vehicle = None if of == "contact" else vehicles[of[0]]
         texts = (impact._asked.given if vehicle is None else vehicle._given) or {}
         names, kind = (_CONTACT if vehicle is None else _FIELDS).get(quantity, ((), ""))
-        text = plain(", ".join(texts[name] for name in names if isinstance(texts.get(name), str)))
-        if text:
+        written = [texts[name] for name in names if isinstance(texts.get(name), str)]
+        if written and len(written) == len(names):
+            text = plain(", ".join(written))
             value = value if text == value else f"{value}, given as {text}"
-        elif names and not texts.keys() & {*names, *(("speed", "course") if kind == "speed" else ())}:
-            value = ", ".join(sheet.as_given(float(part), kind, None) for part in _numbers(impact, vehicle, names[0]))
+        elif kind == "speed" and vehicle is not None and vehicle.pivot is not None:
+            value += ", worked out from yaw rate and pivot"
+        elif kind == "speed" and texts.keys() & {"speed", "course"}:
+            value += ", worked out from speed and course"
+        elif names and not (len(names) == 1 and names[0] in texts):
+            parts = _numbers(impact, vehicle, names[0])
+            each = [sheet.as_given(float(part), kind, texts.get(name)) for name, part in zip(names, parts, strict=True)]
+            value = "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
         rows.append((of, quantity, value))
         if vehicle is not None and quantity == "mass":
             rows += [(of, what, told) for what, told in _speed(sheet, vehicle, texts)]
@@ -125,9 +131,8 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
             rows.append((of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)))
     sheet.table(_HEAD, rows)
     sheet.say(
-        "A value that says how it was given was converted from that text. Any other was given so, or without a unit, which is "
-        "SI, or as one of many cases, or it is the answer to another question, or 0 because nothing was given. The record has "
-        "all digits."
+        "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
+        "only its direction; it stands here in the units of this page. The record has all digits."
     )
     origin.chosen(sheet, impact)
     if impact.reconstruction is not None:
@@ -148,10 +153,14 @@ def _numbers(impact: Impact, vehicle: Vehicle | None, name: str) -> tuple[Any, .
 def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """Speed and course, where the velocity was given by them."""
     for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
-        if name in texts:
-            text = plain(texts[name])
-            told = text if math.isnan(float(value)) else sheet.number(float(value), kind)
-            yield name, told if told == text else f"{told}, given as {text}"
+        text = texts.get(name)
+        if math.isnan(float(value)):
+            # Somebody at rest has no course but the one that was given.
+            if text is not None:
+                yield name, plain(text)
+        elif texts.keys() & {"speed", "course"}:
+            told = sheet.number(float(value), kind)
+            yield name, told if text is None or told == plain(text) else f"{told}, given as {plain(text)}"
 
 
 def assumptions(
@@ -162,12 +171,16 @@ def assumptions(
     lines = [("Model:", _MODELS[impact.model])]
     if impact.model != "linear_central":
         lines.append(("Law:", f"{impact.law}: {_LAWS[str(impact.law)]}."))
-        lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}."))
+        back = impact.regime == "sticking" and sheet.system.working(abs(impact.slip_after), "speed") != "0"
+        ends = ", and comes back" if back else ""
+        lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))
+    vehicles = (impact.a.before, impact.b.before)
+    pivots = " but the pivot's" if any(vehicle.pivot is not None for vehicle in vehicles) else ""
     lines += [
         (
             "Impulse:",
             "it acts at once, along one normal, which points from A into B. Places, masses and inertias stay as they are "
-            "while it acts, and tyres and all other forces are left out.",
+            f"while it acts, and tyres and all other forces{pivots} are left out.",
         ),
         ("Axes:", "x and y in the road plane; angles and yaw positive counter-clockwise, seen from above."),
     ]
@@ -179,26 +192,28 @@ def assumptions(
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
     sheet.blocks.append(Items(tuple(lines)))
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
-    sheet.say(
-        f"What is left out, if the contact lasts {time} and the tyres have a drag of {drag} (estimates, except the bound):"
-    )
+    bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
+    but = ", except the bound" if bounded else ""
+    sheet.say(f"What is left out, if the contact lasts {time} and the tyres have a drag of {drag} (estimates{but}):")
     rows = [
         ("contact", "mutual crush, at its most", sheet.system.answer(float(found.mutual_crush), "length")),
         ("contact", "slide along the tangent", sheet.system.answer(float(found.contact_slide), "length")),
     ]
-    for index, vehicle, side in ((0, impact.a.before, found.a), (1, impact.b.before, found.b)):
+    for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
-            rows += [(plain(who(index, vehicle)), what, told) for what, told in _left_out(sheet, side, impact.model)]
+            rows += [(plain(who(index, vehicle)), what, told) for what, told in _left_out(sheet, side, impact.model, vehicle)]
     sheet.table(_HEAD, rows)
 
 
-def _left_out(sheet: Sheet, side: LeftOutSide, model: str) -> Iterator[tuple[str, str]]:
+def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
+    # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
+    own = "bound" if vehicle.pivot is None else "about"
     way = (sheet.system.answer(float(part), "length") for part in (side.displacement_x, side.displacement_y))
     yield "way during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
     for what, change, share in (
-        ("delta-V by its own tyres, bound", side.tyre_delta_v_bound, side.tyre_share_bound),
+        (f"delta-V by its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound),
         ("delta-V moved by the tyres of both", side.tyre_delta_v, side.tyre_share),
         ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share),
     ):
@@ -272,4 +287,4 @@ def _rows(aside: Sheet) -> list[tuple[str, str, str]]:
 
 def _amount(sheet: Sheet, value: float, unit: str) -> str:
     """A number in an SI unit, in the units of the page."""
-    return sheet.number(value, _KINDS[unit])
+    return sheet.number(value, KIND_OF[unit])

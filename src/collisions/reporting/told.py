@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..derivation.rounding import SI_UNITS
 from ..directions import course
 from ..door import Door
 from ..impact import Impact
+from ..unit_systems import SI_UNITS
 from .blocks import Sheet
 
 _MOTION = {

@@ -1,0 +1,65 @@
+"""One table of units and one check: explanations, reports, findings and figures write a quantity alike."""
+
+import pint
+import pytest
+
+import collisions as col
+from collisions import plot
+from collisions.derivation import explain
+from collisions.derivation.rounding import System
+from collisions.diagnostics import diagnose
+from collisions.diagnostics.words import Words
+from collisions.plot.canvas import Units
+from collisions.reporting import report
+from collisions.unit_systems import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of
+
+UREG = pint.get_application_registry()
+IMPACT = col.linear_central(col.Vehicle(mass=1100, vx=20.0), col.Vehicle(mass=950), 0.3)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("kind", SI_UNITS)
+def test_every_unit_is_of_its_kind(kind, system):
+    """By pint, to the last digits of a factor; no conversion moves the zero."""
+    label = unit_of(kind, system)
+    assert UREG.Quantity(1.0, SI_UNITS[kind]).m_as(label) == pytest.approx(scale_of(kind, system), rel=1e-15)
+    assert UREG.Quantity(0.0, SI_UNITS[kind]).m_as(label) == 0.0
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_mass_length_and_inertia_go_together(system):
+    """1/m + r**2/I adds up as it is printed: I over m r**2 is 1 in the units of a system, without a factor."""
+    inertia, mass, length = (UREG.Quantity(1.0, unit_of(kind, system)) for kind in ("inertia", "mass", "length"))
+    # A power of a length is rounded a few times.
+    assert (inertia / mass / length**2).m_as("") == pytest.approx(1.0, rel=1e-14)
+
+
+def test_a_unit_is_that_of_one_kind():
+    """A number of which only the unit is known has one kind; seconds are those of any time but a contact's."""
+    assert len(KIND_OF) == len(SI_UNITS) - 1
+    assert KIND_OF["s"] == "time"
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_a_quantity_is_written_alike(system):
+    """A speed, a PDOF, a length and a yaw rate, by the three that write; each has its own signs for degrees and powers."""
+    for kind, value in (("speed", 12.34567), ("angle", 0.54321), ("length", 3.45678), ("yaw rate", 2.34567)):
+        page = System(system).answer(value, kind)
+        sentence = f"{Words(system).number(value, kind)} {unit_of(kind, system)}"
+        label = Units(system).text(value, SI_UNITS[kind])
+        assert page == sentence
+        assert page.split()[0] == label.partition("°")[0].split()[0]
+        # With four figures at most, which these numbers do not exceed.
+        assert Units(system).name(SI_UNITS[kind]) == page.split()[1].replace("deg", "°")
+
+
+@pytest.mark.parametrize("units", ["SI", "imperial", "", None, 3, ["us"]])
+def test_units_are_checked_in_one_way(units):
+    """The four that take ``units=`` refuse what is no system with one text and one code."""
+    said = set()
+    for ask in (explain, report, diagnose, plot.energy):
+        with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us', got") as caught:
+            ask(IMPACT, units=units)
+        assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "units")
+        said.add(str(caught.value))
+    assert len(said) == 1
