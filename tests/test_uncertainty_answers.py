@@ -216,8 +216,13 @@ def test_an_interrupt_from_the_keyboard(monkeypatch):
             signal.raise_signal(signal.SIGINT)
         return {"y": x}
 
-    with pytest.warns(col.CollisionsWarning, match="interrupted after 1000"):
-        found = propagate(model, {"x": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
+    # A shell may start the tests with the signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.warns(col.CollisionsWarning, match="interrupted after 1000"):
+            found = propagate(model, {"x": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert found.samples == 1000
 
 
