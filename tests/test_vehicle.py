@@ -225,3 +225,11 @@ def test_a_plain_number_beyond_float32_is_not_made_infinite_by_an_array_beside_i
     )
     # Frictionless and plastic, through the centre: the wall takes m vx^2 / 2, whatever is beside it.
     assert impact.a.kinetic_energy_change == pytest.approx(-150.0, rel=1e-15)
+
+
+def test_a_velocity_along_one_axis_stays_a_plain_number_where_the_other_is_an_array():
+    """A point of which one coordinate is an array: the velocity square to it is the same in every case."""
+    vx, vy = col.Vehicle(mass=300.0, yaw_rate=0.5, x=0.0, y=0.0).velocity_at((2.0, np.array([1.0, 3.0])))
+    assert vx.tolist() == [-0.5, -1.5]
+    assert type(vy) is float
+    assert vy == 1.0

@@ -323,23 +323,24 @@ class Vehicle(_Written):
         px, py = door.pair(point, "m", "point")
         door.close()
         own = {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")}
-        yaw_rate: Any = self.yaw_rate
+        kind = None
         if broadcast({"point[0]": px, "point[1]": py} | own) is not None:
             from .kernels.batch import precision
 
             # Beside float32 arrays a plain number beyond them would be infinite.
             kind = precision([px, py, *own.values()])
-            px, py = np.asarray(px, dtype=kind), np.asarray(py, dtype=kind)
-            yaw_rate = yaw_rate.astype(kind) if isinstance(yaw_rate, np.ndarray) else yaw_rate
+        numbers = (px, py, *own.values())
+        px, py, vx, vy, yaw_rate, x, y = (v.astype(kind) if isinstance(v, np.ndarray) else v for v in numbers)
         with np.errstate(all="ignore"):
-            turn_x, turn_y = self._turn_at(yaw_rate, px, py, "velocity_at")
-            return self.vx + turn_x, self.vy + turn_y
+            turn_x, turn_y = self._turn_at(yaw_rate, px, py, "velocity_at", x, y)
+            return vx + turn_x, vy + turn_y
 
-    def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str) -> tuple[Any, Any]:
-        """What a yaw rate adds to the velocity at a scene point."""
+    def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None) -> tuple[Any, Any]:
+        """What a yaw rate adds to the velocity at a scene point; ``x`` and ``y`` in place of the vehicle's own."""
         if self._rests(yaw_rate):
             return yaw_rate, yaw_rate
-        return turning_velocity(yaw_rate, px, py, self._need("x", purpose), self._need("y", purpose))
+        x, y = (self._need(name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
+        return turning_velocity(yaw_rate, px, py, x, y)
 
     @staticmethod
     def _rests(yaw_rate: Any) -> bool:
