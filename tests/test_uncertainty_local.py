@@ -439,7 +439,11 @@ def test_a_bend_at_the_mean_is_refused(method):
 
 
 @both_orders
-@pytest.mark.parametrize("curve", [np.exp, np.sin, lambda x: x**4, lambda x: 1.0 / x, np.log, np.tan], ids=str)
+@pytest.mark.parametrize(
+    "curve",
+    [np.exp, np.sin, lambda x: x**4, lambda x: 1.0 / x, np.log, np.tan],
+    ids=["exponential", "sine", "fourth power", "inverse", "logarithm", "tangent"],
+)
 def test_a_smooth_model_is_no_bend(curve, method):
     """However curved it is: here the deviation of the input is half of the scale on which the model bends."""
     with warnings.catch_warnings():
