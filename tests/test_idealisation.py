@@ -342,6 +342,16 @@ def test_one_impact_of_many_durations_and_many_impacts_of_one():
         assert found.b.tyre_delta_v[1] == pytest.approx(MOST)
 
 
+def test_one_impact_of_many_drags():
+    """Each drag as it would be alone; the duration and the impact are plain numbers."""
+    drags = np.array([0.3, 0.9])
+    found = col.left_out(rear_end(10.0), drag=drags)
+    for index, drag in enumerate(drags):
+        one = col.left_out(rear_end(10.0), drag=float(drag))
+        assert found.a.tyre_delta_v_bound[index] == pytest.approx(one.a.tyre_delta_v_bound, rel=1e-15)
+        assert found.b.tyre_delta_v[index] == pytest.approx(one.b.tyre_delta_v, rel=1e-9)
+
+
 @pytest.mark.parametrize("tolerance", [None, 0.5])
 def test_a_large_batch_is_worked_out_in_stretches(tolerance):
     """What its cases give alone, and beyond inputs and answers no more memory than 20 MiB, which is no array of all cases.

@@ -227,7 +227,7 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         most = pull * GRAVITY * time
         states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
-        if isinstance(reach, float) and math.isinf(most + reach):
+        if isinstance(most + reach, float) and math.isinf(most + reach):
             raise out_of_range()
         kicks = (Kick.of(impact.a, point, most), Kick.of(impact.b, point, most))
         tyres = [math.nan] * 2 if lost else with_tyres(impact, kicks)
