@@ -262,6 +262,10 @@ def batch_works(effort: Effort) -> dict[str, Work]:
     scene = speed_errors.traffic(count)
     mixed = batch_speed.states(scene)
     choice = col.required_model(**mixed, tolerance=speed_errors.TOLERANCE)
+    # Any tolerance that all cases of traffic keep with the linear model.
+    all_linear = col.required_model(**mixed, tolerance=1e6)
+    if set(all_linear.model) != {"linear_central"}:
+        raise RuntimeError("a case of the traffic is beyond the linear model")
     few = max(1, count // 50)
     floats = [tuple(map(float, case)) for case in np.array(speed_rivals.numbers(batch_speed.scenes(few))).T]
     points = {side: col.Vehicle(**{name: scene[side][name] for name in ("mass", "vx", "vy")}) for side in "ab"} | {
@@ -285,8 +289,13 @@ def batch_works(effort: Effort) -> dict[str, Work]:
             lambda: nine(col.solve(**mixed, tolerance=speed_errors.TOLERANCE, on_failure="nan")),
             count,
         ),
+        "solve_linear": Work(
+            "`solve`, the linear model for all, without the prediction",
+            lambda: nine(col.solve(**mixed, tolerance=Again(all_linear), on_failure="nan")),
+            count,
+        ),
         "solve_known": Work(
-            "`solve`, the same without the prediction",
+            "`solve`, a third for each model, without the prediction",
             lambda: nine(col.solve(**mixed, tolerance=Again(choice), on_failure="nan")),
             count,
         ),

@@ -133,13 +133,14 @@ def threads(found: dict[str, Any]) -> str:
 def solving(found: dict[str, Any]) -> str:
     """What ``solve`` costs in a batch, and why."""
     known = {key: row["median"] for key, row in rows(found, "batch").items()}
-    thirds = sum(known[model] for model in ("linear_central", "oblique_central", "eccentric")) / 3.0
+    thirds = sum(known[model] for model in ("solve_linear", "oblique_central", "eccentric")) / 3.0
     return (
-        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`: every case is worked out "
-        "by all three models up to their impulses, which is the prediction; then the cases of each model are gathered, solved, "
-        "and put back in their places. It was wanted that a case costs what its model costs. So it is in solving, but for the "
-        "gathering: a third of the cases for each model, without the prediction, cost "
-        f"{number(known['solve_known'] / thirds)} times the mean of the three. The prediction costs every case the same."
+        f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`. Each case is worked out by "
+        "its own model. Where the cases of a model stand side by side they cost just that; where they are mixed they are "
+        "gathered and put back in their places: a third of the cases for each model, without the prediction, cost "
+        f"{number(known['solve_known'] / thirds)} times the mean of the three over the same arrays. The prediction itself "
+        "costs every case the same, because an error to 10 percent for any lever needs the impulse by all three models; the "
+        "rest of their answers it leaves out."
     )
 
 

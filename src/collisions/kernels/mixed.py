@@ -123,28 +123,35 @@ def _solved(
             mine.runs = [work(length) for work in works]
         cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
         there = [None if output is None else output[block] for output in outputs]
-        for number, (model, run) in enumerate(zip(models, mine.runs, strict=True)):
-            chosen = np.flatnonzero(numbers[block] == number)
-            for some in np.array_split(chosen, math.ceil(chosen.size / length) or 1):
-                if some.size:
-                    _answer(model, run, some, cut, there)
-        return block.stop - block.start
-
-    def _answer(model: Model, run: Any, some: Any, cut: dict[int, Any], there: list[Any]) -> None:
-        wanted = chain(model.inputs, *(check.values for check in checks))
-        taken = {id(value): cut[id(value)] for value in wanted}
-        taken = {key: value if isinstance(value, float) else value.take(some) for key, value in taken.items()}
-        answers = [None if kind is None else np.empty(some.size, kind) for kind in kinds]
         with np.errstate(all="ignore"):
-            found = faults_of(checks, taken)
-            run([taken[id(value)] for value in model.inputs], answers)
-        blank(found, answers)
-        for output, answer in zip(there, answers, strict=True):
-            if output is not None:
-                output[some] = answer
+            for number, (model, run) in enumerate(zip(models, mine.runs, strict=True)):
+                chosen = np.flatnonzero(numbers[block] == number)
+                for some in np.array_split(chosen, math.ceil(chosen.size / length) or 1):
+                    if some.size:
+                        _answer(run, some, [cut[id(value)] for value in model.inputs], there)
+            faults = faults_of(checks, cut)
+        blank(faults, there)
+        return block.stop - block.start
 
     each_block(solve, range(0, size, stretch), size, threads, progress)
     return settled(outputs, shape, dtype)
+
+
+def _answer(run: Callable[[Sequence[Any], Sequence[Any]], None], some: Any, inputs: list[Any], outputs: list[Any]) -> None:
+    """Works out some cases of a stretch: in their places where they stand side by side, else gathered and put back."""
+    if some[-1] - some[0] == some.size - 1:
+        side_by_side = slice(some[0], some[-1] + 1)
+        run(
+            [value if isinstance(value, float) else value[side_by_side] for value in inputs],
+            [None if output is None else output[side_by_side] for output in outputs],
+        )
+        return
+    answers = [None if output is None else np.empty(some.size, output.dtype) for output in outputs]
+    # They are all inside: to have numpy look takes as long as to gather them.
+    run([value if isinstance(value, float) else value.take(some, mode="clip") for value in inputs], answers)
+    for output, answer in zip(outputs, answers, strict=True):
+        if output is not None:
+            output[some] = answer
 
 
 class _Work(NamedTuple):

@@ -36,8 +36,12 @@ def oblique_central(
     rule: str,
     law: str,
     eps: float = EPS,
+    impulse_only: bool = False,
 ) -> tuple[Any, ...]:
-    """Answers in the order of ``codes.OUTPUTS``; the masses divide the change of relative velocity (along n and t)."""
+    """Answers in the order of ``codes.OUTPUTS``; the masses divide the change of relative velocity (along n and t).
+
+    With ``impulse_only``: whether the bodies approach, whether no slip would need a pull, and the impulse along n and t.
+    """
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
     ux = vx_b - vx_a
     uy = vy_b - vy_a
@@ -48,13 +52,15 @@ def oblique_central(
     no_slip_t = 0.0 - (1.0 - kept) * slip
     sticks, ratio, _, pulls = tangential_rule(rule, tangential, change_n, no_slip_t)
     change_t = select(sticks, no_slip_t, ratio * change_n)
+    normal = effective_mass * change_n
+    impulse_t = effective_mass * change_t
+    if impulse_only:
+        return closing > 0.0, pulls, normal, impulse_t
 
     beyond_sticking = change_t - no_slip_t
     slip_after = kept * slip + beyond_sticking
     # At rest after sticking, so that the sum is the slip before, to the bit.
     slip_sum = slip + slip_after if law == BRACH else select(sticks, (1.0 + kept) * slip, slip + slip_after)
-    normal = effective_mass * change_n
-    impulse_t = effective_mass * change_t
     mobility = normal * change_n + impulse_t * change_t if law == KUDLICH_SLIBAR and rule == FRICTION else 0.0
     loss_n, loss_t, loss, gains = energy_losses(
         restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps

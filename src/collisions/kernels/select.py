@@ -16,6 +16,13 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
     return np.where(condition, yes, no)
 
 
+def larger(one: Any, other: Any) -> Any:
+    """The larger of both; NaN only if both are."""
+    if isinstance(one, float) and isinstance(other, float):
+        return one if one >= other or other != other else other
+    return np.fmax(one, other)
+
+
 def divisor(usable: Any, value: Any) -> Any:
     """A value to divide by: 1.0 where it is of no use, as the case is refused or its quotient is passed over.
 

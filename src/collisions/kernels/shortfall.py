@@ -7,13 +7,15 @@ from collections.abc import Callable
 from math import inf, nan
 from typing import Any, NamedTuple
 
-from .codes import AT, ENERGY_GAIN, EPS, OUT_OF_RANGE
-from .eccentric import eccentric, recoil
+from .codes import ENERGY_GAIN, EPS, OUT_OF_RANGE
+from .eccentric import eccentric
 from .linear import linear_central
 from .oblique import oblique_central
-from .select import select
+from .select import larger, select
 
+# With ``impulse_only`` they answer with other things.
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
+_oblique: Callable[..., tuple[Any, ...]] = oblique_central
 # What a predicted error counts for, so that an answer stays within the tolerance where a prediction falls short.
 _MARGIN = 1.15
 # A lever of so many eps of the coordinates may be rounding: of angles up to a turn, of what they were made from, and of slip.
@@ -43,9 +45,6 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     linear, oblique, torques, impulse = shortfalls(
         restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned[0], known.pinned[1], eps
     )
-    if any(known.pinned):
-        # The central models cannot hold a pivot.
-        linear, oblique = (select(error == error, inf, nan) for error in (linear, oblique))
     lacking: Any = False
     approach: Any = True
     if not known.all:
@@ -95,35 +94,35 @@ def shortfalls(
 ) -> tuple[Any, Any, tuple[Any, Any], Any]:
     """Error of the linear and of the oblique model, each for the worse of both bodies; the torques on A and B; the impulse.
 
-    NaN where the eccentric model has no answer, infinite where the cheaper one has none.
+    NaN where the eccentric model has no answer, infinite where the cheaper one has none, as beside a pivot.
     """
     answered, normal, tangential_impulse, for_a, for_b = _eccentric(
         restitution, nx, ny, tangential, px, py, *body_a, *body_b, rule, law, pinned_a, pinned_b, eps, impulse_only=True
     )
-    impulse_x = nx * normal - ny * tangential_impulse
-    impulse_y = ny * normal + nx * tangential_impulse
+    beyond: Any = select(answered, inf, nan)
+    of_all = (for_a[0], for_b[0]), abs(normal) + abs(tangential_impulse)
+    if pinned_a or pinned_b:
+        return beyond, beyond, *of_all
     (mass_a, _, vx_a, vy_a, *_), (mass_b, _, vx_b, vy_b, *_) = body_a, body_b
-    velocities = (mass_a, vx_a, vy_a, mass_b, vx_b, vy_b)
-    models = (
-        linear_central(restitution, nx, ny, *velocities, eps),
-        oblique_central(restitution, nx, ny, tangential, *velocities, rule, law, eps),
+    approaches, pulls, central_normal, central_tangential = _oblique(
+        restitution, nx, ny, tangential, mass_a, vx_a, vy_a, mass_b, vx_b, vy_b, rule, law, eps, impulse_only=True
     )
-    worst: list[Any] = [0.0, 0.0]
-    for body, pinned, (torque, a, b), sign, at in (
-        (body_a, pinned_a, for_a, -1.0, AT["delta_vx_a"]),
-        (body_b, pinned_b, for_b, 1.0, AT["delta_vx_b"]),
-    ):
-        mass, inertia, _, _, _, x, y, pivot_x, pivot_y = body
-        dvx, dvy, spin = recoil(a, b, torque, sign * impulse_x, sign * impulse_y, x, y, pivot_x, pivot_y, pinned)
-        turning = select(spin == 0.0, 0.0, spin * spin * (inertia / mass))
-        for i, model in enumerate(models):
-            off_x, off_y = dvx - model[at], dvy - model[at + 1]
-            error = (off_x * off_x + off_y * off_y + turning) ** 0.5
-            worst[i] = select(error >= worst[i], error, worst[i])
-    linear, oblique = (
-        select(answered, select(model[0] > ENERGY_GAIN, inf, error), nan) for model, error in zip(models, worst, strict=True)
-    )
-    return linear, oblique, (for_a[0], for_b[0]), abs(normal) + abs(tangential_impulse)
+    off_normal = normal - central_normal
+    worst = []
+    # Both central models have the same normal impulse, and the linear one no other.
+    for off_tangential in (tangential_impulse, tangential_impulse - central_tangential):
+        squared = [
+            # The last is (radius of gyration times change of yaw rate) squared.
+            _square(a * off_normal) + _square(a * off_tangential) + (a * torque) * (b * torque)
+            for torque, a, b in (for_a, for_b)
+        ]
+        worst.append(larger(*squared) ** 0.5)
+    linear = select(answered & approaches, worst[0], beyond)
+    return linear, select(answered & approaches & (pulls ^ True), worst[1], beyond), *of_all
+
+
+def _square(value: Any) -> Any:
+    return value * value
 
 
 def linear_carried(restitution: Any, nx: Any, ny: Any, *rest: Any) -> tuple[Any, ...]:
