@@ -160,6 +160,30 @@ def test_a_context_is_obeyed_and_forgotten(ureg):
     assert col.Vehicle(mass=stein).mass == 6.0
 
 
+def test_a_text_without_a_unit_is_no_angle_after_it_was_a_proportion():
+    """Units of texts are kept once read; that a proportion has none makes no bare text an angle or a speed."""
+    a, b = col.Vehicle(mass=1500, vx=10), col.Vehicle(mass=1200)
+    assert col.linear_central(a, b, "0.4").restitution == 0.4
+    for argument, text in (("vx", "20"), ("yaw_rate", "1")):
+        with pytest.raises(col.UnitsError, match="write one plain number and one unit"):
+            col.Vehicle(mass=1500, **{argument: text})
+
+
+def test_texts_are_read_by_the_registry_of_the_moment():
+    """A unit that one application registry defines is unknown to the next, and one defined differently differs."""
+    before = pint.get_application_registry().get()
+    try:
+        for length in (1.7, 1.8):
+            pint.set_application_registry(pint.UnitRegistry())
+            pint.get_application_registry().define(f"smoot = {length} m")
+            assert col.Vehicle(mass=1500, x="2 smoot", y=0).x == 2 * length
+        pint.set_application_registry(pint.UnitRegistry())
+        with pytest.raises(col.UnitsError, match="smoot"):
+            col.Vehicle(mass=1500, x="2 smoot", y=0)
+    finally:
+        pint.set_application_registry(before)
+
+
 def test_the_default_system_of_a_registry_changes_nothing():
     """to_base_units() follows the registry's default system; the door names its target."""
     registry = pint.UnitRegistry(system="imperial")

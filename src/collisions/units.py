@@ -105,6 +105,8 @@ _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 
+# Of each registry the texts of units that it has read, and what it multiplies by. Neither holds the registry itself.
+_read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
 _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
 
@@ -180,7 +182,10 @@ def parse(text: str, unit: str, argument: str) -> Any:
     stripped = text.strip()
     number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
-    if number is None or not (re.fullmatch(_UNIT, name) or (not name and not unit)):
+    registry = _registry()
+    kept = _read.setdefault(registry.get(), {})
+    readable = (name in kept or re.fullmatch(_UNIT, name)) if name else not unit
+    if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
             f"{argument}: cannot read {shown(text)}; write {how}, such as {example(unit)}",
@@ -188,9 +193,11 @@ def parse(text: str, unit: str, argument: str) -> Any:
             argument=argument,
             text=text,
         )
-    registry = _registry()
     try:
-        return registry.Quantity(float(number.group()), registry.parse_units(name))
+        units = kept.get(name)
+        if units is None:
+            units = kept[name] = registry.parse_units(name)._units
+        return registry.Quantity(float(number.group()), units)
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from error
 
