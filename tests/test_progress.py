@@ -85,5 +85,6 @@ def test_solve_counts_all_cases_once_whatever_their_models(threads):
     done = [one for one, _ in seen]
     assert {total for _, total in seen} == {size}
     assert done == sorted(set(done))
-    assert len(done) > 1
+    # The prediction, which takes half of it, is told too.
+    assert done[0] < size / 4
     assert done.index(size) == len(done) - 1

@@ -656,3 +656,73 @@ def test_a_choice_is_no_tolerance():
     for ask in (col.solve, col.required_model):
         with pytest.raises(col.InputError, match="tolerance must be a number"):
             ask(a, b, **contact, tolerance=choice)
+
+
+@pytest.mark.parametrize("inertia", [500.0, 2400.0, 1e4])
+@pytest.mark.parametrize("fraction", [0.25, 0.5, 1.0])
+def test_a_share_of_the_critical_friction_needs_the_inertia_that_decides_it(inertia, fraction):
+    """The impulse without slip sets the ratio, and its own torque counts: a share may pass the centre at one inertia only."""
+    # Without turning, no slip would take an impulse along (1, 1); of it along the tangent the share is taken.
+    a = col.Vehicle(mass=1000.0, vx=10.0, vy=10.0, x=-2.0, y=-2.0 * fraction)
+    scene = {"restitution": 0.0, "normal": 0.0, "point": (0.0, 0.0), "critical_fraction": fraction, "tolerance": 0.1}
+    if fraction == 1.0:
+        # Both impulses are one, and it makes no torque, whatever the inertia.
+        assert col.solve(a, col.Vehicle.barrier(), **scene).model == "oblique_central"
+        assert col.required_model(a.replace(yaw_inertia=inertia), col.Vehicle.barrier(), **scene).model == "oblique_central"
+        return
+    with pytest.raises(col.MissingInputError, match="a has no yaw_inertia"):
+        col.solve(a, col.Vehicle.barrier(), **scene)
+    assert col.required_model(a.replace(yaw_inertia=inertia), col.Vehicle.barrier(), **scene).errors["oblique_central"] > 0.1
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_a_real_lever_is_not_taken_for_rounding_far_from_the_origin(kind):
+    """Two metres at the coordinates of a map are within 16 eps of them in float32, and no rounding."""
+    here = {"x": 5e5, "y": 5e6}
+    a = {"mass": 1500.0, "vx": 10.0, "x": here["x"] - 2.0, "y": here["y"] + 2.0}
+    b = {"mass": 1200.0, "x": here["x"] + 2.0, "y": here["y"]}
+    a, b = (col.Vehicle(**{name: np.array([value], dtype=kind) for name, value in body.items()}) for body in (a, b))
+    point = tuple(np.array([value], dtype=kind) for value in here.values())
+    with pytest.raises(col.MissingInputError, match="a has no yaw_inertia"):
+        col.solve(a, b, 0.2, normal=0.0, point=point, friction=0.0, tolerance=0.1)
+
+
+@pytest.mark.parametrize("speed", [10.0, np.array([10.0, 12.0])], ids=["one case", "a batch"])
+def test_masses_that_only_turn_have_no_central_answer(speed):
+    """Two infinite masses of which one can turn: the eccentric model has an answer, and no central one could come near."""
+    a = col.Vehicle(mass=math.inf, vx=speed, yaw_inertia=2000.0, x=-2.0, y=0.5)
+    b = col.Vehicle(mass=math.inf, yaw_inertia=math.inf)
+    scene = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.0}
+    choice = col.required_model(a, b, **scene, tolerance=0.5)
+    assert all(np.all(np.equal(error, math.inf)) for error in choice.errors.values())
+    assert np.all(np.equal(choice.model, "eccentric"))
+    if isinstance(speed, float):
+        assert choice.reason == "eccentric: oblique_central has no answer"
+    # The contact at 0.5 m of lever turns from v to -e v.
+    np.testing.assert_allclose(col.solve(a, b, **scene).a.delta_yaw_rate, -1.2 * speed / 0.5, rtol=1e-15)
+
+
+@pytest.mark.parametrize("speeds", [-5.0, np.array([-5.0, -6.0])], ids=["one case", "a batch"])
+def test_bodies_that_part_are_refused_beside_a_pivot_too(speeds):
+    """Whatever is missing; one case that approaches asks for it."""
+    a = col.Vehicle(mass=1000.0, vx=speeds, yaw_inertia=2000.0, x=-2.0, y=0.0)
+    post = col.Vehicle(mass=1000.0, x=2.0, y=0.0, pivot=(2.0, 1.0))
+    scene = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "tolerance": 0.1}
+    with pytest.raises(col.NoImpactError) as caught:
+        col.solve(a, post, **scene, on_failure="raise")
+    assert caught.value.code == "separating"
+    with pytest.raises(col.MissingInputError, match="b has no yaw_inertia"):
+        col.solve(a.replace(vx=-speeds), post, **scene)
+    choice = col.required_model(a.replace(vx=-speeds), post, **scene)
+    assert all(np.all(np.equal(error, math.inf)) for error in choice.errors.values())
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_batch_may_have_no_array_that_its_model_looks_at(threads):
+    """Many tolerances of one scene, and many headings of a body without shape."""
+    a, b = (col.Vehicle(mass=1000.0, vx=vx, x=0.0, y=0.0, yaw_inertia=1500.0) for vx in (1.0, 0.0))
+    cases = BLOCK + 1
+    scene = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "threads": threads}
+    assert (col.solve(a, b, 0.5, **scene, tolerance=np.ones(cases)).b.delta_v == 0.75).all()
+    turned = col.Vehicle(mass=1000.0, vx=1.0, heading=np.zeros(cases))
+    assert (col.linear_central(turned, col.Vehicle(mass=1000.0), 0.5, threads=threads).b.delta_v == 0.75).all()

@@ -170,9 +170,11 @@ def value_checks(asked: Asked, eps: float) -> list[Check]:
         if vehicle.pivot is not None:
             for part in vehicle.pivot:
                 add_array(part, FINITE)
-            add(None, (vehicle.mass, vehicle.yaw_inertia), (codes.PINNED_INFINITE, checks.either_infinite))
+            inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
+            add(None, (vehicle.mass, *inertia), (codes.PINNED_INFINITE, checks.either_infinite))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
-            add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
+            if vehicle.x is not None and vehicle.y is not None:
+                add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
     if isinstance(asked.restitution, np.ndarray):
         add(checks.all_in_unit_interval, (asked.restitution,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
     if any(isinstance(part, np.ndarray) for part in asked.normal):

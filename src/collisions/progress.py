@@ -17,6 +17,13 @@ def reporter(progress: Progress | None) -> Callable[[int, int], None] | None:
     return (progress if callable(progress) else Bar()) if progress else None
 
 
+def halves(report: Callable[[int, int], None] | None) -> tuple[Any, Any]:
+    """The same for a run that goes over its cases twice: a case is done when it has been worked on for the second time."""
+    if report is None:
+        return None, None
+    return lambda done, total: report(done // 2, total), lambda done, total: report((total + done) // 2, total)
+
+
 class Bar:
     """A bar of tqdm, or a line on stderr without it, once a run has taken a second."""
 

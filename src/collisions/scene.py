@@ -18,7 +18,7 @@ from .kernels import codes
 from .kernels.eccentric import eccentric as eccentric_kernel
 from .kernels.oblique import oblique_central as oblique_kernel
 from .kernels.shortfall import ECCENTRIC, LACKING, LINEAR, Known, least_model, linear_carried
-from .progress import Progress, reporter
+from .progress import Progress, halves, reporter
 from .provenance import MODELS, Again, ModelChoice
 from .units import Input, Pair
 from .vehicle import Vehicle
@@ -46,7 +46,7 @@ def required_model(
     of radius of gyration times the error of its change of yaw rate. It is worked out from the impulse at the contact, without
     the rest of the eccentric answer, and a candidate is taken if 1.15 times its error is within the tolerance. What a lever
     does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error. A lever
-    of 16 eps of the coordinates is rounding, and does not matter.
+    of 16 eps of the coordinates, and of 0.1 mm at most, is rounding, and does not matter.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def required_model(
     ('eccentric', 2.14)
     """
     question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
-    return _chosen(question, 1)[0]
+    return _chosen(question, 1, None)[0]
 
 
 def solve(
@@ -132,18 +132,20 @@ def solve(
     check_options(on_failure, threads, progress)
     question = _read(a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, tolerance)
     asked, choice = question.asked, question.given
+    report = reporter(progress)
     if choice is None:
-        choice, which, lacks = _chosen(question, threads)
+        predicting, report = halves(report)
+        choice, which, lacks = _chosen(question, threads, predicting)
         if np.any(lacks):
             _refuse_without(a, b, point, lacks)
     else:
         choice = _taken_again(choice, asked)
         which = choice._which
     if isinstance(which, np.ndarray):
-        impact = concluded(asked, _solved_by_model(asked, which, threads, progress), on_failure, choice)
+        impact = concluded(asked, _solved_by_model(asked, which, threads, report), on_failure, choice)
     else:
         model = _model(which, asked)
-        impact = answer(*model, tuple(asked), question.plain, None, on_failure, threads, progress)
+        impact = answer(*model, tuple(asked), question.plain, None, on_failure, threads, report)
         impact._cache["choice"] = choice
     return impact
 
@@ -230,11 +232,11 @@ def _contact_numbers(asked: Asked) -> tuple[Any, ...]:
     return tuple(numbers)
 
 
-def _chosen(question: _Question, threads: int) -> tuple[ModelChoice, Any, Any]:
+def _chosen(question: _Question, threads: int, progress: Any) -> tuple[ModelChoice, Any, Any]:
     """The choice, which of ``MODELS`` it is, by number, and whether that lacks something."""
     asked, tolerance = question.asked, question.tolerance
     shape = broadcast({"tolerance": tolerance, **dict(numbers_of(asked))})
-    which, linear, oblique = _predicted(question, shape, threads)
+    which, linear, oblique = _predicted(question, shape, threads, progress)
     lacks = which == LACKING
     if shape is None:
         which = min(which, ECCENTRIC)
@@ -250,15 +252,10 @@ def _chosen(question: _Question, threads: int) -> tuple[ModelChoice, Any, Any]:
     return choice, which, lacks
 
 
-def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int) -> tuple[Any, Any, Any]:
+def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int, progress: Any) -> tuple[Any, Any, Any]:
     """Which model by number, and the errors of the central ones; infinite beside a pivot, which they cannot hold."""
     asked = question.asked
     pinned = asked.a.pivot is not None, asked.b.pivot is not None
-    if any(pinned) and question.missing:
-        if shape is None:
-            return LACKING, math.inf, math.inf
-        errors = np.full(shape, math.inf, dtype=_precision(question))
-        return np.full(shape, LACKING, dtype=np.uint8), errors, errors
     known = Known(
         places=(
             asked.point is not None and asked.a.x is not None and asked.a.y is not None,
@@ -276,7 +273,8 @@ def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int)
 
     dtype = _precision(question)
     eps = float(np.finfo(dtype).eps)
-    return least_models((asked.rule, asked.law, known, eps), inputs, value_checks(asked, eps), shape, dtype, threads)
+    settings = asked.rule, asked.law, known, eps
+    return least_models(settings, inputs, value_checks(asked, eps), shape, dtype, threads, progress)
 
 
 def _precision(question: _Question) -> Any:
@@ -302,7 +300,10 @@ def _reason(which: Any, linear: Any, oblique: Any, lacks: Any, question: _Questi
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
     model, errors = MODELS[which], (linear, oblique)
-    told = [f"{name} would err by {error:.3g} m/s" for name, error in zip(MODELS[:which], errors, strict=False)]
+    told = [
+        f"{name} has no answer" if error == math.inf else f"{name} would err by {error:.3g} m/s"
+        for name, error in zip(MODELS[:which], errors, strict=False)
+    ]
     if which != ECCENTRIC:
         others = f"; {told[0]}" if told else ""
         return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
@@ -314,7 +315,8 @@ def _reason(which: Any, linear: Any, oblique: Any, lacks: Any, question: _Questi
         return f"{model}: without {', '.join(question.missing)} nothing tells what a central model would err by"
     if math.isnan(oblique):
         return f"{model}: there is no answer that a cheaper one could come near to"
-    return f"{model}: {told[1]}, and {tolerance:.3g} m/s are accepted"
+    accepted = "" if math.isinf(oblique) else f", and {tolerance:.3g} m/s are accepted"
+    return f"{model}: {told[1]}{accepted}"
 
 
 def _solved_by_model(asked: Asked, which: Any, threads: int, progress: Any) -> Any:
@@ -332,4 +334,4 @@ def _solved_by_model(asked: Asked, which: Any, threads: int, progress: Any) -> A
     for at in range(len(MODELS)):
         kernel, inputs, settings = _model(at, asked)
         models.append(Model(kernel, (*settings, eps), inputs))
-    return solve_mixed(models, which, value_checks(asked, eps), shape, dtype, threads, reporter(progress))
+    return solve_mixed(models, which, value_checks(asked, eps), shape, dtype, threads, progress)

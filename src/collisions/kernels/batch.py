@@ -257,7 +257,7 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     """
     if threads == 1:
         return BLOCK
-    longest = max(BLOCK, min(_LONGEST, _SCRATCH // (threads * scratch)))
+    longest = max(BLOCK, min(_LONGEST, _SCRATCH // (threads * max(1, scratch))))
     even = math.ceil(size / (threads * math.ceil(size / (threads * longest))))
     return max(BLOCK, math.ceil(even / 64) * 64)
 

@@ -39,8 +39,8 @@ def without_length(nx: Any, ny: Any) -> Any:
     return (nx == 0.0) & (ny == 0.0)
 
 
-def either_infinite(mass: Any, inertia: Any) -> Any:
-    """A mass or a yaw inertia that is infinite."""
+def either_infinite(mass: Any, inertia: Any = 0.0) -> Any:
+    """A mass or, where it is known, a yaw inertia that is infinite."""
     return (mass == inf) | (inertia == inf)
 
 

@@ -85,7 +85,8 @@ def eccentric(
 ) -> tuple[Any, ...]:
     """Answers in the order of ``codes.OUTPUTS``.
 
-    With ``impulse_only``: whether there is an answer, the impulse along n and t, and of A and B the torque, a and b.
+    With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t, that without slip, and of A
+    and B a and b, the torque, and the torque of the impulse without slip.
     """
     a_a, b_a, rx_a, ry_a, ux_a, uy_a = response(mass_a, inertia_a, vx_a, vy_a, x_a, y_a, pivot_x_a, pivot_y_a, px, py, pinned_a)
     a_b, b_b, rx_b, ry_b, ux_b, uy_b = response(mass_b, inertia_b, vx_b, vy_b, x_b, y_b, pivot_x_b, pivot_y_b, px, py, pinned_b)
@@ -138,7 +139,9 @@ def eccentric(
     stuck = bounded & (regular ^ True) & no_slip_matters
     if impulse_only:
         answered = (closing > 0.0) & ((immovable | stuck | pulls | jams) ^ True)
-        return answered, normal, impulse_t, (torque_a, a_a, b_a), (torque_b, a_b, b_b)
+        for_a = a_a, b_a, torque_a, rt_a * no_slip_n - rn_a * no_slip_t
+        for_b = a_b, b_b, torque_b, rn_b * no_slip_t - rt_b * no_slip_n
+        return answered, closing, (normal, impulse_t), (no_slip_n, no_slip_t), for_a, for_b
 
     beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
     slip_after = kept * slip + beyond_sticking

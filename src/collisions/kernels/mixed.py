@@ -49,6 +49,7 @@ def least_models(
     shape: tuple[int, ...],
     dtype: Any,
     threads: int = 1,
+    progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Any, Any, Any]:
     """What ``least_model`` answers for many cases; where a check applies, the eccentric model, and no error is known."""
     size, kinds = math.prod(shape), (np.dtype(np.uint8), np.dtype(dtype), np.dtype(dtype))
@@ -72,7 +73,7 @@ def least_models(
                     error[wrong] = np.nan
         return block.stop - block.start
 
-    each_block(choose, range(0, size, length), size, threads, None)
+    each_block(choose, range(0, size, length), size, threads, progress)
     which, linear, oblique = (output.reshape(shape) for output in outputs)
     return which, linear, oblique
 

@@ -40,7 +40,7 @@ def oblique_central(
 ) -> tuple[Any, ...]:
     """Answers in the order of ``codes.OUTPUTS``; the masses divide the change of relative velocity (along n and t).
 
-    With ``impulse_only``: whether the bodies approach, whether no slip would need a pull, and the impulse along n and t.
+    With ``impulse_only``: whether there is an answer, whether no slip would need a pull, and the impulse along n and t.
     """
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
     ux = vx_b - vx_a
@@ -55,7 +55,8 @@ def oblique_central(
     normal = effective_mass * change_n
     impulse_t = effective_mass * change_t
     if impulse_only:
-        return closing > 0.0, pulls, normal, impulse_t
+        work = closing * normal + slip * impulse_t
+        return (closing > 0.0) & (work - work == 0.0) & (immovable ^ True), pulls, normal, impulse_t
 
     beyond_sticking = change_t - no_slip_t
     slip_after = kept * slip + beyond_sticking

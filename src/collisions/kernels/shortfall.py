@@ -7,7 +7,7 @@ from collections.abc import Callable
 from math import inf, nan
 from typing import Any, NamedTuple
 
-from .codes import ENERGY_GAIN, EPS, OUT_OF_RANGE
+from .codes import CRITICAL_FRACTION, ENERGY_GAIN, EPS, OUT_OF_RANGE
 from .eccentric import eccentric
 from .linear import linear_central
 from .oblique import oblique_central
@@ -19,7 +19,8 @@ _oblique: Callable[..., tuple[Any, ...]] = oblique_central
 # What a predicted error counts for, so that an answer stays within the tolerance where a prediction falls short.
 _MARGIN = 1.15
 # A lever of so many eps of the coordinates may be rounding: of angles up to a turn, of what they were made from, and of slip.
-_ROUNDING = 16.0
+# But not more than this, in m: in float32 far from the origin it would take a real one for rounding.
+_ROUNDING, _MOST_ROUNDING = 16.0, 1e-4
 LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
@@ -37,18 +38,19 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
 
     Given are six numbers of the contact, nine of each body (those that are not known filled in so that they make no torque),
     the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless it is
-    known that the bodies do not approach; beside a pivot nothing may be lacking.
+    known that the bodies do not approach; beside a pivot nothing else may be lacking.
     """
     restitution, nx, ny, tangential, px, py = given[:6]
     bodies, tolerance = (given[6:15], given[15:24]), given[24]
     rule, law, known, eps = given[25:]
-    linear, oblique, torques, impulse = shortfalls(
-        restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned[0], known.pinned[1], eps
+    linear, oblique, closing, torques, impulse = shortfalls(
+        restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned, eps
     )
     lacking: Any = False
     approach: Any = True
     if not known.all:
         # Without a place the lever is open, which matters to what can turn or does.
+        beside_a_pivot = any(known.pinned)
         for body, torque, placed, weighed in zip(bodies, torques, known.places, known.inertias, strict=True):
             _, inertia, _, _, spin, x, y, *_ = body
             if not placed:
@@ -56,25 +58,20 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
                 lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
             elif not weighed:
                 # No torque on a body that could not turn: none on one that can.
-                size = (abs(x) + abs(y) + abs(px) + abs(py)) * impulse
-                lacking = lacking | ((abs(torque) <= _ROUNDING * eps * size) ^ True)
-        closing = closing_speed(nx, ny, px, py, *bodies)
+                lever = _ROUNDING * eps * (abs(x) + abs(y) + abs(px) + abs(py))
+                lever = select(lever < _MOST_ROUNDING, lever, _MOST_ROUNDING)
+                lacking = lacking | ((torque <= lever * impulse) ^ True)
+        if beside_a_pivot:
+            lacking = True
         apart = approach & ((closing > 0.0) ^ True)
         lacking = lacking & (apart ^ True)
-        linear, oblique = select(lacking, nan, linear), select(lacking, nan, oblique)
+        unknown = inf if beside_a_pivot else nan
+        linear, oblique = select(lacking, unknown, linear), select(lacking, unknown, oblique)
         lacking = apart ^ True
     within = tolerance > 0.0
     which = select(lacking, LACKING, ECCENTRIC)
     which = select(within & (_MARGIN * oblique <= tolerance), OBLIQUE, which)
     return select(within & (_MARGIN * linear <= tolerance), LINEAR, which), linear, oblique
-
-
-def closing_speed(nx: Any, ny: Any, px: Any, py: Any, body_a: tuple[Any, ...], body_b: tuple[Any, ...]) -> Any:
-    """Speed at which the contact points of free bodies approach along the normal."""
-    (_, _, vx_a, vy_a, spin_a, x_a, y_a, *_), (_, _, vx_b, vy_b, spin_b, x_b, y_b, *_) = body_a, body_b
-    ux = (vx_a - vx_b) + (spin_b * (py - y_b) - spin_a * (py - y_a))
-    uy = (vy_a - vy_b) + (spin_a * (px - x_a) - spin_b * (px - x_b))
-    return nx * ux + ny * uy
 
 
 def shortfalls(
@@ -88,23 +85,30 @@ def shortfalls(
     body_b: tuple[Any, ...],
     rule: str,
     law: str,
-    pinned_a: bool,
-    pinned_b: bool,
+    pinned: tuple[bool, bool],
     eps: float = EPS,
-) -> tuple[Any, Any, tuple[Any, Any], Any]:
-    """Error of the linear and of the oblique model, each for the worse of both bodies; the torques on A and B; the impulse.
+) -> tuple[Any, Any, Any, tuple[Any, ...], Any]:
+    """What the linear and the oblique model err by for the worse of both bodies; closing speed; torques on A and B; impulse.
 
-    NaN where the eccentric model has no answer, infinite where the cheaper one has none, as beside a pivot.
+    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as beside a pivot. The
+    torques are sizes, and so is the impulse: together with those of the impulse without slip where that decides the ratio.
     """
-    answered, normal, tangential_impulse, for_a, for_b = _eccentric(
-        restitution, nx, ny, tangential, px, py, *body_a, *body_b, rule, law, pinned_a, pinned_b, eps, impulse_only=True
+    answered, closing, (normal, tangential_impulse), no_slip, for_a, for_b = _eccentric(
+        restitution, nx, ny, tangential, px, py, *body_a, *body_b, rule, law, *pinned, eps, impulse_only=True
     )
+    torques: tuple[Any, ...] = (abs(for_a[2]), abs(for_b[2]))
+    impulse = abs(normal) + abs(tangential_impulse)
+    if rule == CRITICAL_FRACTION:
+        matters = tangential > 0.0
+        torques = tuple(
+            torque + select(matters, abs(body[3]), 0.0) for torque, body in zip(torques, (for_a, for_b), strict=True)
+        )
+        impulse = impulse + select(matters, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
     beyond: Any = select(answered, inf, nan)
-    of_all = (for_a[0], for_b[0]), abs(normal) + abs(tangential_impulse)
-    if pinned_a or pinned_b:
-        return beyond, beyond, *of_all
+    if any(pinned):
+        return beyond, beyond, closing, torques, impulse
     (mass_a, _, vx_a, vy_a, *_), (mass_b, _, vx_b, vy_b, *_) = body_a, body_b
-    approaches, pulls, central_normal, central_tangential = _oblique(
+    central, pulls, central_normal, central_tangential = _oblique(
         restitution, nx, ny, tangential, mass_a, vx_a, vy_a, mass_b, vx_b, vy_b, rule, law, eps, impulse_only=True
     )
     off_normal = normal - central_normal
@@ -114,11 +118,12 @@ def shortfalls(
         squared = [
             # The last is (radius of gyration times change of yaw rate) squared.
             _square(a * off_normal) + _square(a * off_tangential) + (a * torque) * (b * torque)
-            for torque, a, b in (for_a, for_b)
+            for a, b, torque, _ in (for_a, for_b)
         ]
         worst.append(larger(*squared) ** 0.5)
-    linear = select(answered & approaches, worst[0], beyond)
-    return linear, select(answered & approaches & (pulls ^ True), worst[1], beyond), *of_all
+    linear = select(answered & central, worst[0], beyond)
+    oblique = select(answered & central & (pulls ^ True), worst[1], beyond)
+    return linear, oblique, closing, torques, impulse
 
 
 def _square(value: Any) -> Any:
