@@ -26,6 +26,7 @@ import time
 import tracemalloc
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -44,7 +45,7 @@ import collisions as col
 from collisions import arguments, reconstruct
 from collisions.kernels.eccentric import eccentric as eccentric_kernel
 from collisions.kernels.linear import linear_central as linear_kernel
-from collisions.provenance import Again
+from collisions.provenance import MODELS, Again
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -262,10 +263,18 @@ def batch_works(effort: Effort) -> dict[str, Work]:
     scene = speed_errors.traffic(count)
     mixed = batch_speed.states(scene)
     choice = col.required_model(**mixed, tolerance=speed_errors.TOLERANCE)
-    # Any tolerance that all cases of traffic keep with the linear model.
-    all_linear = col.required_model(**mixed, tolerance=1e6)
-    if set(all_linear.model) != {"linear_central"}:
-        raise RuntimeError("a case of the traffic is beyond the linear model")
+
+    def by(which: Any) -> Any:
+        """``solve`` where the model of every case is known before."""
+        known = Again(replace(choice, _which=which))
+        return lambda: nine(col.solve(**mixed, tolerance=known, on_failure="nan"))
+
+    alone = {
+        f"solve_all_{model}": Work(
+            f"`solve`, `{model}` for all, without the prediction", by(np.full_like(choice._which, at)), count
+        )
+        for at, model in enumerate(MODELS)
+    }
     few = max(1, count // 50)
     floats = [tuple(map(float, case)) for case in np.array(speed_rivals.numbers(batch_speed.scenes(few))).T]
     points = {side: col.Vehicle(**{name: scene[side][name] for name in ("mass", "vx", "vy")}) for side in "ab"} | {
@@ -289,16 +298,8 @@ def batch_works(effort: Effort) -> dict[str, Work]:
             lambda: nine(col.solve(**mixed, tolerance=speed_errors.TOLERANCE, on_failure="nan")),
             count,
         ),
-        "solve_linear": Work(
-            "`solve`, the linear model for all, without the prediction",
-            lambda: nine(col.solve(**mixed, tolerance=Again(all_linear), on_failure="nan")),
-            count,
-        ),
-        "solve_known": Work(
-            "`solve`, a third for each model, without the prediction",
-            lambda: nine(col.solve(**mixed, tolerance=Again(choice), on_failure="nan")),
-            count,
-        ),
+        **alone,
+        "solve_known": Work("`solve`, a third for each model, without the prediction", by(choice._which), count),
         "left_out": Work("`left_out` of a batch", lambda: col.left_out(tenth), count // 10),
         "planar": Work(
             "`reconstruct.planar`",

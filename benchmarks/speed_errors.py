@@ -139,7 +139,7 @@ def _curve(key: str, name: str, x: Any, found: dict[str, Any]) -> dict[str, Any]
 
 
 def traffic(count: int) -> dict[str, Any]:
-    """A third nearly in line, a third at an angle with the impulse through both centres, a third as it comes."""
+    """A third nearly in line, a third at an angle with the impulse through both centres, a third as it comes; shuffled."""
     third = count // 3
     rng = np.random.default_rng(SEED)
 
@@ -166,7 +166,7 @@ def traffic(count: int) -> dict[str, Any]:
         angled[side] = of((*velocity, zero, -sign * reach, -sign * reach * friction * way + spread(0.02)))
     for part in (in_line, angled):
         part |= {"restitution": rng.uniform(0.0, 0.4, third), "normal": zero, "point": (zero, zero)}
-    return _joined([in_line, angled, batch_speed.scenes(count - 2 * third)])
+    return _taken(_joined([in_line, angled, batch_speed.scenes(count - 2 * third)]), rng.permutation(count))
 
 
 def _joined(parts: list[Any]) -> Any:
@@ -176,6 +176,14 @@ def _joined(parts: list[Any]) -> Any:
     if isinstance(first, tuple):
         return tuple(_joined(list(values)) for values in zip(*parts, strict=True))
     return np.concatenate(parts)
+
+
+def _taken(scenes: Any, order: Any) -> Any:
+    if isinstance(scenes, dict):
+        return {name: _taken(value, order) for name, value in scenes.items()}
+    if isinstance(scenes, tuple):
+        return tuple(_taken(value, order) for value in scenes)
+    return scenes[order]
 
 
 def choices(count: int, contacts: dict[str, Any], pymunk: ModuleType | None) -> dict[str, Any]:

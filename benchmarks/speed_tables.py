@@ -133,12 +133,12 @@ def threads(found: dict[str, Any]) -> str:
 def solving(found: dict[str, Any]) -> str:
     """What ``solve`` costs in a batch, and why."""
     known = {key: row["median"] for key, row in rows(found, "batch").items()}
-    thirds = sum(known[model] for model in ("solve_linear", "oblique_central", "eccentric")) / 3.0
+    thirds = sum(known[f"solve_all_{model}"] for model in ("linear_central", "oblique_central", "eccentric")) / 3.0
     return (
         f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`. Each case is worked out by "
-        "its own model. Where the cases of a model stand side by side they cost just that; where they are mixed they are "
-        "gathered and put back in their places: a third of the cases for each model, without the prediction, cost "
-        f"{number(known['solve_known'] / thirds)} times the mean of the three over the same arrays. The prediction itself "
+        "its own model. Where a stretch of cases takes one model it costs just that; where models are mixed the cases of "
+        "each are gathered and put back in their places: a third for each model, shuffled and without the prediction, cost "
+        f"{number(known['solve_known'] / thirds)} times the mean of the three, each for all of the same cases. The prediction "
         "costs every case the same, because an error to 10 percent for any lever needs the impulse by all three models; the "
         "rest of their answers it leaves out."
     )
@@ -149,7 +149,7 @@ def memory(found: dict[str, Any]) -> str:
     taken, cases = found["memory"], f"{found['effort']['cases']:,}".replace(",", " ")
     return (
         f"Beyond inputs and answers a batch of {cases} cases takes {number(taken['eccentric'])} MiB in `eccentric`, "
-        f"{number(taken['solve'])} MiB in `solve` and {number(taken['left_out'])} MiB in `left_out`, whatever the number of "
+        f"{number(taken['solve'])} MiB in `solve` and {number(taken['left_out'])} MiB in `left_out`, and no more with more "
         f"cases. Each thread has scratch of its own: with two threads `eccentric` takes "
         f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB. The budget of 8 MiB below is "
         f"that of `eccentric` on one thread."

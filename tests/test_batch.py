@@ -8,6 +8,7 @@ import pytest
 
 import collisions as col
 from collisions.kernels.batch import BLOCK
+from collisions.kernels.codes import OUTPUTS
 
 B = col.Vehicle(mass=950.0, vy=5.0, yaw_rate=0.2, yaw_inertia=1500.0, x=3.0, y=0.4)
 PLACE = {"normal": 0.1, "point": (1.7, 0.3)}
@@ -198,6 +199,19 @@ def test_an_answer_beyond_float32_is_refused(cases):
     for name in ("energy_loss", "energy_loss_normal", "normal_impulse", "compression_impulse", "effective_mass", "slip_before"):
         assert np.isnan(getattr(impact, name)[1]), name
         assert np.isfinite(getattr(impact, name)[[0, 2]]).all(), name
+
+
+@pytest.mark.parametrize("cases", [3, 20000])
+def test_a_case_that_one_answer_refuses_has_no_other(cases):
+    """Both losses are 0.5 * 1 kg * v**2 = 2.42e38 J, which float32 holds; of their sum it holds no more than 3.40e38."""
+    a = col.Vehicle(mass=1.0, vx=2.2e19, vy=2.2e19, heading=np.zeros(cases, dtype=np.float32))
+    impact = col.oblique_central(a, col.Vehicle.barrier(), 0.0, normal=0.0, friction=math.inf, on_failure="nan")
+    assert impact.energy_loss_normal.dtype == np.float32
+    assert (impact.status == col.Status.OUT_OF_RANGE).all()
+    for name in ("energy_loss", "energy_loss_normal", "compression_impulse", "slip_before"):
+        assert np.isnan(getattr(impact, name)).all(), name
+        assert not getattr(impact, name).flags.writeable
+    assert not impact._raw[OUTPUTS.index("sticks")].any()
 
 
 def test_a_batch_without_a_case_asks_for_what_one_with_cases_does():
