@@ -939,9 +939,29 @@ def test_outlines_may_be_given_in_any_form():
 def test_the_outline_turns_with_the_vehicle():
     """The side of B, which heads along y, is towards A."""
     assert of("point_outside", square(), outline_b=(4.4, 1.8)) == []
-    (finding,) = of("point_outside", square(b={"heading": 0.0}), outline_b=(1.2, 4.4))
+    (finding,) = of("point_outside", square(b={"heading": 0.0}), outline_b=("1.2 m", "4.4 m"))
     assert finding.vehicle == "b"
     assert finding.measured == pytest.approx(0.3, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("outline", "worst"),
+    [
+        ((4500, 1800), ["outline_a (length) = 4500", "outline_a (width) = 1800"]),
+        ((15, 6), ["outline_a (width) = 6"]),
+        ([(2200, 800), (-2300, 800), (-2300, -800), (2200, -800)], ["outline_a (length) = 4500", "outline_a (width) = 1600"]),
+        (np.array([(7.0, 3.0), (-8.0, 3.0), (-8.0, -3.0), (7.0, -3.0)]), ["outline_a (width) = 6"]),
+    ],
+)
+def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
+    """The door takes bare numbers for metres and says so; a unit, and a long bus, are beyond suspicion."""
+    with pytest.warns(col.SuspectUnitsWarning) as caught:
+        col.diagnose(square(), outline_a=outline)
+    told = [str(one.message) for one in caught if one.message.code == "suspect_units"]
+    assert len(told) == len(worst)
+    for text, start in zip(told, worst, strict=True):
+        assert text.startswith(start + " is read as metres")
+    col.diagnose(square(), outline_a=("15 ft", "6 ft"), outline_b=(18.75, 2.55))
 
 
 # Headings, places and a drag that are plainly wrong.
@@ -1015,7 +1035,9 @@ def test_a_drag_in_percent_is_found():
         (finding,) = of("suspect_drag", square(), drag=70)
     assert (finding.measured, finding.limit) == (70.0, 1.5)
     assert "were percent or m/s2 meant?" in finding.sentence
-    assert of("suspect_drag", balance(), drag="2") != []
+    with pytest.warns(col.SuspectUnitsWarning, match="drag = 2"):
+        assert of("suspect_drag", balance(), drag="2") != []
+    assert of("suspect_drag", balance(), drag="200 %") != []
     assert of("suspect_drag", balance(), drag="6.9 m/s**2") == []
 
 

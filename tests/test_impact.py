@@ -356,3 +356,26 @@ def test_an_index_that_is_no_case_is_refused(index):
     with pytest.raises(col.InputError, match=r"got .*write impact\.case\(0\)") as caught:
         SCENES[1].case(index)
     assert (caught.value.code, caught.value.fields["argument"]) == ("bad_index", "index")
+
+
+@pytest.mark.parametrize("heading", ["90 deg", "-90 deg", math.pi / 2, -math.pi / 2, np.array([math.pi / 2, -math.pi / 2])])
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_struck_from_behind_is_pi_and_not_minus_pi(heading, kind):
+    """Of a car that is hit straight from behind the last bit of its heading does not decide the sign: PDOF is in (-pi, pi]."""
+    heading = heading.astype(kind) if isinstance(heading, np.ndarray) else heading
+    body = {"mass": 1500.0, "heading": heading}
+    for way in (1.0, -1.0):
+        a, b = col.Vehicle(vy=10.0 * way, **body), col.Vehicle(**body)
+        impact = col.oblique_central(a, b, 0.1, normal=(0.0, way), friction=0.0)
+        for side in (impact.a, impact.b):
+            turned = np.asarray(side.pdof)
+            ahead = abs(turned) < 1.0
+            np.testing.assert_allclose(turned[~ahead], np.full(np.count_nonzero(~ahead), math.pi), rtol=1e-6)
+            assert (turned > -3.0).all()
+
+
+def test_only_what_moves_across_is_named():
+    """By the linear model, which cannot hold it."""
+    with pytest.raises(col.InputError, match="a moves at 3 m/s across it; use") as caught:
+        col.linear_central(col.Vehicle(mass=1500, vx=10, vy=3), col.Vehicle(mass=1500), 0.1)
+    assert "b moves" not in str(caught.value)

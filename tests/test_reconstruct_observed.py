@@ -691,7 +691,7 @@ CRUSH = [
     ("bad_units", (1.5, pint.Quantity([0.3, 0.1], "kg"), 4e4, 6e5), {}, ["depths: [0.3 0.1] kilogram cannot be taken as m"]),
     ("bad_units", (1.5, [0.3, "4 kg"], 4e4, 6e5), {}, ["depths[1]"]),
     ("bad_units", (1.5, [0.3, 0.1], "200 lb/in", 6e5), {}, ["stiffness_a", "lbf/in"]),
-    ("out_of_range", (1.5, [1e200, 0.1], 4e4, 6e5), {}, ["not a finite number"]),
+    ("out_of_range", (1.5, ["1e200 m", 0.1], 4e4, 6e5), {}, ["not a finite number"]),
 ]
 
 
@@ -772,3 +772,28 @@ def test_a_coordinate_nothing_needs_still_says_how_many_cases():
     listed = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, y=np.zeros(3))
     found = reconstruct.restitution(a, listed, a.replace(vx=-1.0), wall, normal=0.0, point=(0.0, 0.0))
     assert found.tolist() == [0.1, 0.1, 0.1]
+
+
+@pytest.mark.parametrize(
+    ("widths", "depths", "told"),
+    [
+        (60, [5, 10], ["depths = 10", "widths = 60"]),
+        (1.5, [12, 25], ["depths = 25"]),
+        ("1.5 m", np.array([120.0, 250.0]), ["depths = 250"]),
+        ([1500, "0.8 m"], [0.1, 0.2, "30 cm"], ["widths = 1500"]),
+        (pint.Quantity(60, "in"), [pint.Quantity(5, "in"), np.array([10.0, 11.0])], ["depths = 11"]),
+    ],
+)
+def test_crush_in_inches_or_centimetres_is_suspected(widths, depths, told):
+    """Numbers without a unit are metres, and no car is crushed by two; one warning for each argument."""
+    with pytest.warns(col.SuspectUnitsWarning) as caught:
+        reconstruct.crush_energy(widths, depths, "35 kN/m", "450 kN/m**2")
+    assert [str(one.message).partition(" is read as metres")[0] for one in caught] == told
+
+
+def test_crush_with_units_is_beyond_suspicion():
+    """The same in inches, pounds and inches, and in metres: 60 in wide, 5 in and 10 in deep."""
+    us = reconstruct.crush_energy("60 in", ["5 in", "10 in"], "200 lbf/in", "65 lbf/in**2")
+    # 60 (200 * 7.5 + 65 (25 + 50 + 100) / 6 + 200**2 / 130) lbf*in, and one is 0.112984829... J by the definition of the pound.
+    whole = 60 * (200 * 7.5 + 65 * 175 / 6 + 200**2 / 130)
+    assert us == pytest.approx(whole * 0.45359237 * 9.80665 * 0.0254, rel=1e-13)

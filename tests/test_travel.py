@@ -896,3 +896,23 @@ def test_every_function_of_travel_has_a_docstring():
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__ and not name.startswith("_"):
                 assert member.__doc__, name
+
+
+@pytest.mark.parametrize(
+    "number", [5, "5", pint.Quantity(5, ""), np.array([0.1, 5.0])], ids=["bare", "text", "quantity", "array"]
+)
+def test_a_number_without_a_unit_is_suspected_however_it_is_written(number):
+    """5 for 5 percent as a grade, and as a drag; "500 %" is what somebody meant."""
+    with pytest.warns(col.SuspectUnitsWarning, match="grade = 5 is read as the rise over the run"):
+        travel.speed("20 m", drag=0.7, grade=number)
+    with pytest.warns(col.SuspectUnitsWarning, match="drag = 5 is read as a fraction of gravity"):
+        travel.speed("20 m", drag=number)
+    with pytest.warns(col.SuspectUnitsWarning, match="friction = 5 is read as a fraction of the load"):
+        travel.path([(0.0, 0.0), (9.0, 1.0)], [0.0, 1.0], friction=number, lock=1.0)
+    travel.speed("20 m", drag="500 %")
+
+
+def test_an_empty_list_is_said_to_be_empty_and_nothing_else():
+    """What stands beside it is not wrong because of it."""
+    error = refusal(lambda: travel.speed([], drag=[0.7], grade=[0.0]))
+    assert str(error) == "distance is an empty list; give at least one segment"

@@ -224,6 +224,43 @@ def test_hertz_is_no_yaw_rate(given):
         col.Vehicle(mass=1.0, yaw_rate=given)
 
 
+@pytest.mark.parametrize(
+    ("field", "given", "said"),
+    [
+        ("vx", "80 kmph", "kilo-mile per hour"),
+        ("vx", "50 hmph", "hecto-mile per hour"),
+        ("vx", "5 kkn", "kilo-knot"),
+        ("vx", "100 dkph", "deci-kilometer per hour"),
+        ("vx", pint.Quantity(20, "kilofoot_per_second"), "kilo-foot per second"),
+        ("yaw_rate", "5 mrpm", "milli-revolutions per minute"),
+        ("mass", "1.5 mt", "milli-metric ton"),
+        ("heading", "1600 mil", "a mil is one of 6400"),
+    ],
+)
+def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
+    """Pint puts prefixes before everything: "80 kmph" would be 80 thousand miles an hour, "1.5 mt" 1.5 kg."""
+    with pytest.raises(col.UnitsError, match=said) as caught:
+        col.Vehicle(**{"mass": 1500, field: given})
+    assert caught.value.code == "bad_units"
+
+
+@pytest.mark.parametrize(
+    ("field", "given", "value"),
+    [
+        ("vx", "80 kph", 80 / 3.6),
+        ("vx", "20 mm/ms", 20.0),
+        ("vx", "50 kn", 50 * 1852 / 3600),
+        ("mass", "1.5 t", 1500.0),
+        ("mass", "1.5 Mg", 1500.0),
+        ("mass", "80 klb", 80e3 * 0.45359237),
+        ("heading", "20 mrad", 0.02),
+    ],
+)
+def test_prefixes_that_are_meant(field, given, value):
+    """Of what is no rate, and in a quotient."""
+    assert getattr(col.Vehicle(**{"mass": 1500, field: given}), field) == pytest.approx(value, rel=1e-15)
+
+
 def test_revolutions_are_a_yaw_rate():
     """rpm carries its turns with it."""
     assert col.Vehicle(mass=1.0, yaw_rate="1 rpm").yaw_rate == pytest.approx(2 * math.pi / 60, rel=4 * 2**-52)

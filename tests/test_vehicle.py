@@ -233,3 +233,14 @@ def test_a_velocity_along_one_axis_stays_a_plain_number_where_the_other_is_an_ar
     assert vx.tolist() == [-0.5, -1.5]
     assert type(vy) is float
     assert vy == 1.0
+
+
+def test_replace_takes_fields_only():
+    """A speed and a course are those of a new vehicle; the record of an impact may hold no other field either."""
+    with pytest.raises(TypeError, match=r"replace\(\) takes the fields .*got 'speed'.*Vehicle\.from_speed"):
+        col.Vehicle(mass=900).replace(speed=10, course=0)
+    record = col.linear_central(col.Vehicle(mass=900, vx=10), col.Vehicle(mass=900), 0.1).to_dict()
+    record["inputs"]["a"]["colour"] = 1.0
+    with pytest.raises(col.InputError, match="a vehicle has no 'colour'") as caught:
+        col.Impact.from_dict(record)
+    assert caught.value.code == "bad_record"

@@ -118,13 +118,17 @@ def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
 
 
 def angle_of(x: Any, y: Any) -> Value:
-    """Direction of a vector [rad] in (-pi, pi]; NaN without a length. Adding 0 turns -0 into 0, which would give -pi."""
+    """Direction of a vector [rad] in (-pi, pi]; NaN without a length."""
     if isinstance(x, float) and isinstance(y, float):
         atan2: Any = math.atan2
     else:
         atan2 = np.arctan2
-    angle: Value = select((x == 0.0) & (y == 0.0), math.nan, atan2(y + 0.0, x))
-    return angle
+    angle = atan2(y, x)
+    # Of what points straight back but for the last bit, or for the sign of a 0.
+    angle = select(angle <= -math.pi, -angle, angle)
+    # Adding 0 turns the -0 of a 0 into 0.
+    found: Value = select((x == 0.0) & (y == 0.0), math.nan, angle + 0.0)
+    return found
 
 
 def from_radians(angle: Any) -> tuple[Any, Any]:

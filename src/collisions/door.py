@@ -13,7 +13,7 @@ import numpy as np
 
 from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
 from .quiet import warn
-from .units import example, factor, in_degrees, is_quantity, parse, shown
+from .units import example, factor, has_unit, in_degrees, is_quantity, parse, shown
 
 POSITIVE = "positive"
 FINITE = "finite"
@@ -127,6 +127,21 @@ def largest(value: Any) -> float:
     # fmin and fmax pass over NaN, and reductions make no temporary.
     low, high = (float(bound.reduce(value, axis=None, initial=0.0)) for bound in (np.fmin, np.fmax))
     return max(-low, high)
+
+
+def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: str, *units: str) -> None:
+    """Warns that a number without a unit is so large that it may have been meant in one of these units."""
+    worst = largest(read)
+    if limit < worst < math.inf and not has_unit(given):
+        spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
+        warn(
+            SuspectUnitsWarning(
+                f"{argument} = {worst:g} is read as {meaning}; if another unit was meant, write {spelled}",
+                code="suspect_units",
+                argument=argument,
+                value=worst,
+            )
+        )
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
@@ -253,7 +268,7 @@ def _outside(value: float, domain: str, argument: str, given: Any) -> InputError
     if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
         code = "bad_restitution" if argument == "restitution" else "bad_fraction"
         text = f"{argument} must be from 0 to 1, got {shown(given)}"
-        if 1.0 < value <= 100.0:
+        if 1.1 <= value <= 100.0:
             text += f"; if percent were meant, write '{value:g} %'"
         return InputError(text, code=code, argument=argument)
     if domain == NOT_NEGATIVE and not value >= 0.0:

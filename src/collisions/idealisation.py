@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .amounts import at_least_zero
-from .door import Door, broadcast
+from .door import Door, broadcast, warn_if_large
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
 from .fields import Shown, lock, numeric
@@ -18,8 +18,8 @@ from .kernels.batch import flat, precision
 from .kernels.select import select
 from .quiet import quietly, warn_of_cases
 from .travel.chain import GRAVITY, out_of_range
-from .travel.reading import one_value, read_drag, warn_if_above
-from .units import Input, Value, is_quantity
+from .travel.reading import one_value, read_drag
+from .units import Input, Value
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
@@ -267,8 +267,7 @@ def _assembled(found: dict[str, Any]) -> LeftOut:
 def _read_duration(door: Door, duration: Any) -> Any:
     read = one_value(door, duration, "s", "duration")
     read = at_least_zero(door, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
-    if not (isinstance(duration, str) or is_quantity(duration)):
-        warn_if_above(_LONGEST, read, "duration", "seconds", "ms")
+    warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")
     return read
 
 

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from .directions import from_radians
-from .door import POSITIVE, Door
+from .door import POSITIVE, Door, warn_if_large
 from .errors import InputError, ShapeError
-from .units import is_quantity, shown
+from .units import has_unit, is_quantity, shown
 from .vehicle import Vehicle
 
 # Sines of corners closer to straight than this are no dents.
 _STRAIGHT = 1e-9
+# In metres: no road vehicle is larger, so a bare number beyond is in another unit.
+_LONGEST, _WIDEST = 30.0, 3.5
 
 
 def read_outline(door: Door, given: Any, argument: str) -> Any:
@@ -22,7 +25,8 @@ def read_outline(door: Door, given: Any, argument: str) -> Any:
     whole = given.magnitude if is_quantity(given) else given
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = door.number(given, "m", argument)
-        return _polygon(door, read, argument) if isinstance(read, np.ndarray) else None
+        polygon = _polygon(door, read, argument) if isinstance(read, np.ndarray) else None
+        return _of_likely_size(polygon, [given], argument)
     if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
         count = len(door.problems)
         corners = [door.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
@@ -30,10 +34,19 @@ def read_outline(door: Door, given: Any, argument: str) -> Any:
             return None
         if any(isinstance(number, np.ndarray) for corner in corners for number in corner):
             return _bad_shape(door, given, argument)
-        return _polygon(door, np.array(corners), argument)
+        parts = [part for corner in given for part in corner]
+        return _of_likely_size(_polygon(door, np.array(corners), argument), parts, argument)
     if isinstance(given, tuple) and len(given) in (2, 3):
         return _rectangle(door, given, argument)
     return _bad_shape(door, given, argument)
+
+
+def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
+    """The corners, with a warning if numbers without a unit make a vehicle that is too large."""
+    if corners is not None and not any(map(has_unit, given)):
+        for size, limit, name in zip(np.ptp(corners, axis=0), (_LONGEST, _WIDEST), ("length", "width"), strict=True):
+            warn_if_large(None, float(size), limit, f"{argument} ({name})", "metres", "ft", "mm")
+    return corners
 
 
 def _bad_shape(door: Door, given: Any, argument: str) -> None:
@@ -68,6 +81,8 @@ def _rectangle(door: Door, given: tuple[Any, ...], argument: str) -> Any:
             )
         )
         return None
+    for value, read, limit, name in ((given[0], length, _LONGEST, "length"), (given[1], width, _WIDEST, "width")):
+        warn_if_large(value, read, limit, f"{argument} ({name})", "metres", "ft", "mm")
     front, back, side = 0.5 * length - ahead, -0.5 * length - ahead, 0.5 * width
     return np.array([(front, side), (back, side), (back, -side), (front, -side)])
 

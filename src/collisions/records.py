@@ -126,6 +126,9 @@ def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, 
 
 def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
     """A vehicle again; the door takes no NaN, which is the motion of one that was looked for and not found."""
+    unknown = state.keys() - set(NAMES)
+    if unknown:
+        raise bad_record(f"a vehicle has no {min(unknown)!r}")
     motion = [state[name] for name in _MOTION]
     if not lost or any(isinstance(part, np.ndarray) for part in motion):
         return Vehicle._of_numbers(state)

@@ -76,6 +76,7 @@ def refusal(asked: Asked, raw: tuple[Any, ...]) -> CollisionsError:
         across = ", ".join(
             f"{side} moves at {nx * body.vy - ny * body.vx:.6g} m/s across it"
             for side, body in (("a", asked.a), ("b", asked.b))
+            if nx * body.vy - ny * body.vx != 0.0
         )
         return InputError(
             f"linear_central takes motion along the normal ({nx:.4g}, {ny:.4g}) only, and {across}; use oblique_central, or "

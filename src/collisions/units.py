@@ -221,6 +221,8 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
             raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * one or _is_of_another_kind(quantity, unit):
             raise _bad_units(given, unit, argument, None)
+        if hint := _hardly_meant(quantity):
+            raise _bad_units(given, unit, argument, None, hint)
         if not in_context:
             known[key] = found
     return found
@@ -249,17 +251,31 @@ def _is_of_another_kind(quantity: Any, unit: str) -> bool:
     return unit in ("rad", "rad/s") and any(name.endswith(_COUNTS) for name in names)
 
 
-def _bad_units(given: Any, unit: str, argument: str, error: Exception | None) -> UnitsError:
+def _hardly_meant(quantity: Any) -> str:
+    """What to say of a unit that pint knows and that hardly anybody means by its name; "" of others."""
+    registry = quantity._REGISTRY
+    for name in map(str, quantity._units):
+        if name == "mil":
+            return "; a mil is one of 6400, 6300 or 6000 to the turn, and pint's is none of them: write 'deg' or 'rad'"
+        (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]
+        powers = {str(kind): power for kind, power in registry.get_dimensionality(root).items()}
+        is_rate = powers.pop("[time]", 0) == -1 and powers in ({"[length]": 1}, {})
+        if prefix and (is_rate or root == "metric_ton"):
+            return f"; to pint it is a {prefix}-{root.replace('_', ' ')}"
+    return ""
+
+
+def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "") -> UnitsError:
     wanted = unit or "a plain number without a unit"
     reason = f" ({error})" if error is not None else ""
-    hint = ""
     text = str(given)
-    is_timed = "[time]" in str(getattr(error, "dim1", ""))
-    if unit == "kg" and is_timed:
+    dimensions = str(getattr(error, "dim1", ""))
+    is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
+    if unit == "kg" and is_force:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
-    elif unit == "kg*m**2" and is_timed:
+    elif unit == "kg*m**2" and is_force:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
-    elif unit == "rad/s" and error is None:
+    elif unit == "rad/s" and error is None and not hint:
         hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     return UnitsError(
         f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",

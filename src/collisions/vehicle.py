@@ -177,6 +177,12 @@ class Vehicle(_Written):
         >>> Vehicle(mass=900.0).replace(yaw_inertia=1200.0)
         Vehicle(mass=900 kg, yaw_inertia=1200 kg*m**2)
         """
+        unknown = [name for name in changes if name not in NAMES]
+        if unknown:
+            raise TypeError(
+                f"replace() takes the fields of a Vehicle ({', '.join(NAMES)}), got {unknown[0]!r}; speed and course make a "
+                f"new one by Vehicle.from_speed"
+            )
         kept = {name: getattr(self, name) for name in NAMES}
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
             kept["vx"] = kept["vy"] = 0.0

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..door import Door
+from ..door import Door, warn_if_large
 from ..errors import InputError
 from ..impact import Impact
-from ..travel.reading import one_value, warn_if_above
+from ..travel.reading import one_value
 from ..unit_systems import UnitSystem
-from ..units import Input, is_quantity, shown
+from ..units import Input, shown
 from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:
@@ -80,8 +80,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
             code="not_positive",
             argument="duration",
         )
-    if not (isinstance(duration, str) or is_quantity(duration)):
-        warn_if_above(_LONGEST, time, "duration", "seconds", "ms")
+    warn_if_large(duration, time, _LONGEST, "duration", "seconds", "ms")
     axes = begin(axes)
 
     e = impact.restitution

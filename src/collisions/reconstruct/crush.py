@@ -10,14 +10,16 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle
-from ..door import Door
+from ..door import Door, largest, warn_if_large
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels import codes
 from ..quiet import warn
-from ..units import Input, Value, is_quantity, shown
+from ..units import Input, Value, has_unit, is_quantity, shown
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
+# In metres: no car is crushed so deep, and no gap between two depths is so wide.
+_DEEPEST, _WIDEST = 2.0, 10.0
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
 
 
@@ -68,6 +70,8 @@ def crush_energy(
     -----
     OutOfRangeWarning
         The angle is beyond 45 degrees, where the correction exceeds 2 and the model is not used.
+    SuspectUnitsWarning
+        A depth above 2 m or a gap above 10 m, given without a unit.
 
     Examples
     --------
@@ -115,6 +119,8 @@ def crush_energy(
             )
         )
     door.close()
+    _warn_if_large(depths, crush, _DEEPEST, "depths")
+    _warn_if_large(widths, gaps, _WIDEST, "widths")
     numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
     numbers["stiffness_a"] = a
     cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
@@ -147,6 +153,13 @@ def crush_energy(
         raise _too_large()
     absorbed: Value = cases.values(np.where(np.equal(status, codes.OK), energy, np.nan))
     return absorbed
+
+
+def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str) -> None:
+    """One warning for all of a profile that was given without a unit."""
+    parts = given if isinstance(given, (list, tuple)) else [given] * len(read)
+    bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
+    warn_if_large(None, max(bare, default=0.0), limit, name, "metres", "cm", "in")
 
 
 def _profile(door: Door, value: Any, name: str) -> Any:

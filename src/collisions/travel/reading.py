@@ -7,9 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from ..amounts import at_least_zero
-from ..door import FINITE, Door, largest
-from ..errors import ShapeError, SuspectUnitsWarning, UnitsError
-from ..quiet import warn
+from ..door import FINITE, Door, warn_if_large
+from ..errors import ShapeError, UnitsError
 from ..units import Input, is_quantity, shown
 from .chain import GRAVITY
 
@@ -70,12 +69,11 @@ def read_speed(door: Door, value: Any, name: str) -> Any:
 
 def read_drag(door: Door, value: Any, name: str) -> Any:
     """The drag factor, also from a deceleration."""
-    bare = not (isinstance(value, str) or is_quantity(value))
-    read = one_value(door, value, "", name) if bare else _factor_or_deceleration(door, value, name)
+    either = isinstance(value, str) or is_quantity(value)
+    read = _factor_or_deceleration(door, value, name) if either else one_value(door, value, "", name)
     why = "it says how much the ground slows the vehicle, whatever way it goes"
     read = at_least_zero(door, read, value, name, "negative_drag", why)
-    if bare:
-        warn_if_above(HIGHEST_DRAG, read, name, "a fraction of gravity", "m/s**2", "%")
+    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of gravity", "m/s**2", "%")
     return read
 
 
@@ -99,21 +97,5 @@ def _factor_or_deceleration(door: Door, value: Any, name: str) -> Any:
 def read_grade(door: Door, value: Any, name: str) -> Any:
     """The rise over the run, with a warning if a bare number is steeper than any road."""
     read = one_value(door, value, "", name)
-    if not (isinstance(value, str) or is_quantity(value)):
-        warn_if_above(_STEEPEST_GRADE, read, name, "the rise over the run", "%")
+    warn_if_large(value, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
     return read
-
-
-def warn_if_above(limit: float, read: Any, name: str, meaning: str, *units: str) -> None:
-    """Warns that a bare number is so large that it may have been meant in one of these units."""
-    worst = largest(read)
-    if limit < worst < math.inf:
-        spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
-        warn(
-            SuspectUnitsWarning(
-                f"{name} = {worst:g} is read as {meaning}; if another unit was meant, write {spelled}",
-                code="suspect_units",
-                argument=name,
-                value=worst,
-            )
-        )

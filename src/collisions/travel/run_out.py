@@ -12,17 +12,17 @@ import numpy as np
 
 from ..amounts import at_least_zero
 from ..directions import angle_of
-from ..door import UNIT_INTERVAL, Door, broadcast
+from ..door import UNIT_INTERVAL, Door, broadcast, warn_if_large
 from ..errors import InputError, OutOfRangeWarning
 from ..fields import Shown, derived, hypot, numeric
 from ..fields import lock as write_locked
 from ..kernels.select import divisor, select
 from ..quiet import warn
-from ..units import Input, Pair, Value, is_quantity, shown
+from ..units import Input, Pair, Value, shown
 from .chain import durations_along, out_of_range, speeds_along
 from .lanes import settle
 from .places import read_headings, read_points, turns_too_far
-from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed, warn_if_above
+from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
 
 # For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
 _NOT_CHECKED = ""
@@ -303,8 +303,7 @@ def _read_friction(door: Door, value: Any, name: str) -> Any:
     if isinstance(read, float) and not math.isfinite(read):
         return door.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
     read = at_least_zero(door, read, value, name, "bad_friction", "its direction is worked out")
-    if not (isinstance(value, str) or is_quantity(value)):
-        warn_if_above(HIGHEST_DRAG, read, name, "a fraction of the load", "%")
+    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read
 
 

@@ -197,7 +197,7 @@ class _Run:
             door.refuse(
                 ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance")
             )
-        count = len(length) if listed else 0
+        count = (len(length) or None) if listed else 0
         self.listed = listed
         self.lengths = for_each(door, length, "distance", count, read_length)
         drags = for_each(door, drag, "drag", count, read_drag)
