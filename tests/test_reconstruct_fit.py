@@ -902,6 +902,28 @@ def identity(x):
 
 
 GOOD = ({"x": 1.0}, {"x": (1.0, 0.1)})
+RANDOM = np.random.default_rng(1)
+
+
+def test_a_few_cases_are_asked_again_alone(monkeypatch):
+    """In the first call from all starts, four; the fit is the same to the bit as without them."""
+    sizes = []
+
+    def model(x, y):
+        sizes.append(len(x))
+        return {"a": x * y, "b": x - y, "c": np.where(x < 9.0, x, np.nan)}
+
+    def fitted():
+        sizes.clear()
+        unknowns = {"x": Interval(0, 10), "y": Normal(2, 1)}
+        return fit(model, unknowns, {"a": (6.0, 0.1), "b": (1.0, 0.2), "c": (3.1, 0.3)}).to_dict(), list(sizes)
+
+    compared, asked_of = fitted()
+    assert asked_of[:6] == [2, 64 * 5, 1, 1, 1, 1]
+    monkeypatch.setattr("collisions.uncertainty.model.check_alone", lambda *of: True)
+    plain, asked_of_plain = fitted()
+    assert plain == compared
+    assert asked_of_plain == [size for k, size in enumerate(asked_of) if not 2 <= k < 6]
 
 
 @pytest.mark.parametrize(
@@ -910,6 +932,11 @@ GOOD = ({"x": 1.0}, {"x": (1.0, 0.1)})
         (3.0, *GOOD, col.InputError, "bad_model", "model must be a function"),
         (identity, {"y": 1.0}, GOOD[1], col.InputError, "bad_model", r"model\(y=...\)"),
         (lambda x: {"x": math.sqrt(x)}, *GOOD, col.InputError, "bad_model", "numpy in place of math"),
+        (lambda x: {"x": x - x.mean() + 5.0}, {"x": Interval(0, 10)}, {"x": (5, 1)}, col.InputError, "bad_model", "model mixes cases: among 192 cases"),
+        (lambda x: {"x": x - x.mean() + 5.0}, {"x": 4.0}, {"x": (5, 1)}, col.InputError, "bad_model", "In place of what is taken over all"),
+        (lambda x: {"x": x * x.max()}, {"x": Normal(2, 1)}, {"x": (5, 1)}, col.InputError, "bad_model", "for that case alone"),
+        (lambda x: {"x": x + RANDOM.normal(size=x.shape)}, *GOOD, col.InputError, "bad_model", "draws random numbers"),
+        (lambda x: {"x": np.gradient(x)}, *GOOD, col.InputError, "bad_model", "among others, but not alone"),
         (lambda x: {"x": 1.0 if x > 0 else 2.0}, *GOOD, col.InputError, "bad_model", r"numpy.where in place of if"),
         (lambda x: x, *GOOD, col.InputError, "bad_model", "dict of named outputs"),
         (lambda x: {"x": x[:1]}, *GOOD, col.ShapeError, "bad_shape", "'x'"),

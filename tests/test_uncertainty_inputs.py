@@ -605,7 +605,10 @@ BIG = 1.7e308
         (lambda: Normal(1, 1, truncate=(2, 2)), col.InputError, "bad_range", "rising order"),
         (lambda: Normal(1, 1, truncate=0), col.ShapeError, "bad_shape", "pair (low, high), where None leaves a side open, got 0"),
         (lambda: Normal(1, 1, truncate=(0, 1, 2)), col.ShapeError, "bad_shape", "pair (low, high)"),
-        (lambda: Normal(1, 1, truncate=(0, INF)), col.InputError, "not_finite", "truncate[1] must be finite"),
+        (lambda: Normal(1, 1, truncate=(0, INF)), col.InputError, "not_finite", "truncate[1] must be finite, got inf; write None for an end that is open"),
+        (lambda: Normal("1 m", "1 m", truncate=("-inf m", None)), col.InputError, "not_finite", "truncate[0] must be finite, got '-inf m'; write None"),
+        (lambda: LogNormal.between(1, 2, 0.9, truncate=(0, math.nan)), col.InputError, "not_finite", "truncate[1] is NaN; write None"),
+        (lambda: Normal(1, 1, truncate=(0, [1, 2])), col.ShapeError, "bad_shape", "truncate[1] must be one number"),
         (lambda: Normal(0, 1, truncate=(7.1, None)), col.InputError, "truncated_away", "leaves less than 1e-12 of the probability of Normal(mean=0, sd=1)"),
         (lambda: Normal("1 m", "1 m", truncate=("-1e9 m", "-1e8 m")), col.InputError, "truncated_away", "(-1000000000 m, -100000000 m)"),
         (lambda: Normal(0, 1, truncate=(None, -1e200)), col.InputError, "truncated_away", "wrong bound"),
@@ -630,6 +633,14 @@ BIG = 1.7e308
         (lambda: Normal.between("1 m", 2, 0.9), col.UnitsError, "bad_units", "high = 2 has no unit"),
         (lambda: Uniform(1, 1), col.InputError, "bad_range", "give the number itself"),
         (lambda: Uniform(2, 1), col.InputError, "bad_range", "got 2 and 1"),
+        (lambda: Uniform("350 deg", "10 deg"), col.InputError, "bad_range", "(350 and 10 deg); an angle that goes on across the end of the turn is counted on: write '350 deg' and '370 deg'"),
+        (lambda: Interval("170 deg", "-170 deg"), col.InputError, "bad_range", "write '170 deg' and '190 deg'"),
+        (lambda: Triangular("-10 deg", "-20 deg", "-20 deg"), col.InputError, "bad_range", "(-10 and -20 deg); of a quantity"),
+        (lambda: Normal("0 deg", "9 deg", truncate=("330 deg", "20 deg")), col.InputError, "bad_range", "write '330 deg' and '380 deg'"),
+        (lambda: Normal.between("710 deg", "10 deg", 0.9), col.InputError, "bad_range", "write '710 deg' and '730 deg'"),
+        (lambda: Uniform("10 deg", "10 deg"), col.InputError, "bad_range", "got 0.174533 and 0.174533; of a quantity"),
+        (lambda: Uniform(6.1, 0.2), col.InputError, "bad_range", "got 6.1 and 0.2; of a quantity"),
+        (lambda: Uniform("6 m", "1 m"), col.InputError, "bad_range", "got 6 and 1; of a quantity"),
         (lambda: Uniform(-BIG, BIG), col.InputError, "out_of_range", "Uniform"),
         (lambda: Triangular(0, 2, 1), col.InputError, "bad_range", "mode must be from low to high, 0 to 1, got 2"),
         (lambda: Triangular(1, 1, 1), col.InputError, "bad_range", "rising order"),
@@ -657,6 +668,8 @@ BIG = 1.7e308
         (lambda: read_input("e", 1j), col.InputError, "not_a_number", "e must be a number"),
         (lambda: read_input("e", math.nan), col.InputError, "not_finite", "e is NaN"),
         (lambda: read_input("e", pint.Quantity(math.nan, "m")), col.InputError, "not_finite", "e is NaN"),
+        (lambda: read_input("e", [1.0, np.float64(2.0)]), col.ShapeError, "bad_shape", "e is a list of 2 numbers; measured values are given as Samples(values)"),
+        (lambda: read_input("e", [1]), col.ShapeError, "bad_shape", "e is a list of 1 number; measured"),
         (lambda: read_input("e", np.arange(3.0)), col.ShapeError, "bad_shape", "e is an array of shape (3,); measured values are given as Samples"),
         (lambda: read_input("v", pint.Quantity([1, 2], "m/s")), col.ShapeError, "bad_shape", "v is an array"),
         (lambda: read_input("law", "brach"), col.UnitsError, "bad_units", "law: cannot read 'brach'"),
@@ -735,7 +748,7 @@ def test_shown(stated, text):
 
 def test_read_input():
     vehicle, distribution, interval, pair = col.Vehicle(mass=900), Normal(1, 2), Interval(1, 2), (1.0, 2.0)
-    for other in (vehicle, distribution, interval, pair, None, [1.0, 2.0], len, Samples(VALUES)):
+    for other in (vehicle, distribution, interval, pair, None, [pair], [], len, Samples(VALUES)):
         assert read_input("x", other) is other
     for given, expected in (
         (0.4, 0.4),

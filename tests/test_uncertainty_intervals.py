@@ -198,7 +198,8 @@ def test_an_interval_is_never_drawn_from():
     searched, ran = [], []
 
     def model(x, k):
-        (searched if isinstance(k, np.ndarray) else ran).append((k, x))
+        if len(x) > 1:  # not where it is asked again alone
+            (searched if isinstance(k, np.ndarray) else ran).append((k, x))
         return {"y": x + k}
 
     found = propagate(model, {"x": Normal(0.0, 1.0), "k": Interval(2.0, 3.0)}, method="quasi_random", seed=1, samples=64)

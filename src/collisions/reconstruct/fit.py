@@ -49,8 +49,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases for every unknown [SI] and
-        answers each with an array as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``. What
-        is known exactly is written in the model.
+        answers each with an array as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``: every
+        case by itself, of which a few are asked again alone. What is known exactly is written in the model.
     unknowns : dict
         By name what is known before: a ``Normal`` (a prior that weighs in; ``truncate=`` are bounds), a ``Uniform`` or an
         ``Interval`` (bounds that weigh nothing), or a number, text or Quantity to start from (nothing known; searches start
@@ -69,7 +69,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model that returns something else than named arrays.
+        An argument that cannot be used, or a model (code "bad_model") that returns something else than named arrays, mixes the
+        cases it is called with, or answers the same case differently.
     AmbiguousSolutionError
         Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all are in ``solutions``.
         So it is with a friction that slides, or sticks whatever its value.

@@ -48,7 +48,7 @@ class Bell(Distribution):
         self._describe(*self._whole())
         if bounds is not None:
             low, high = (-math.inf if bounds[0] is None else bounds[0]), (math.inf if bounds[1] is None else bounds[1])
-            check_order(low, high, "the bounds of truncate")
+            check_order(low, high, "the bounds of truncate", unit)
             self._truncate(max(low, self.support[0]), min(high, self.support[1]))
 
     def _parts(self) -> dict[str, Any]:
@@ -307,7 +307,7 @@ def read_range(low: Input, high: Input, coverage: Input, truncate: Bounds | None
             code="bad_fraction",
             argument="coverage",
         )
-    check_order(numbers[0], numbers[1])
+    check_order(numbers[0], numbers[1], unit=unit)
     return numbers, share, unit
 
 

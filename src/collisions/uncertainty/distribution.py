@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import FrozenInstanceError
 from typing import Any, Self
 
 import numpy as np
 
-from ..door import Door
+from ..door import FINITE, Door
 from ..errors import InputError, ShapeError, UnitsError
 from ..units import has_unit, shown, si_unit
 from .standard_normal import both_tails
@@ -194,8 +195,11 @@ def read_alike(
             argument=bare[0],
         )
     door = Door()
-    numbers = {name: door.number(value, unit, name) for name, value in given.items()}
+    numbers = {name: door.number(value, unit, name, "any" if name in optional else FINITE) for name, value in given.items()}
     for name, number in numbers.items():
+        if name in optional and isinstance(number, float) and not math.isfinite(number):
+            what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
+            door.refuse(InputError(f"{name} {what}; write None for an end that is open", code="not_finite", argument=name))
         if isinstance(number, np.ndarray) is not arrays:
             what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
             door.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
@@ -208,12 +212,18 @@ def _is_zero(value: Any) -> bool:
     return isinstance(value, (int, float, np.integer)) and not isinstance(value, bool) and value == 0
 
 
-def check_order(low: float, high: float, what: str = "low and high") -> None:
-    """Refuses a range without width."""
-    if not low < high:
-        raise InputError(
-            f"{what} must be in rising order, got {low:.6g} and {high:.6g}; of a quantity that is known exactly give the "
-            f"number itself",
-            code="bad_range",
-            argument="low",
-        )
+def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:
+    """Refuses a range without width; of angles with a hint how to go on across the end of a turn."""
+    if low < high:
+        return
+    told, hint = f"{low:.6g} and {high:.6g}", "of a quantity that is known exactly give the number itself"
+    start, end = math.degrees(low), math.degrees(high)
+    if unit == "rad" and high < low:
+        told += f" rad ({start:.6g} and {end:.6g} deg)"
+        onwards = (end - start) % 360.0
+        if 0.0 < onwards < 180.0:
+            hint = (
+                f"an angle that goes on across the end of the turn is counted on: write '{start:.6g} deg' and "
+                f"'{start + onwards:.6g} deg'"
+            )
+    raise InputError(f"{what} must be in rising order, got {told}; {hint}", code="bad_range", argument="low")

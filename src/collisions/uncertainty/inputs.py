@@ -49,7 +49,7 @@ class Uniform(Distribution):
 
     def _make(self, unit: str, *parts: Any) -> None:
         low, high = parts
-        check_order(low, high)
+        check_order(low, high, unit=unit)
         self._set(unit=unit, support=(low, high))
         self._describe(0.5 * low + 0.5 * high, (high - low) / math.sqrt(12.0), 0.0, 1.8, (low, high))
 
@@ -93,7 +93,7 @@ class Triangular(Distribution):
 
     def _make(self, unit: str, *parts: Any) -> None:
         low, mode, high = parts
-        check_order(low, high)
+        check_order(low, high, unit=unit)
         if not low <= mode <= high:
             raise InputError(
                 f"mode must be from low to high, {low:.6g} to {high:.6g}, got {mode:.6g}", code="bad_range", argument="mode"
@@ -160,7 +160,7 @@ class Interval(Stated):
 
     def _make(self, unit: str, *parts: Any) -> None:
         low, high = parts
-        check_order(low, high)
+        check_order(low, high, unit=unit)
         self._set(unit=unit, low=low, high=high)
 
     def _parts(self) -> dict[str, Any]:
@@ -173,7 +173,7 @@ def read_input(name: str, value: Any) -> Any:
     Raises
     ------
     InputError
-        A boolean, NaN, an array, or a text that is no number with a unit.
+        A boolean, NaN, an array or a list of numbers, or a text that is no number with a unit.
 
     Examples
     --------
@@ -187,6 +187,13 @@ def read_input(name: str, value: Any) -> Any:
             f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
             f"and put them together in the model",
             code="bad_inputs",
+            argument=name,
+        )
+    if isinstance(value, list) and value and all(isinstance(part, (Number, np.generic)) for part in value):
+        raise ShapeError(
+            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values are given as Samples(values), "
+            f"the parts of a point as a tuple, and what the model needs as an array is written into the model itself",
+            code="bad_shape",
             argument=name,
         )
     if not (isinstance(value, (str, Number, np.generic)) or is_quantity(value) or hasattr(value, "__array__")):

@@ -12,6 +12,7 @@ from ..door import Door
 from ..errors import InputError, ShapeError
 from ..quiet import quietly
 from ..units import is_quantity, shown, si_unit
+from .alone import check_alone
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -29,9 +30,26 @@ class Model:
         self.function = function
         self.fixed = dict(fixed)
         self.units: dict[str, str | None] = {}
+        self._compared = False
 
-    def __call__(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
-        """The outputs of the cases, as new float arrays; what is not finite has no answer and is NaN."""
+    def at(self, place: Mapping[str, float]) -> Model:
+        """The same model with more inputs fixed."""
+        found = Model(self.function, {**self.fixed, **place})
+        found._compared = self._compared
+        return found
+
+    def __call__(self, values: Mapping[str, Any], count: int, compare: bool = True) -> dict[str, Any]:
+        """The outputs of the cases, as new float arrays; what is not finite has no answer and is NaN.
+
+        The first time, a few cases are asked again alone. ``compare=False`` leaves that to another call: of calls from several
+        threads always the same one is to do it.
+        """
+        found = self._answers(values, count)
+        if compare and not self._compared:
+            self._compared = check_alone(lambda case: self._answers(case, 1), values, found, count)
+        return found
+
+    def _answers(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
         for value in values.values():
             value.setflags(write=False)
         try:
@@ -91,13 +109,13 @@ def _read(name: str, value: Any, unit: str | None, count: int) -> Any:
     door = Door(trusted=(name,))
     read = door.number(value, unit or "", name)
     door.close()
-    if np.shape(read) != (count,):
+    if np.shape(read) != (count,) and not np.size(read) == count == 1:
         raise ShapeError(
             f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by itself, "
             f"so an array of shape ({count},)",
             code="bad_shape",
             argument=name,
         )
-    found = np.array(read, dtype=np.float64)
+    found = np.array(read, dtype=np.float64).reshape(count)
     found[~np.isfinite(found)] = np.nan
     return found

@@ -56,7 +56,8 @@ def propagate(
     Parameters
     ----------
     model : function
-        ``model(**inputs)`` returns a dict of named outputs: arrays of one number a case, or Quantities. Refused cases are NaN,
+        ``model(**inputs)`` returns a dict of named outputs: arrays of one number a case, or Quantities. Each case is worked out
+        by itself: a few are asked again alone, and a model that then answers otherwise is refused. Refused cases are NaN,
         which solvers give with ``on_failure="nan"``. Booleans count as 0 and 1, so that a mean is a probability. Angles with
         their unit that all lie from -pi to pi are directions, counted on across pi; return a rotation as a plain number.
     inputs : dict
@@ -89,7 +90,7 @@ def propagate(
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model that does not answer case by case.
+        An argument that cannot be used, or a model that does not answer case by case (code "bad_model").
     NoSolutionError
         The model has no answer where it was asked.
 
@@ -153,9 +154,8 @@ def propagate(
         runs, number = [], len(spots)
         try:
             for spot in spots:
-                at_spot = Model(model, {**fixed, **spot})
                 further = None if report is None else _further(report, sum(run.asked for run in runs), number - len(runs))
-                runs.append(run(at_spot, further))
+                runs.append(run(whole.at(spot), further))
                 if runs[-1].interrupted:
                     break
         except KeyboardInterrupt:
