@@ -588,6 +588,113 @@ def test_a_course_is_an_angle_to_momentum_too():
     assert found.speed_a.shape == found.pdof_a.shape == (2,)
 
 
+# Close to a restitution of 1
+
+
+ALONG_AND_ACROSS = {"course_a": 0.0, "course_b": 1.57, "speed_a": 20.0, "normal": 0.0, "point": (0.0, 0.4)}
+
+
+@pytest.mark.parametrize("loss", [1.0, 1e-3, 1e-6])
+@pytest.mark.parametrize("known", [{"speed_a": 20.0}, {"speed_a": None, "delta_v_a": 20.0}], ids=["speed_a", "delta_v_a"])
+def test_an_elastic_contact_without_friction_loses_nothing(known, loss):
+    """Analytic: 0 J whatever the speeds, so a loss contradicts it, be it small; here 32 eps of impulse times speeds is 1e-8 J."""
+    given = {**ALONG_AND_ACROSS, **known, "restitution": 1.0, "friction": 0.0, "energy_loss": loss}
+    with pytest.raises(col.NoSolutionError) as caught:
+        speeds(A, B, **{name: value for name, value in given.items() if value is not None})
+    assert caught.value.code == "contradictory"
+
+
+ELASTIC = [
+    {"restitution": 1.0, "friction": 0.0},
+    {"restitution": 1.0, "impulse_ratio": 0.0},
+    {"restitution": 1.0, "friction": 0.5, "law": "kudlich-slibar"},
+    {"restitution": 1.0, "friction": math.inf, "law": "kudlich-slibar"},
+    {"restitution": 1.0, "critical_fraction": 1.0, "law": "kudlich-slibar"},
+]
+
+
+@pytest.mark.parametrize("loss", [0.0, 1e-12, 5e-10])
+@pytest.mark.parametrize("known", [{"speed_a": 20.0}, {"delta_v_a": 20.0}, {"ees_a": 5.0, "ees_b": 5.0}], ids=lambda known: next(iter(known)))  # fmt: skip
+@pytest.mark.parametrize("elastic", ELASTIC, ids=str)
+def test_a_loss_within_rounding_tells_nothing(elastic, known, loss):
+    """Where a range of speeds loses 0 J, so does every speed of it within the 1e-9 J that eps of 1e5 J and more comes to."""
+    given = {**ALONG_AND_ACROSS, **elastic, "energy_loss": loss}
+    del given["speed_a"]
+    with pytest.raises(col.NoSolutionError, match="lose no more energy than rounding would show") as caught:
+        speeds(A, B, **given, **known)
+    assert caught.value.code == "undetermined"
+    (found,) = open_in_a_batch(**{**given, **known, "energy_loss": np.array([loss, loss])})
+    assert found.status.tolist() == [col.Status.UNDETERMINED] * 2
+
+
+def open_in_a_batch(**given):
+    """The answer of a batch, refused or not."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        return speeds(A, B, **given)
+
+
+def test_a_loss_within_rounding_tells_nothing_to_a_function():
+    """A constant function of 1 leaves open what the number does."""
+    given = {**ALONG_AND_ACROSS, "friction": 0.5, "law": "kudlich-slibar", "energy_loss": 5e-10}
+    for restitution in (1.0, lambda g: 1.0):
+        with pytest.raises(col.NoSolutionError) as caught:
+            speeds(A, B, **given, restitution=restitution)
+        assert caught.value.code == "undetermined"
+
+
+def test_a_course_across_the_normal_leaves_its_speed_open():
+    """Without friction that speed has no part in the impact: with another delta-V nothing fits, with its own everything."""
+    given = {"course_a": 0.0, "course_b": "90 deg", "restitution": 0.1, "normal": 0.0, "point": (0.0, 0.4), "friction": 0.0}
+    own = col.eccentric(A.replace(vx=20.0), B.replace(vy=5.0), 0.1, normal=0.0, point=(0.0, 0.4), friction=0.0).b.delta_v
+    for delta_v, code in ((own, "undetermined"), (1.01 * own, "contradictory")):
+        with pytest.raises(col.NoSolutionError) as caught:
+            speeds(A, B, **given, speed_a=20.0, delta_v_b=delta_v)
+        assert caught.value.code == code
+
+
+@pytest.mark.parametrize("short", [0.0, 1e-12, 1e-9, 1e-6, 1e-3])
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+@pytest.mark.parametrize("first", [{"speed_a": 20.0}, {"delta_v_a": 20.0}], ids=["speed_a", "delta_v_a"])
+def test_every_root_loses_what_was_given(first, friction, law, short):
+    """Single and in a batch: run forward, to 64 eps of the energies exchanged, and the same roots in both."""
+    losses = [0.0, 1e-9, 1e-6, 1e-3, 1.0, 1e3]
+    given = {**ALONG_AND_ACROSS, "restitution": 1.0 - short, "friction": friction, "law": law}
+    del given["speed_a"]
+    many = open_in_a_batch(**given, **first, energy_loss=np.array(losses))
+    answered = 0
+    for i, loss in enumerate(losses):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            alone, refusal = attempt(speeds, A, B, **given, **first, energy_loss=loss)
+        here = [root.closing_speed[i] for root in many if np.isfinite(root.closing_speed[i])]
+        if refusal is not None:
+            assert here == []
+            assert col.Status(int(many[0].status[i])).label == refusal.code
+            continue
+        # Beyond 1e5 m/s, and near grazing, a root holds to its condition times eps.
+        close = [1e-12 * (1.0 + root.reconstruction.condition) * root.closing_speed for root in alone]
+        for root, one, within in zip(alone, here, close, strict=True):
+            assert one == pytest.approx(root.closing_speed, abs=within)
+            speed = root.a.before.speed + root.b.before.speed
+            impulse = A.mass * root.a.delta_v
+            lost = (short + friction) * impulse * speed
+            assert abs(root.energy_loss - loss) <= 64 * 2.0**-52 * (lost + loss * (1.0 + root.reconstruction.condition * speed))
+            answered += 1
+    # A delta-V without friction tells the closing speed, and so the loss.
+    assert answered > 0 or friction == 0.0
+
+
+def test_a_loss_touching_its_least_is_found():
+    """A share of the critical ratio with a restitution of 1 loses 0 J where sticking takes no tangential impulse, more to both sides."""
+    given = {**ALONG_AND_ACROSS, "restitution": 1.0, "critical_fraction": 0.5, "law": "kudlich-slibar"}
+    (found,) = speeds(A, B, **given, energy_loss=0.0)
+    # The square root of eps of the speeds, where two roots meet.
+    assert found.tangential_impulse == pytest.approx(0.0, abs=1e-6 * found.normal_impulse)
+    assert found.energy_loss == pytest.approx(0.0, abs=1e-9)
+
+
 # Batches, units and records
 
 

@@ -223,7 +223,8 @@ def _answers(
     told_nothing = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
     faults += [(of_wall, codes.INFINITE_MASS) for of_wall in told_nothing]
     faults.append((scene.open, codes.UNDETERMINED))
-    nothing = Root(*(np.full((), np.nan) for _ in range(4))), np.zeros(cases.shape or (), dtype=bool)
+    none = np.full((), np.nan)
+    nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
     answers = int(count) if cases.shape is None else lock(np.array(np.broadcast_to(count, cases.shape)))
     impacts: list[Impact] = []

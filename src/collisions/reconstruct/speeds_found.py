@@ -9,7 +9,8 @@ import numpy as np
 from ..errors import InputError
 from .outcome import Cases
 from .self_consistent import RestitutionOf, crossings
-from .speeds_scene import REDUNDANT, SAME, Root, Scene
+from .speeds_open import SAME, untold
+from .speeds_scene import REDUNDANT, Root, Scene
 
 _GRID = np.linspace(0.0, 1.0, 129)
 
@@ -57,6 +58,10 @@ def in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, 
     judged = [scene.fits(root) for root in roots]
     fits = np.stack([np.broadcast_to(fit, shape) for fit, _ in judged])
     closing = np.stack([np.broadcast_to(speed, shape) for _, speed in judged])
+    for root, fit in zip(roots, fits, strict=True):
+        if np.any(fit):
+            scene.open = scene.open | (fit & untold(scene, root))
+    fits &= ~scene.open
     order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
     parts = [np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing)]
     *values, fits, closing = parts

@@ -24,6 +24,8 @@ _PLACES = 65
 # A range whose ends differ less is one value; what is this small beside it is 0.
 _NOTHING = 1e-9
 _NEAR = 1e-5
+# A restitution above this loses next to nothing along the normal.
+_ELASTIC = 1.0 - 1e-6
 
 # Status, closing speed and what is observed of the second known, at places with a restitution; and what is left of that.
 _Scan = Callable[[Any, Any], tuple[Any, Any, Any]]
@@ -46,24 +48,31 @@ def refusal(scene: Scene, status: int, function: RestitutionOf | None) -> NoSolu
             f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give delta_v_{other}",
             code="infinite_mass",
         )
-    if not scene.kinds[0].startswith("speed"):
-        if parallel(scene):
-            return NoSolutionError(
-                f"the courses are parallel, so {kinds} tell of the closing speed alone; give one of the speeds",
-                code="parallel_headings",
-            )
-        if scene.open:
-            return NoSolutionError(
-                f"where the contact slides, {kinds} tell of the closing speed alone and leave the slip open; give one of the "
-                f"speeds",
-                code="undetermined",
-            )
+    if not scene.kinds[0].startswith("speed") and parallel(scene):
+        return NoSolutionError(
+            f"the courses are parallel, so {kinds} tell of the closing speed alone; give one of the speeds",
+            code="parallel_headings",
+        )
+    if status == codes.UNDETERMINED:
+        return NoSolutionError(_many(scene, kinds), code="undetermined")
     if function is not None:
         function.complain()
     return NoSolutionError(
         f"no speeds along these courses fit {kinds} with this restitution, {scene.rule} and geometry: {_why(scene, function)}",
         code="contradictory",
     )
+
+
+def _many(scene: Scene, kinds: str) -> str:
+    """What is left open where many speeds lead to what was observed."""
+    if "energy_loss" in scene.kinds and scene.e > _ELASTIC:
+        return (
+            f"many speeds along these courses lose no more energy than rounding would show, so "
+            f"{_shown(scene, 'energy_loss')} does not tell which of them it was; give another of the knowns"
+        )
+    if scene.kinds[0].startswith("speed"):
+        return f"{kinds} leave the other speed open, for many lead to the same; give another of the knowns"
+    return f"where the contact slides, {kinds} tell of the closing speed alone and leave the slip open; give one of the speeds"
 
 
 def _why(scene: Scene, function: RestitutionOf | None) -> str:

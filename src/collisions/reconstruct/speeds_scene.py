@@ -19,10 +19,9 @@ from ..kernels.friction import sticking_slip
 from ..kernels.in_line import absorbed_energy
 from ..kernels.roots import PLACES, parabola_roots, quartic_roots
 from .outcome import NUMBERS, forward
+from .speeds_open import ROUNDING, SAME, STICK, any_speed, blur, every_slip, reaches
 
-SAME = 1e-6
 REDUNDANT = 1e-9
-_STICK = "stick"
 _SHARE = "share"
 _POLISH = 3
 # Part of the speeds, and of a restitution of 1, that a derivative is taken over: exact for quadratics, to 1e-8 for quotients.
@@ -31,12 +30,13 @@ _SQUARED = ("delta_v", "ees")
 
 
 class Root(NamedTuple):
-    """A candidate: both speeds, the restitution they go with, and how well-posed they are."""
+    """A candidate: both speeds, the restitution they go with, how well-posed they are, and the slope of each observation."""
 
     speed_a: Any
     speed_b: Any
     restitution: Any
     condition: Any
+    slopes: Sequence[Any] = (0.0, 0.0)
 
 
 class Scene:
@@ -55,10 +55,15 @@ class Scene:
         self.numbers = {name: self._in_units(name, value) for name, value in given.items()}
         self.e, self.bound = given["restitution"], given[rule]
         self.targets = {kind: self._target(kind) for kind in kinds}
-        # Set where a regime lets any slip fit.
+        self.spinning = sum(
+            abs(self.numbers[f"{label}.yaw_rate"])
+            * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
+            for label in "ab"
+        )
+        # Set where a regime lets any slip, or any speed, fit.
         self.open: Any = np.zeros((), dtype=bool)
         zero, one = np.zeros(()), np.ones(())
-        seen = [self.observe(_STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
+        seen = [self.observe(STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
         self.rest = {name: seen[0][name] for name in ("closing", "slip")}
         self.per_speed = {name: tuple(part[name] - self.rest[name] for part in seen[1:]) for name in self.rest}
 
@@ -88,9 +93,9 @@ class Scene:
         if self.rule == codes.IMPULSE_RATIO:
             return [self.bound]
         if self.rule == codes.CRITICAL_FRACTION:
-            return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK, *([_SHARE] if self.shares_critical() else [])]
+            return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *([_SHARE] if self.shares_critical() else [])]
         finite = np.where(np.isinf(self.bound), np.nan, self.bound)
-        return [finite, np.where(self.bound > 0.0, -finite, np.nan), _STICK]
+        return [finite, np.where(self.bound > 0.0, -finite, np.nan), STICK]
 
     def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> tuple[Any, ...]:
         """The forward kernel at these speeds."""
@@ -131,10 +136,16 @@ class Scene:
     def _seen(self, raw: Any, normal: Any, tangential: Any, loss: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
         squared = normal * normal + tangential * tangential
         closing = raw[codes.AT["closing_speed"]]
+        slip, slip_after = (raw[codes.AT[f"slip_{when}"]] for when in ("before", "after"))
+        whole = abs(speed_a) + abs(speed_b) + self.spinning
         return {
             "closing": closing,
-            "slip": raw[codes.AT["slip_before"]],
+            "slip": slip,
+            "whole": whole,
             "normal": normal,
+            "impulse": np.sqrt(squared),
+            # What the loss is summed up from, with the contact velocities as large as what they are the difference of.
+            "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(slip_after)),
             "speed_a": speed_a,
             "speed_b": speed_b,
             "delta_v_a": squared,
@@ -181,6 +192,9 @@ class Scene:
         needed = np.sqrt(abs(target / (one[kind] - rest[kind])))
         step = abs(value) + abs(rest["closing"]) + abs(rest["slip"]) + np.where(np.isfinite(needed), needed, 0.0)
         xs = _roots(regime, at, np.where(step > 0.0, step, 1.0))
+        flat = [abs(here[kind] - target) <= blur(kind, here) for here in (rest, one)]
+        if np.any(flat[0] & flat[1]):
+            self.open = self.open | any_speed(self, regime, e)
         return [(value + 0.0 * x, x) if fixed == "speed_a" else (x, value + 0.0 * x) for x in xs]
 
     def _per_closing(self, regime: Any, slip: Any, e: Any) -> tuple[Any, Any, Any]:
@@ -192,8 +206,10 @@ class Scene:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         c1, c2 = (self.targets[kind] for kind in self.kinds)
         # Where both tell the same of every slip, every slip fits, or none.
-        samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
-        leaves_open = _everywhere(c1, c2, samples) & ((c1 > 0.0) | (c2 > 0.0))
+        seen = [self.observe(regime, *self.speeds_at(np.ones(()), np.full((), slip)), e) for slip in (-1.0, 0.0, 1.0)]
+        samples = [(part[self.kinds[0]], part[self.kinds[1]], part["weight"]) for part in seen]
+        alike = _everywhere(c1, c2, samples) | every_slip(self, seen)
+        leaves_open = alike & reaches(self, regime) & ((c1 > 0.0) | (c2 > 0.0))
         self.open = self.open | leaves_open
 
         def difference(ratio: Any) -> Any:
@@ -220,17 +236,24 @@ class Scene:
     ) -> Root:
         """Newton's method on the kernel, with central differences for its derivatives."""
         condition: Any = np.nan
+        slopes: tuple[Any, ...] = (0.0, 0.0)
+        rows: list[tuple[Any, Any]] = []
+        here = self.observe(regime, speed_a, speed_b, e) if steps or slope is not None else {}
         for _ in range(steps):
-            here = self.observe(regime, speed_a, speed_b, e)
             size = _STEP * (abs(speed_a) + abs(speed_b) + abs(here["closing"]))
             rows = self._derivatives(regime, e, speed_a, speed_b, size)
             (j11, j12), (j21, j22) = rows
             r1, r2 = (here[kind] - self.targets[kind] for kind in self.kinds)
             determinant = j11 * j22 - j12 * j21
             step_a, step_b = (r1 * j22 - r2 * j12) / determinant, (r2 * j11 - r1 * j21) / determinant
-            usable = np.isfinite(step_a) & np.isfinite(step_b)
+            ahead = self.observe(regime, speed_a - step_a, speed_b - step_b, e)
+            # Where two roots meet the derivative is rounding, and a step over it may lead anywhere.
+            away = self._off(ahead, here) > self._off(here, here)
+            usable = np.isfinite(step_a) & np.isfinite(step_b) & ~away
             speed_a = speed_a - np.where(usable, step_a, 0.0)
             speed_b = speed_b - np.where(usable, step_b, 0.0)
+            here = {name: np.where(usable, ahead[name], here[name]) for name in ahead}
+            slopes = (abs(j11) + abs(j12), abs(j21) + abs(j22))
             condition = self._condition(rows, here["closing"])
         if slope is not None:
             # The restitution moves with the closing speed, and what is observed with it.
@@ -240,7 +263,13 @@ class Scene:
             g_a, g_b = self.per_speed["closing"]
             whole = [(j_a + by * g_a, j_b + by * g_b) for (j_a, j_b), by in zip(rows, by_e, strict=True)]
             condition = self._condition(whole, here["closing"])
-        return Root(speed_a, speed_b, e, condition)
+        return Root(speed_a, speed_b, e, condition, slopes)
+
+    def _off(self, seen: dict[str, Any], here: dict[str, Any]) -> Any:
+        """The larger part by which what is observed is off what was: for a loss, of the energy that it is what is left of."""
+        whole = abs(here["closing"] * here["normal"])
+        sizes = [abs(here[k]) + abs(self.targets[k]) + (whole if k == "energy_loss" else 0.0) for k in self.kinds]
+        return np.fmax(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))
 
     def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
         """Of each observation by both speeds."""
@@ -259,15 +288,22 @@ class Scene:
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
     def fits(self, root: Root) -> tuple[Any, Any]:
-        """Whether the law as asked leads from these speeds to what was observed, and the closing speed."""
+        """Whether the law as asked leads from these speeds to what was observed, and the closing speed.
+
+        The speeds of a root are themselves rounded, which moves an observation by its slope; the kernel adds the rounding of
+        the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
+        grows beyond the observation itself and tells nothing: there a part of the observation is the bound.
+        """
         status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
         fits = status <= codes.ENERGY_GAIN
-        for kind in self.kinds:
-            if kind.startswith("speed"):
-                scale = abs(root.speed_a) + abs(root.speed_b) + seen["closing"]
-            else:
-                scale = seen[kind] if kind.startswith("delta_v") else seen["closing"] * seen["normal"]
-            fits = fits & (abs(seen[kind] - self.targets[kind]) <= SAME * scale)
+        for kind, slope in zip(self.kinds, root.slopes, strict=True):
+            scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
+            if kind == "energy_loss":
+                scale = seen["closing"] * seen["normal"]
+                # Where friction has a loss touch its least, speeds are found to the square root of rounding only.
+                parts = seen["lost"] + np.where(self.bound == 0.0, 0.0, scale)
+            rounding = ROUNDING * (slope * seen["whole"] + parts)
+            fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, SAME * scale))
         return fits, seen["closing"]
 
 
