@@ -1,6 +1,6 @@
-"""Many cases, each worked out by a model of its own: which one is found in blocks, then every block is parted by model.
+"""Many cases, each worked out by a model of its own: which one is found in blocks, then every stretch is parted by model.
 
-The cases of a block that one kernel answers are gathered, worked out, and put back in their places, all within the cache.
+The cases of a stretch are put in the order of their models, worked out, and put back in their places, all within the cache.
 """
 
 from __future__ import annotations
@@ -111,26 +111,42 @@ def _solved(
     works = [_work(model, size, kinds, dtype) for model in models]
     length = BLOCK
     if size > BLOCK:
-        # A thread keeps the scratch of every model, and has at a time the inputs and the answers of a block of one.
+        # A thread keeps the scratch of every model and the answers of a stretch, and has at a time the inputs of a block.
         given = sum(not isinstance(lane, float) for lane in lanes.values()) * dtype.itemsize
-        answered = sum(kind.itemsize for kind in kinds if kind is not None)
+        answered = sum(kind.itemsize for kind in kinds if kind is not None) * len(models)
         length = block_length(size, threads, sum(work.scratch for work in works) + given + answered)
-    stretch = length * len(models)
+    stretch = min(length * len(models), size)
     mine = threading.local()
 
     def solve(start: int) -> int:
         block = slice(start, min(start + stretch, size))
         if not hasattr(mine, "runs"):
             mine.runs = [work(length) for work in works]
+            mine.rooms = [None if kind is None else aligned(stretch, kind) for kind in kinds]
         cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
         there = [None if output is None else output[block] for output in outputs]
+        chosen = [np.flatnonzero(numbers[block] == number) for number in range(len(models))]
+        order = np.concatenate(chosen)
+        in_order = bool(np.all(order[1:] > order[:-1]))
+        answers = there if in_order else mine.rooms
+        at = 0
         with np.errstate(all="ignore"):
-            for number, (model, run) in enumerate(zip(models, mine.runs, strict=True)):
-                chosen = np.flatnonzero(numbers[block] == number)
-                for some in np.array_split(chosen, math.ceil(chosen.size / length) or 1):
-                    if some.size:
-                        _answer(run, some, [cut[id(value)] for value in model.inputs], there)
+            # Before anything is gathered: this reads the inputs in the order of the cases, which brings them into the cache.
             faults = faults_of(checks, cut)
+            for model, run, cases in zip(models, mine.runs, chosen, strict=True):
+                for some in np.array_split(cases, math.ceil(cases.size / length) or 1):
+                    here = slice(at, at + some.size)
+                    at += some.size
+                    if some.size:
+                        wanted = here if in_order else some
+                        inputs = [_gathered(cut[id(value)], wanted) for value in model.inputs]
+                        run(inputs, [None if answer is None else answer[here] for answer in answers])
+        if not in_order:
+            place = np.empty_like(order)
+            place[order] = np.arange(order.size)
+            for output, answer in zip(there, answers, strict=True):
+                if output is not None:
+                    answer.take(place, out=output, mode="clip")
         blank(faults, there)
         return block.stop - block.start
 
@@ -138,21 +154,11 @@ def _solved(
     return settled(outputs, shape, dtype)
 
 
-def _answer(run: Callable[[Sequence[Any], Sequence[Any]], None], some: Any, inputs: list[Any], outputs: list[Any]) -> None:
-    """Works out some cases of a stretch: in their places where they stand side by side, else gathered and put back."""
-    if some[-1] - some[0] == some.size - 1:
-        side_by_side = slice(some[0], some[-1] + 1)
-        run(
-            [value if isinstance(value, float) else value[side_by_side] for value in inputs],
-            [None if output is None else output[side_by_side] for output in outputs],
-        )
-        return
-    answers = [None if output is None else np.empty(some.size, output.dtype) for output in outputs]
-    # They are all inside: to have numpy look takes as long as to gather them.
-    run([value if isinstance(value, float) else value.take(some, mode="clip") for value in inputs], answers)
-    for output, answer in zip(outputs, answers, strict=True):
-        if output is not None:
-            output[some] = answer
+def _gathered(lane: Any, some: Any) -> Any:
+    """Some cases of a stretch, which all are inside: to have numpy look takes as long as to gather them."""
+    if isinstance(lane, float):
+        return lane
+    return lane[some] if isinstance(some, slice) else lane.take(some, mode="clip")
 
 
 class _Work(NamedTuple):
