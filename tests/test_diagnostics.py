@@ -951,6 +951,7 @@ def test_the_outline_turns_with_the_vehicle():
         ((15, 6), ["outline_a (width) = 6"]),
         ([(2200, 800), (-2300, 800), (-2300, -800), (2200, -800)], ["outline_a (length) = 4500", "outline_a (width) = 1600"]),
         (np.array([(7.0, 3.0), (-8.0, 3.0), (-8.0, -3.0), (7.0, -3.0)]), ["outline_a (width) = 6"]),
+        ([(0, 0), ("160 in", 0), (160, 70), (0, 70)], ["outline_a (length) = 160", "outline_a (width) = 70"]),
     ],
 )
 def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
@@ -961,7 +962,9 @@ def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
     assert len(told) == len(worst)
     for text, start in zip(told, worst, strict=True):
         assert text.startswith(start + " is read as metres")
+    corners = [("15 ft", 0), (0, "6 ft"), ("-15 ft", 0)]
     col.diagnose(square(), outline_a=("15 ft", "6 ft"), outline_b=(18.75, 2.55))
+    col.diagnose(square(), outline_a=corners, outline_b=pint.Quantity([[15, 0], [0, 6], [-15, 0]], "ft"))
 
 
 # Headings, places and a drag that are plainly wrong.

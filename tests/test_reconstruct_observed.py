@@ -781,6 +781,9 @@ def test_a_coordinate_nothing_needs_still_says_how_many_cases():
         (1.5, [12, 25], ["depths = 25"]),
         ("1.5 m", np.array([120.0, 250.0]), ["depths = 250"]),
         ([1500, "0.8 m"], [0.1, 0.2, "30 cm"], ["widths = 1500"]),
+        (150, [0.1, 0.2, 0.1], ["widths = 150"]),
+        (48, np.full(6, 0.2), ["widths = 48"]),
+        ([9.0, 9.5, 9.0], [0.1, 0.2, 0.2, 0.1], ["widths = 9.5"]),
         (pint.Quantity(60, "in"), [pint.Quantity(5, "in"), np.array([10.0, 11.0])], ["depths = 11"]),
     ],
 )

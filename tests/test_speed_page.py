@@ -210,7 +210,7 @@ def test_memory_of_a_batch_is_told(tables, committed):
     assert taken["left_out"] < 20.0
     assert max(taken["eccentric_threads"], taken["solve_threads"]) < 9.0
     assert "with two threads" in tables.memory(committed[0])
-    assert "whatever the number of cases" in tables.memory(committed[0])
+    assert "no more with more cases" in tables.memory(committed[0])
 
 
 def test_errors_of_the_choices_are_what_the_page_says(committed):

@@ -916,3 +916,12 @@ def test_an_empty_list_is_said_to_be_empty_and_nothing_else():
     """What stands beside it is not wrong because of it."""
     error = refusal(lambda: travel.speed([], drag=[0.7], grade=[0.0]))
     assert str(error) == "distance is an empty list; give at least one segment"
+
+
+def test_a_heading_beyond_float32_beside_float32_headings():
+    """No turn that can be told, and no warning of numpy's."""
+    headings = [3.4028235677973366e38, np.zeros(3, dtype=np.float32)]
+    with pytest.warns(col.CollisionsWarning) as caught:
+        found = travel.path([(0.0, 0.0), (0.0, 1.0)], headings, friction=0.0, lock=0.0)
+    assert all(isinstance(one.message, col.CollisionsWarning) for one in caught)
+    assert np.isnan(found.speed).all()

@@ -290,3 +290,15 @@ def test_a_list_of_values():
         assert caught.value.code == "bad_shape"
     found = propagate(lambda v, x: {"y": v[0] + x}, {"v": (1.0, 2.0), "x": Normal(0.0, 1.0)}, method="first_order")
     assert found["y"].mean == 1.0
+
+
+@pytest.mark.parametrize("method", METHODS[2:])
+@pytest.mark.parametrize("seed", range(4))
+def test_outliers_left_out_by_all_cases_together(method, seed):
+    """Their tails would be cut in silence: one of the refused cases is asked alone, and has an answer."""
+
+    def cut(v):
+        return {"dv": np.where(abs(v - v.mean()) > 2.0 * v.std(), np.nan, v)}
+
+    error = refused(cut, V, method=method, seed=seed, samples=2048)
+    assert "no answer" in str(error)

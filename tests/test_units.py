@@ -235,6 +235,8 @@ def test_hertz_is_no_yaw_rate(given):
         ("yaw_rate", "5 mrpm", "milli-revolutions per minute"),
         ("mass", "1.5 mt", "milli-metric ton"),
         ("heading", "1600 mil", "a mil is one of 6400"),
+        ("mass", "1.1 ton", "a ton may be 1000 kg, 2000 lb or 2240 lb"),
+        ("mass", pint.Quantity(1.1, "short_ton"), "write 'tonne', 'kg' or 'lb'"),
     ],
 )
 def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
@@ -259,6 +261,15 @@ def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
 def test_prefixes_that_are_meant(field, given, value):
     """Of what is no rate, and in a quotient."""
     assert getattr(col.Vehicle(**{"mass": 1500, field: given}), field) == pytest.approx(value, rel=1e-15)
+
+
+def test_a_mil_of_the_caller(ureg):
+    """One who says how many go to the turn is understood."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ureg.define("mil = turn / 6400")
+    car = col.Vehicle(mass=1500, heading=ureg.Quantity(1600, "mil"))
+    assert car.heading == pytest.approx(math.pi / 2, rel=1e-14)
 
 
 def test_revolutions_are_a_yaw_rate():

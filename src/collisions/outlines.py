@@ -26,7 +26,7 @@ def read_outline(door: Door, given: Any, argument: str) -> Any:
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = door.number(given, "m", argument)
         polygon = _polygon(door, read, argument) if isinstance(read, np.ndarray) else None
-        return _of_likely_size(polygon, [given], argument)
+        return _of_likely_size(polygon, [] if is_quantity(given) else given.reshape(-1).tolist(), argument)
     if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
         count = len(door.problems)
         corners = [door.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
@@ -42,10 +42,11 @@ def read_outline(door: Door, given: Any, argument: str) -> Any:
 
 
 def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
-    """The corners, with a warning if numbers without a unit make a vehicle that is too large."""
-    if corners is not None and not any(map(has_unit, given)):
-        for size, limit, name in zip(np.ptp(corners, axis=0), (_LONGEST, _WIDEST), ("length", "width"), strict=True):
-            warn_if_large(None, float(size), limit, f"{argument} ({name})", "metres", "ft", "mm")
+    """The corners, with a warning if those numbers that have no unit make a vehicle that is too large."""
+    for axis, limit, name in ((0, _LONGEST, "length"), (1, _WIDEST, "width")):
+        bare = [float(part) for part in given[axis::2] if not has_unit(part)]
+        if corners is not None and bare:
+            warn_if_large(None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm")
     return corners
 
 
@@ -82,7 +83,7 @@ def _rectangle(door: Door, given: tuple[Any, ...], argument: str) -> Any:
         )
         return None
     for value, read, limit, name in ((given[0], length, _LONGEST, "length"), (given[1], width, _WIDEST, "width")):
-        warn_if_large(value, read, limit, f"{argument} ({name})", "metres", "ft", "mm")
+        warn_if_large(value, read, limit, f"{argument} ({name})", "metres", "in", "mm")
     front, back, side = 0.5 * length - ahead, -0.5 * length - ahead, 0.5 * width
     return np.array([(front, side), (back, side), (back, -side), (front, -side)])
 

@@ -104,6 +104,7 @@ _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
+_MIL = 9.817477042468104e-05  # rad, as pint has it: 64000 to the turn
 
 # Of each registry the texts of units that it has read, and what it multiplies by. Neither holds the registry itself.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
@@ -221,7 +222,7 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
             raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * one or _is_of_another_kind(quantity, unit):
             raise _bad_units(given, unit, argument, None)
-        if hint := _hardly_meant(quantity):
+        if hint := _hardly_meant(quantity, one):
             raise _bad_units(given, unit, argument, None, hint)
         if not in_context:
             known[key] = found
@@ -251,12 +252,14 @@ def _is_of_another_kind(quantity: Any, unit: str) -> bool:
     return unit in ("rad", "rad/s") and any(name.endswith(_COUNTS) for name in names)
 
 
-def _hardly_meant(quantity: Any) -> str:
-    """What to say of a unit that pint knows and that hardly anybody means by its name; "" of others."""
+def _hardly_meant(quantity: Any, size: float) -> str:
+    """What to say of a unit of this size in SI that not everybody means by its name; "" of others."""
     registry = quantity._REGISTRY
     for name in map(str, quantity._units):
-        if name == "mil":
+        if name == "mil" and abs(size - _MIL) <= 1e-9 * _MIL:
             return "; a mil is one of 6400, 6300 or 6000 to the turn, and pint's is none of them: write 'deg' or 'rad'"
+        if name == "ton":
+            return "; a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'"
         (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]
         powers = {str(kind): power for kind, power in registry.get_dimensionality(root).items()}
         is_rate = powers.pop("[time]", 0) == -1 and powers in ({"[length]": 1}, {})

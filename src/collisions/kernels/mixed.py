@@ -111,10 +111,9 @@ def _solved(
     works = [_work(model, size, kinds, dtype) for model in models]
     length = BLOCK
     if size > BLOCK:
-        # A thread keeps the scratch of every model and the answers of a stretch, and has at a time the inputs of a block.
-        given = sum(not isinstance(lane, float) for lane in lanes.values()) * dtype.itemsize
-        answered = sum(kind.itemsize for kind in kinds if kind is not None) * len(models)
-        length = block_length(size, threads, sum(work.scratch for work in works) + given + answered)
+        # A thread keeps the scratch of every model and an output of a stretch, and has at a time the inputs of a block.
+        lined_up = (sum(not isinstance(lane, float) for lane in lanes.values()) + len(models)) * dtype.itemsize
+        length = block_length(size, threads, sum(work.scratch for work in works) + lined_up)
     stretch = min(length * len(models), size)
     mine = threading.local()
 
@@ -122,13 +121,12 @@ def _solved(
         block = slice(start, min(start + stretch, size))
         if not hasattr(mine, "runs"):
             mine.runs = [work(length) for work in works]
-            mine.rooms = [None if kind is None else aligned(stretch, kind) for kind in kinds]
+            mine.room = aligned(stretch, np.float64)
         cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
         there = [None if output is None else output[block] for output in outputs]
         chosen = [np.flatnonzero(numbers[block] == number) for number in range(len(models))]
         order = np.concatenate(chosen)
         in_order = bool(np.all(order[1:] > order[:-1]))
-        answers = there if in_order else mine.rooms
         at = 0
         with np.errstate(all="ignore"):
             # Before anything is gathered: this reads the inputs in the order of the cases, which brings them into the cache.
@@ -140,13 +138,14 @@ def _solved(
                     if some.size:
                         wanted = here if in_order else some
                         inputs = [_gathered(cut[id(value)], wanted) for value in model.inputs]
-                        run(inputs, [None if answer is None else answer[here] for answer in answers])
+                        run(inputs, [None if output is None else output[here] for output in there])
         if not in_order:
             place = np.empty_like(order)
             place[order] = np.arange(order.size)
-            for output, answer in zip(there, answers, strict=True):
+            for output in there:
                 if output is not None:
-                    answer.take(place, out=output, mode="clip")
+                    moved = mine.room.view(output.dtype)[: output.size]
+                    output[...] = output.take(place, out=moved, mode="clip")
         blank(faults, there)
         return block.stop - block.start
 

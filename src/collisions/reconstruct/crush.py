@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..units import Input, Value, has_unit, is_quantity, shown
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
-# In metres: no car is crushed so deep, and no gap between two depths is so wide.
+# In metres: no car is crushed so deep, and no damage is so wide.
 _DEEPEST, _WIDEST = 2.0, 10.0
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
 
@@ -71,7 +71,7 @@ def crush_energy(
     OutOfRangeWarning
         The angle is beyond 45 degrees, where the correction exceeds 2 and the model is not used.
     SuspectUnitsWarning
-        A depth above 2 m or a gap above 10 m, given without a unit.
+        A depth above 2 m or a width above 10 m in all, given without a unit.
 
     Examples
     --------
@@ -92,9 +92,9 @@ def crush_energy(
             code="bad_shape",
             argument="depths",
         )
-    gaps = _profile(door, widths, "widths")
+    whole = gaps = _profile(door, widths, "widths")
     if not isinstance(gaps, list):
-        gaps = [gaps / (len(crush) - 1)] * (len(crush) - 1)
+        gaps = [whole / (len(crush) - 1)] * (len(crush) - 1)
     elif len(gaps) != len(crush) - 1:
         raise ShapeError(
             f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
@@ -119,8 +119,8 @@ def crush_energy(
             )
         )
     door.close()
-    _warn_if_large(depths, crush, _DEEPEST, "depths")
-    _warn_if_large(widths, gaps, _WIDEST, "widths")
+    _warn_if_large(depths, crush, _DEEPEST, "depths", max)
+    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
     numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
     numbers["stiffness_a"] = a
     cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
@@ -155,11 +155,12 @@ def crush_energy(
     return absorbed
 
 
-def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str) -> None:
-    """One warning for all of a profile that was given without a unit."""
+def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]) -> None:
+    """One warning for all of a profile that was given without a unit, if the largest or the sum of it is too large."""
     parts = given if isinstance(given, (list, tuple)) else [given] * len(read)
     bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
-    warn_if_large(None, max(bare, default=0.0), limit, name, "metres", "cm", "in")
+    if bare and of_all(bare) > limit:
+        warn_if_large(None, max(bare), 0.0, name, "metres", "cm", "in")
 
 
 def _profile(door: Door, value: Any, name: str) -> Any:

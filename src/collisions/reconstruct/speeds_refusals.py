@@ -67,8 +67,8 @@ def _many(scene: Scene, kinds: str) -> str:
     """What is left open where many speeds lead to what was observed."""
     if "energy_loss" in scene.kinds and scene.e > _ELASTIC:
         return (
-            f"many speeds along these courses lose no more energy than rounding would show, so "
-            f"{_shown(scene, 'energy_loss')} does not tell which of them it was; give another of the knowns"
+            f"many speeds along these courses lead to {_shown(scene, 'energy_loss')} as far as rounding lets it tell, so it "
+            f"does not say which of them; give another of the knowns"
         )
     if scene.kinds[0].startswith("speed"):
         return f"{kinds} leave the other speed open, for many lead to the same; give another of the knowns"
@@ -108,7 +108,17 @@ def _why(scene: Scene, function: RestitutionOf | None) -> str:
             # No gap that the scan sees: rounding, or an answer beyond its ends.
             return f"with {_shown(scene, first)} {_subject(second)} {allowed}, but nothing leads to {_shown(scene, second)}"
         allowed = f"{_range(scene, second, low, below, digits)} or {_range(scene, second, above, high, digits)}"
-    return f"with {_shown(scene, first)} {_subject(second)} {allowed}, and {_shown(scene, second)} was given"
+    was_given = f"{_shown(scene, second)} was given{_off(scene, low, high)}"
+    return f"with {_shown(scene, first)} {_subject(second)} {allowed}, and {was_given}"
+
+
+def _off(scene: Scene, low: float, high: float) -> str:
+    """By how much what was given is out of the range, where the six digits of both do not show it."""
+    kind = scene.kinds[1]
+    given = float(scene.targets[kind])
+    nearest = min(max(given, low), high)
+    (one, unit), (other, _) = (_size(scene, kind, value) for value in (given, nearest))
+    return f", {abs(one - other):.2g} {unit} off" if 0.0 < abs(given - nearest) < _NEAR * given else ""
 
 
 def _values(scan: _Scan, e: Any) -> _Values:

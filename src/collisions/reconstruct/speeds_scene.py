@@ -295,7 +295,9 @@ class Scene:
         grows beyond the observation itself and tells nothing: there a part of the observation is the bound.
         """
         status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
-        fits = status <= codes.ENERGY_GAIN
+        # A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
+        # makes of speeds so large is none.
+        fits = (status <= codes.ENERGY_GAIN) & (seen["closing"] > ROUNDING * seen["whole"])
         for kind, slope in zip(self.kinds, root.slopes, strict=True):
             scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
             if kind == "energy_loss":

@@ -312,7 +312,8 @@ def _read_lock(door: Door, value: Any, name: str) -> Any:
 
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:
-    turns = [abs(after - before) for before, after in pairwise(turned)]
+    with np.errstate(over="ignore"):
+        turns = [abs(after - before) for before, after in pairwise(turned)]
     wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if np.any((turn > _QUARTER_TURN) & (part < 1.0))]
     if wide:
         named = ", ".join(_leg(i) for i in wide)

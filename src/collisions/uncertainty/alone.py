@@ -14,7 +14,7 @@ from . import angles
 # The outputs of a case that is asked alone: arrays of one.
 Ask: TypeAlias = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
-_CASES = 4  # a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
+_CASES = 5  # a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
 # Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
 # differently alone. What is less than this changes no figure that anyone reads, whatever it comes from.
 _UNNOTICED = 1e-6
@@ -52,12 +52,15 @@ def check_alone(ask: Ask, values: Mapping[str, Any], answers: Mapping[str, Any],
 
 
 def _cases(answers: Mapping[str, Any], count: int) -> list[int]:
-    """The last case, which all others came before, those of the greatest and the least answers, and one in the middle."""
+    """The last case, which all others came before, those of the greatest and the least answers, two without, and the middle."""
     found = [count - 1]
+    lost: list[int] = []
     for column in answers.values():
-        if not np.isnan(column).all():
+        missing = np.flatnonzero(np.isnan(column))
+        lost += missing[[0, -1]].tolist() if missing.size else []
+        if missing.size < column.size:
             found += [int(np.nanargmax(column)), int(np.nanargmin(column))]
-    return list(dict.fromkeys([*found, count // 2]))[:_CASES]
+    return list(dict.fromkeys([*found[:3], *lost[:2], count // 2]))[:_CASES]
 
 
 def _compare(
