@@ -32,7 +32,6 @@ NAMES = {
 DRAWN = ("monte_carlo", "latin_hypercube", "quasi_random")
 LOCAL = ("first_order", "second_order")
 LEAST = 1e-5
-POWERS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 
 
 def draw_all(found: dict[str, Any], folder: Path, kind: str = "svg") -> None:
@@ -142,8 +141,9 @@ def cost(plt: Any, found: dict[str, Any]) -> Any:
     axes[0].set_ylim(2e-4, 1.5)
     axes[0].set_ylabel("error, of the standard deviation")
     low, high = axes[0].get_xlim()
-    ticks = range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)
-    axes[0].set_xticks([10.0**k for k in ticks], [f"10{POWERS[k]}" for k in ticks])
+    whole = [times * 10**k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for times in (1, 3)]
+    ticks = [size for size in whole if low <= size <= high]
+    axes[0].set_xticks(ticks, [f"{size:,}".replace(",", " ") for size in ticks])
     axes[0].minorticks_off()
     figure.legend(handles=_handles(plt, trade=False), loc="upper center", ncols=5, frameon=False)
     figure.tight_layout(rect=(0, 0, 1, 0.92))
