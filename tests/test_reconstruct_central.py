@@ -697,3 +697,13 @@ def test_a_single_refused_case_may_be_answered_with_nan():
     assert col.Impact.from_dict(found.to_dict()).status is col.Status.INVERSE_E0
     with pytest.raises(col.InputError, match="on_failure must be"):
         reconstruct.central(*M, va=20.0, vb=0.0, restitution=0.5, on_failure="ignore")
+
+
+def test_a_speed_beyond_float32_is_refused():
+    """It would be 3.40282357e38 m/s, and float32 ends at 3.40282347e38: refused, without a warning of numpy's."""
+    after = np.array([-1e-28, 1.02084714e11], dtype=np.float32)
+    found = reconstruct.central(
+        mass_a=300.0, mass_b=9.999999269030633e29, va_after=after, restitution=0.0, vb=0.0, on_failure="nan"
+    )
+    assert found.refused.all()
+    assert np.isnan(found.energy_loss).all()

@@ -71,7 +71,9 @@ class Cases(NamedTuple):
         """A plain float for a single case, a locked array of its own for a batch."""
         if self.shape is None:
             return float(found)
-        return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
+        # Of what is too large for float32 the forward solver says so.
+        with np.errstate(over="ignore"):
+            return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
     def verdict(self, findings: Sequence[tuple[Any, int]]) -> Any:
         """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
