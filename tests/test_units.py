@@ -229,7 +229,7 @@ def test_hertz_is_no_yaw_rate(given):
     [
         ("vx", "80 kmph", "kilo-mile per hour"),
         ("vx", "50 hmph", "hecto-mile per hour"),
-        ("vx", "5 kkn", "kilo-knot"),
+        ("vx", "5 kiloknot", "kilo-knot"),
         ("vx", "100 dkph", "deci-kilometer per hour"),
         ("vx", pint.Quantity(20, "kilofoot_per_second"), "kilo-foot per second"),
         ("yaw_rate", "5 mrpm", "milli-revolutions per minute"),
@@ -251,7 +251,7 @@ def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
     [
         ("vx", "80 kph", 80 / 3.6),
         ("vx", "20 mm/ms", 20.0),
-        ("vx", "50 kn", 50 * 1852 / 3600),
+        ("vx", "50 knot", 50 * 1852 / 3600),
         ("mass", "1.5 t", 1500.0),
         ("mass", "1.5 Mg", 1500.0),
         ("mass", "80 klb", 80e3 * 0.45359237),
