@@ -105,20 +105,22 @@ def exact(segments, end):
             square += 2 * mpmath.mpf(travel.GRAVITY) * (mpmath.mpf(f) + mpmath.mpf(g)) * mpmath.mpf(d)
             found.append(mpmath.sqrt(square) if square >= 0 else mpmath.nan)
         found.reverse()
-        times = [2 * d / (a + b) for (d, _, _), a, b in zip(segments, found, found[1:], strict=False)]
+        slopes = [d * mpmath.sqrt(1 + mpmath.mpf(g) ** 2) for d, _, g in segments]
+        times = [2 * s / (a + b) for s, a, b in zip(slopes, found, found[1:], strict=False)]
         return found, times
 
 
 @run_often
 @given(st.lists(st.tuples(lengths, st.floats(0.31, 1.4), grades), min_size=1, max_size=6), speeds)
 def test_speed_and_time_keep_their_digits(segments, end):
-    """2 eps for the speed gained over a segment, one more for each sum of squares; the times add one and a half."""
+    """2 eps for the speed gained over a segment, one more for each sum of squares; the times add three: one and a half each for
+    the length of the slope and for the quotient."""
     given_ = {"drag": [f for _, f, _ in segments], "grade": [g for _, _, g in segments], "end_speed": end}
     start = travel.speed([d for d, _, _ in segments], **given_)
     duration = travel.time([d for d, _, _ in segments], **given_)
     found, times = exact(segments, end)
     assert start == pytest.approx(float(found[0]), rel=(2 + len(segments)) * EPS)
-    assert duration == pytest.approx(float(sum(times)), rel=(4 + len(segments)) * EPS)
+    assert duration == pytest.approx(float(sum(times)), rel=(5 + len(segments)) * EPS)
     assert type(start) is type(duration) is float
 
 
@@ -199,6 +201,72 @@ def test_the_time_is_the_change_of_speed_over_the_deceleration(d, f, end):
     start, duration = (ask(d, drag=f, end_speed=end) for ask in (travel.speed, travel.time))
     rate = travel.GRAVITY * f
     assert duration == pytest.approx((start - end) / rate, rel=8 * EPS, abs=8 * EPS * start / rate)
+
+
+def slid_down(slopes, end, steps=200):
+    """A point mass followed back in time over inclined planes, by the forces on it: weight, load across the plane, and drag.
+
+    Of each slope drag, grade and duration, the last one first. Plan distances, speed, and how long it took; Runge-Kutta, which is
+    exact where a force is constant.
+    """
+    speed, plans = end, []
+    for drag, grade, duration in slopes:
+        angle = math.atan(grade)
+        along, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
+        weight = np.array([0.0, -9.80665])
+        load = -(weight @ across)
+
+        def rate(velocity, weight=weight, across=across, load=load, drag=drag):
+            return weight + load * across - drag * load * velocity / np.hypot(*velocity)
+
+        step = -duration / steps
+        place, velocity = np.zeros(2), speed * along
+        for _ in range(steps):
+            k1 = rate(velocity)
+            k2 = rate(velocity + step / 2 * k1)
+            k3 = rate(velocity + step / 2 * k2)
+            k4 = rate(velocity + step * k3)
+            place = place + step * velocity + step**2 / 6 * (k1 + k2 + k3)
+            velocity = velocity + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        plans.append(-float(place[0]))
+        speed = float(np.hypot(*velocity))
+    return plans, speed, sum(duration for _, _, duration in slopes)
+
+
+@pytest.mark.parametrize(
+    "slopes",
+    [[(0.7, 0.1, 1.5)], [(0.6, -0.2, 2.0)], [(0.45, 0.3, 0.8), (0.7, -0.08, 1.1), (0.2, -0.25, 0.7)], [(0.0, -0.2, 3.0)]],
+)
+def test_speed_time_and_distance_are_those_of_a_body_on_inclined_planes(slopes):
+    """Lengths of the plan, speeds along the slope, times over it; 200 steps of some roundings each are below 1e-12."""
+    end = 12.0 if slopes[0][0] else 30.0
+    plans, start, duration = slid_down(slopes, end)
+    ground = {"drag": [drag for drag, _, _ in slopes][::-1], "grade": [grade for _, grade, _ in slopes][::-1]}
+    assert travel.speed(plans[::-1], **ground, end_speed=end) == pytest.approx(start, rel=1e-12)
+    assert travel.time(plans[::-1], **ground, end_speed=end) == pytest.approx(duration, rel=1e-12)
+    if len(slopes) == 1:
+        drag, grade, _ = slopes[0]
+        found = travel.distance(start, drag=drag, grade=grade, end_speed=end)
+        # From a difference of speeds: of two squares, each of a speed that is off by 1e-12.
+        assert found == pytest.approx(plans[0], rel=4e-12 * (start**2 + end**2) / abs(start**2 - end**2))
+
+
+def test_times_and_yaw_rate_of_a_path_are_those_over_the_slope():
+    """A body that yaws evenly down two slopes: its own times and rate; 1e-12 as above, and sums and quotients of them."""
+    slopes = [(0.7, -0.2, 1.2), (0.7, 0.15, 0.9)]
+    (last, first), start, duration = slid_down(slopes, 5.0)
+    run = travel.path(
+        [(0.0, 0.0), (first, 0.0), (first + last, 0.0)],
+        [0.0, 0.9 * 0.8, (0.9 + 1.2) * 0.8],
+        friction=0.7,
+        lock=1.0,
+        grade=[0.15, -0.2],
+        end_speed=5.0,
+    )
+    assert run.speed == pytest.approx(start, rel=1e-12)
+    assert run.time == pytest.approx(duration, rel=1e-12)
+    assert run.yaw_rate == pytest.approx(0.8, rel=1e-11)
+    assert run.distance == pytest.approx(first + last, rel=4 * EPS)
 
 
 def test_order_of_surfaces_matters_to_the_time_only():

@@ -33,10 +33,11 @@ def speeds_along(lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: C
     return speeds[::-1]
 
 
-def durations_along(lengths: Sequence[Any], speeds: Sequence[Any]) -> list[Any]:
-    """Time over each segment: at a constant deceleration the mean speed is half the sum."""
+def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Sequence[Any]) -> list[Any]:
+    """Time over each segment, along its slope: at a constant deceleration the mean speed is half the sum."""
     found = []
-    for length, before, after in zip(lengths, speeds, speeds[1:], strict=False):
+    for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
+        length = plan * hypot(1.0, grade)
         double = before + after
         found.append(select(length == 0.0, 0.0, 2.0 * length / select(double == 0.0, math.nan, double)))
     return found

@@ -36,19 +36,19 @@ class RunOut(Shown):
     Attributes
     ----------
     speed : float or array [m/s]
-        Speed at separation.
+        Speed at separation, along the slope.
     course : float or array [rad]
         Direction of motion at separation, the tangent of the path, in (-pi, pi].
     yaw_rate : float or array [rad/s]
         Yaw rate at separation, positive counter-clockwise.
     time : float or array [s]
-        From the first point to the last.
+        From the first point to the last, over the slope of every segment.
     distance : float or array [m]
-        Along the path.
+        Along the path, in plan.
     straight_course : float or array [rad]
         Direction from the first point to the last, in (-pi, pi]; NaN where they are one place.
     speeds : tuple of float or array [m/s]
-        Speed at every point.
+        Speed at every point, along the slope.
     crab_angles : tuple of float or array [rad]
         For every segment the heading less the course, in (-pi, pi]: positive where the vehicle points to the left of its way.
     drags : tuple of float or array
@@ -97,7 +97,7 @@ def path(
     Parameters
     ----------
     points : sequence of pairs, array or Quantity of shape (n, 2) [m]
-        Scene positions of the centre of mass, at least two, in order of travel: separation first, last where the speed is
+        Positions of the centre of mass in plan, at least two, in order of travel: separation first, last where the speed is
         ``end_speed``. Straight lines are drawn between them.
     headings : sequence, array or Quantity, one for each point [rad]
         Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned by
@@ -186,7 +186,7 @@ def path(
     shape = broadcast(named)
     with np.errstate(all="ignore"):
         run = _run_out(places, turned, frictions, locks, grades, end)
-        gaps = durations_along([_length(step) for step in _steps(places)], run.speeds)
+        gaps = durations_along([_length(step) for step in _steps(places)], grades, run.speeds)
         answered = run.time + run.distance + run.yaw_rate
         if shape is not None:
             run = _settled(run, _lane_checks(places, turned, named, [*gaps, answered]), shape)
@@ -216,7 +216,7 @@ def _run_out(
         for mu, part, crab in zip(frictions, locks, crabs, strict=True)
     ]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
-    durations = durations_along(lengths, speeds)
+    durations = durations_along(lengths, grades, speeds)
     return RunOut(
         speed=speeds[0],
         course=angle_of(_at_start([dx for dx, _ in steps], lengths), _at_start([dy for _, dy in steps], lengths)),

@@ -40,7 +40,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     Returns
     -------
     float or array [m/s]
-        Speed at the start, >= 0; NaN for a case of a batch that cannot be answered.
+        Speed at the start along the slope, >= 0; NaN for a case of a batch that cannot be answered.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     The vehicle is a point mass on a straight line or a gentle bend, and each surface has one drag at every speed: shift of
     load, resistance of the air and the time in which brakes build up are left out. A vehicle that spins has another drag at
     every crab angle: see ``path``. Distances are those of the plan, with which drag + grade is exact; a tape on the slope
-    reads longer by ``sqrt(1 + grade**2)``.
+    reads longer by ``sqrt(1 + grade**2)``. Speeds are along the slope; in plan they are lower by the same factor.
 
     Examples
     --------
@@ -150,9 +150,9 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     """Time [s] that a vehicle takes over the distance.
 
     The speeds at both ends of each surface are those of ``speed``, with what that leaves out; in between the deceleration is
-    constant, so the mean speed is half their sum::
+    constant, so the mean speed is half their sum, over the length of the slope::
 
-        time = sum(2 * distance / (v_start + v_end))
+        time = sum(2 * distance * sqrt(1 + grade**2) / (v_start + v_end))
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     """
     run = _Run(distance, drag, grade, end_speed)
     with np.errstate(all="ignore"):
-        total: Value = run.settle(sum(durations_along(run.lengths, run.speeds()), start=0.0))
+        total: Value = run.settle(sum(durations_along(run.lengths, run.grades, run.speeds()), start=0.0))
     return total
 
 
@@ -201,15 +201,15 @@ class _Run:
         self.listed = listed
         self.lengths = for_each(door, length, "distance", count, read_length)
         drags = for_each(door, drag, "drag", count, read_drag)
-        grades = for_each(door, grade, "grade", count, read_grade)
+        self.grades = for_each(door, grade, "grade", count, read_grade)
         self.end = read_speed(door, end_speed, "end_speed")
         door.close()
         self.named = {"end_speed": self.end}
-        for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", grades, grade)):
+        for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", self.grades, grade)):
             self.named |= {f"{name}[{i}]" if isinstance(given, (list, tuple)) else name: part for i, part in enumerate(values)}
         broadcast(self.named)
         with np.errstate(all="ignore"):
-            self.drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
+            self.drops = [slowing + slope for slowing, slope in zip(drags, self.grades, strict=True)]
 
     def speeds(self) -> list[Any]:
         return speeds_along(self.lengths, self.drops, self.end, lambda i: f"distance[{i}]" if self.listed else "distance")
