@@ -1,5 +1,6 @@
 """The door: every unit trap found while designing, each with its own test."""
 
+import contextlib
 import math
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 
 import collisions as col
 from collisions.fields import unit_of
+from collisions.units import si_unit
 
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}
 
@@ -217,11 +219,26 @@ def test_the_suspicion_points_at_the_caller():
     assert caught[0].filename == __file__
 
 
-@pytest.mark.parametrize("given", ["1 Hz", "60 kHz"])
+@pytest.mark.parametrize("given", ["1 Hz", "60 kHz", "3 bpm", "3 curie", "3 baud", "3 strain/s", "3 percent/s"])
 def test_hertz_is_no_yaw_rate(given):
-    """pint takes 1 Hz for 1 rad/s; it is a count of turns, so it is refused."""
+    """pint takes 1 Hz for 1 rad/s; it is a count of turns, so it is refused. So are other counts, and proportions."""
     with pytest.raises(col.UnitsError, match="deg/s"):
         col.Vehicle(mass=1.0, yaw_rate=given)
+
+
+@pytest.mark.parametrize("given", ["1 percent", "1 strain", "1 bit", "1 count*rad"])
+def test_a_number_is_no_angle(given):
+    """pint takes each for radians."""
+    with pytest.raises(col.UnitsError, match="deg"):
+        col.Vehicle(mass=1.0, heading=given)
+
+
+def test_what_counts_needs_a_word_of_what_it_counts():
+    """Where the kind of quantity is open, too."""
+    for given in ("3 Hz", "3 bpm", "3 curie", "3 baud", "3 count"):
+        with pytest.raises(col.UnitsError):
+            si_unit(given)
+    assert si_unit("3 rpm") == "rad/s"
 
 
 @pytest.mark.parametrize(
@@ -235,8 +252,13 @@ def test_hertz_is_no_yaw_rate(given):
         ("yaw_rate", "5 mrpm", "milli-revolutions per minute"),
         ("mass", "1.5 mt", "milli-metric ton"),
         ("heading", "1600 mil", "a mil is one of 6400"),
+        ("heading", "1.6 kmil", "a mil is one of 6400"),
+        ("yaw_rate", "100 mil/s", "a mil is one of 6400"),
         ("mass", "1.1 ton", "a ton may be 1000 kg, 2000 lb or 2240 lb"),
+        ("mass", "1.1 kiloton", "a ton may be 1000 kg, 2000 lb or 2240 lb"),
         ("mass", pint.Quantity(1.1, "short_ton"), "write 'tonne', 'kg' or 'lb'"),
+        ("mass", "6 quarter", "a quarter may be"),
+        ("vx", "10 kilokgf*s/kg", "kilo-force kilogram"),
     ],
 )
 def test_units_that_hardly_anybody_means_by_their_name(field, given, said):
@@ -263,12 +285,16 @@ def test_prefixes_that_are_meant(field, given, value):
     assert getattr(col.Vehicle(**{"mass": 1500, field: given}), field) == pytest.approx(value, rel=1e-15)
 
 
+def test_a_kilopond_is_never_a_thousand():
+    """1000 kgf to pint 0.25.0, by a mistake, which is refused; 1 kgf to later versions."""
+    with contextlib.suppress(col.UnitsError):
+        assert col.Vehicle(mass=1500, vx="10 kilopond*s/kg").vx == pytest.approx(98.0665, rel=1e-15)
+
+
 def test_a_mil_of_the_caller(ureg):
-    """One who says how many go to the turn is understood."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        ureg.define("mil = turn / 6400")
-    car = col.Vehicle(mass=1500, heading=ureg.Quantity(1600, "mil"))
+    """One who gives it a name of its own, and says how many go to the turn, is understood."""
+    ureg.define("artillery_mil = turn / 6400")
+    car = col.Vehicle(mass=1500, heading=ureg.Quantity(1600, "artillery_mil"))
     assert car.heading == pytest.approx(math.pi / 2, rel=1e-14)
 
 

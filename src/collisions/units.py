@@ -82,20 +82,6 @@ _ROOTS = {
     "candela": "cd",
 }
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
-_COUNTS = (
-    "hertz",
-    "becquerel",
-    "count",
-    "counts_per_second",
-    "percent",
-    "permille",
-    "ppm",
-    "bit",
-    "byte",
-    "neper",
-    "bel",
-    "steradian",
-)
 
 # Patterns stay texts, which the first unit that appears compiles.
 _NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
@@ -104,7 +90,13 @@ _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
-_MIL = 9.817477042468104e-05  # rad, as pint has it: 64000 to the turn
+# Names that mean one thing to pint, or to one version of it, and another to those who write them.
+_AMBIGUOUS = {
+    "mil": "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of pint: write 'deg' or 'rad'",
+    "ton": "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'",
+    "quarter": "a quarter may be 25 lb, 28 lb, 500 lb or 560 lb: write 'kg' or 'lb'",
+}
+_NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
 # Of each registry the texts of units that it has read, and what it multiplies by. Neither holds the registry itself.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
@@ -156,7 +148,7 @@ def si_unit(value: Any, argument: str = "value") -> str:
     except Exception as error:
         raise _bad_units(value, _ANY_KIND, argument, error) from error
     names = [str(name) for name in quantity._units]
-    if names == ["gram"] or any(name.endswith(_COUNTS) and name not in _SPOKEN_PROPORTIONS for name in names):
+    if names == ["gram"] or any(_is_count(quantity._REGISTRY, name) and name not in _SPOKEN_PROPORTIONS for name in names):
         hint = "a drag factor is a plain number, an acceleration '6.9 m/s**2', a mass '0.7 kg'"
         if names != ["gram"]:
             hint = "it counts, and could be meant as turns or as radians: write 'turn/s', 'rad/s' or 'deg/s', or a plain number"
@@ -222,7 +214,7 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
             raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * one or _is_of_another_kind(quantity, unit):
             raise _bad_units(given, unit, argument, None)
-        if hint := _hardly_meant(quantity, one):
+        if hint := _hardly_meant(quantity):
             raise _bad_units(given, unit, argument, None, hint)
         if not in_context:
             known[key] = found
@@ -249,21 +241,28 @@ def _is_of_another_kind(quantity: Any, unit: str) -> bool:
     if unit == "":
         units = quantity._REGISTRY.Unit
         return any(units(name).dimensionless and name not in _SPOKEN_PROPORTIONS for name in names)
-    return unit in ("rad", "rad/s") and any(name.endswith(_COUNTS) for name in names)
+    return unit in ("rad", "rad/s") and any(_is_count(quantity._REGISTRY, name) for name in names)
 
 
-def _hardly_meant(quantity: Any, size: float) -> str:
-    """What to say of a unit of this size in SI that not everybody means by its name; "" of others."""
+def _is_count(registry: Any, name: str) -> bool:
+    """Whether a unit is a number or a rate, such as Hz, bpm or curie, that holds no angle, as rpm does. pi is just a number."""
+    powers = {str(kind): power for kind, power in registry.get_dimensionality(name).items()}
+    if name == "pi" or powers not in ({}, {"[time]": -1}):
+        return False
+    roots = registry.get_root_units(name)[1]._units
+    return roots.get("radian", 0) != 1 or not roots.keys() <= {"radian", "second"}
+
+
+def _hardly_meant(quantity: Any) -> str:
+    """What to say of a unit that not everybody means by its name; "" of others."""
     registry = quantity._REGISTRY
     for name in map(str, quantity._units):
-        if name == "mil" and abs(size - _MIL) <= 1e-9 * _MIL:
-            return "; a mil is one of 6400, 6300 or 6000 to the turn, and pint's is none of them: write 'deg' or 'rad'"
-        if name == "ton":
-            return "; a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'"
         (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]
+        if root in _AMBIGUOUS:
+            return f"; {_AMBIGUOUS[root]}"
         powers = {str(kind): power for kind, power in registry.get_dimensionality(root).items()}
         is_rate = powers.pop("[time]", 0) == -1 and powers in ({"[length]": 1}, {})
-        if prefix and (is_rate or root == "metric_ton"):
+        if prefix and (is_rate or root in _NEVER_PREFIXED):
             return f"; to pint it is a {prefix}-{root.replace('_', ' ')}"
     return ""
 
