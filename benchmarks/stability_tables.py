@@ -84,7 +84,7 @@ def relative(found: dict[str, Any]) -> str:
 
 
 def conditions(found: dict[str, Any], key: str) -> str:
-    """How the error of the impulse grows with one of the condition numbers."""
+    """How the error of the impulse, or of the energy loss, grows with one of the condition numbers."""
     rows = next(entry["rows"] for entry in found["conditions"] if entry["key"] == key)
     return table(
         ["condition number", "exact answer moves", "library is off", "worst case of off / moves", "promise"],

@@ -17,6 +17,7 @@ from reference import SINGULAR, Answer, Body, Scene, evaluate
 
 LAWS = ("brach", "kudlich-slibar")
 RULES = ("friction", "impulse_ratio", "critical_fraction")
+NEAR_JAMMING = "impulse_ratio near jamming"
 FAMILIES = (
     "traffic",
     "mass ratio 1e-12..1e12",
@@ -49,6 +50,12 @@ def _value(rng: random.Random, rule: str) -> float:
     return rng.choice((0.0, 1.0, rng.random(), rng.random()))
 
 
+def jamming_ratio(scene: Scene) -> float:
+    """The impulse ratio -K_nn/K_nt at which the bodies jam; the normal impulse grows without bound towards it. NaN without one."""
+    answer = evaluate(replace(scene, rule="friction", value=0.0))
+    return float(-answer.k_nn / answer.k_nt) if not answer.refused and answer.k_nt else math.nan
+
+
 def _car(rng: random.Random, x: float, y: float) -> Body:
     mass = rng.uniform(700.0, 3000.0)
     return Body(
@@ -64,7 +71,16 @@ def _car(rng: random.Random, x: float, y: float) -> Body:
 
 
 def draw(family: str, law: str, rule: str, rng: random.Random) -> Scene:
-    """One scene of a family, closing along its normal; it may still be one that is refused for another reason."""
+    """One scene of a family, closing along its normal; it may still be one that is refused for another reason.
+
+    With ``NEAR_JAMMING`` as the rule four of five given ratios come up to 1e-9 of the one at which the bodies jam; the others are
+    of the other sign and up to 1000.
+    """
+    if rule == NEAR_JAMMING:
+        while math.isnan(limit := jamming_ratio(scene := draw(family, law, "impulse_ratio", rng))):
+            pass
+        near = limit * (1.0 - _decade(rng, -9, 0))
+        return replace(scene, value=near if rng.random() < 0.8 else -math.copysign(_decade(rng, -2, 3), limit))
     a = _car(rng, rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5))
     b = _car(rng, rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5))
     point = (rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5))
@@ -133,8 +149,11 @@ def _closing(scene: Scene) -> float:
 
 
 def answerable(answer: Answer) -> bool:
-    """Whether the reference answered, and not so near a singular contact that rounding decides about the refusal."""
-    if answer.refused:
+    """Whether the reference answered, and not so near a singular contact that rounding decides about the refusal.
+
+    Nor where what is promised of the impulse is more than a float can hold: an infinite promise is none.
+    """
+    if answer.refused or math.isinf(float(answer.spread)):
         return False
     trace = answer.k_nn + answer.k_tt - answer.a.a - answer.b.a
     return answer.k_nn > 4 * SINGULAR * trace and answer.det > 4 * SINGULAR * trace * trace
@@ -259,4 +278,10 @@ def impacts(
     angle = draw(ANGLES)
     found = draw(VALUES[rule]) if value is None else value
     scene = Scene(a, b, draw(RESTITUTIONS), angle, point, rule, found, law)
-    return scene if _closing(scene) > 0.0 else replace(scene, normal=angle - math.copysign(math.pi, angle))
+    if _closing(scene) <= 0.0:
+        scene = replace(scene, normal=angle - math.copysign(math.pi, angle))
+    if rule == "impulse_ratio" and value is None and draw(st.booleans()):
+        limit = jamming_ratio(scene)
+        if math.isfinite(limit):
+            return replace(scene, value=limit * (1.0 - 10.0 ** -draw(st.floats(0.0, 9.0))))
+    return scene

@@ -94,8 +94,9 @@ def impulse_error(answer: Answer) -> float:
 
 
 def loss_error(answer: Answer) -> float:
-    """Promise of the loss: 8 eps (|loss_n| + |loss_t| + kappa S_P S_U)."""
-    return 8 * EPS * float(abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * answer.s_u)
+    """Promise of the loss: 8 eps (|loss_n| + |loss_t| + kappa S_P max(S_U, |s'|))."""
+    moving = max(answer.s_u, abs(answer.slip_after))
+    return 8 * EPS * float(abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * moving)
 
 
 def velocity_error(answer: Answer, body: Body, side: str) -> float:
@@ -159,6 +160,16 @@ def assert_same(
         )
         assert error <= share * of_impulse, side
         assert abs(mine.delta_yaw_rate - other.delta_yaw_rate) <= float(half.b * half.r) * of_impulse, side
+
+
+def test_an_infinite_promise_is_no_promise() -> None:
+    """Where hardly anything closes, a share of the critical ratio (here 1e322) has no accuracy: no property is asked of such a case."""
+    wall = Body(math.inf, math.inf)
+    scene = Scene(Body(1000.0, 1500.0, vy=10.0, x=-2.0), wall, 0.0, 5e-324, (0.0, 0.0), "critical_fraction", 0.5, "brach")
+    answer = evaluate(scene)
+    assert answer.refused is None
+    assert math.isinf(impulse_error(answer))
+    assert not answerable(answer)
 
 
 # --- Conservation -----------------------------------------------------------------------------------------------------------------

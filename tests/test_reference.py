@@ -18,11 +18,11 @@ import pytest
 
 import collisions as col
 from reference import EPS, Answer, Body, Scene, evaluate
-from scenes import FAMILIES, LAWS, RULES, cases, solved, solved_together
+from scenes import FAMILIES, LAWS, NEAR_JAMMING, RULES, cases, solved, solved_together
 
 COUNT = 100
 FLAT_COUNT = 40
-GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in RULES]
+GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in (*RULES, NEAR_JAMMING)]
 group = pytest.mark.parametrize(("family", "law", "rule"), GROUPS)
 way = pytest.mark.parametrize("way", ["alone", "in a batch"])
 
@@ -162,8 +162,13 @@ def velocities(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measu
 
 
 def losses(scene: Scene, answer: Answer, outputs: dict[str, float]) -> Measured:
-    """Energy loss, against the difference of the kinetic energies: 8 eps (|loss_n| + |loss_t| + kappa S_P S_U)."""
-    promise = 8 * EPS * float(abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * answer.s_u)
+    """Energy loss, against the difference of the kinetic energies: 8 eps (|loss_n| + |loss_t| + kappa S_P max(S_U, |s'|)).
+
+    The loss is -P.U - P.K P/2, so an error of P changes it by -U'.dP, and the contact parts with U' = (e g, s'). Near jamming the
+    slip after is about kappa times S_U. The exact loss moves by more where the data move by one eps (benchmarks/stability.py).
+    """
+    moving = max(answer.s_u, abs(answer.slip_after))
+    promise = 8 * EPS * float(abs(answer.loss_n) + abs(answer.loss_t) + answer.spread * moving)
     return [("energy_loss", apart((outputs["energy_loss"], answer.loss)), promise)]
 
 
