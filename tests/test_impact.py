@@ -238,6 +238,57 @@ def test_regimes():
     assert many.regime.tolist() == ["frictionless", "sliding", "sticking"]
 
 
+ARM = {"mass": 1000.0, "yaw_inertia": 1333.0, "x": 0.0, "y": 1.0}
+GATE = col.Vehicle(**ARM, pivot=(0.0, 0.0))
+ONE_DEGREE = {
+    "gate against a wall": (col.Vehicle.barrier(vx=5.0, x=-5.0, y=0.0), GATE),
+    "two parallel arms": (col.Vehicle(**{**ARM, "y": 3.0}, yaw_rate=2.0, pivot=(0.0, 4.0)), GATE),
+    "arms in batches": (col.Vehicle(**{**ARM, "y": 3.0}, yaw_rate=np.array([2.0, 3.0]), pivot=(0.0, 4.0)), GATE),
+}
+
+
+@pytest.mark.parametrize("which", ONE_DEGREE)
+@pytest.mark.parametrize(
+    "rule", [{"friction": 0.0}, {"critical_fraction": 0.0}, {"impulse_ratio": 0.1}], ids=lambda rule: next(iter(rule))
+)
+def test_one_degree_of_freedom_has_no_critical_ratio(which, rule):
+    """K has rank 1 there, so that no impulse is the one without slip: NaN, in the record too, and said in words."""
+    a, b = ONE_DEGREE[which]
+    impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 2.0), **rule)
+    assert np.all(impact.ok)
+    assert np.all(np.isnan(impact.critical_impulse_ratio))
+    # The closing speed is that along x of the point 2 m from either pivot; all masses are reckoned about their pivots.
+    responses = [0.0 if body.pivot is None else 4.0 / (1333.0 + 1000.0) for body in (a, b)]
+    closing = 5.0 if a.pivot is None else a.yaw_rate * 2.0
+    assert impact.normal_impulse == pytest.approx(1.1 * closing / sum(responses), rel=1e-14)
+    assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
+    if isinstance(impact.status, np.ndarray):
+        return
+    assert "not defined" in col.explain(impact)
+    assert "impulse_ratio" not in col.diagnose(impact).measured
+    assert replay(col.report(impact, form="markdown")) == impact
+
+
+def test_one_degree_of_freedom_backwards():
+    """A critical fraction of 0 leads back as no friction does, for both laws."""
+    a, b = ONE_DEGREE["two parallel arms"]
+    contact = {"normal": 0.0, "point": (0.2, 2.0)}
+    for law in ("brach", "kudlich-slibar"):
+        end = col.eccentric(a, b, 0.3, friction=0.0, law=law, **contact)
+        for known in ({"restitution": 0.3}, {"closing_speed": end.closing_speed}, {"energy_loss": end.energy_loss}):
+            start = col.reconstruct.planar(end.a.after, end.b.after, critical_fraction=0.0, law=law, **known, **contact)
+            assert start.a.before.yaw_rate == pytest.approx(2.0, rel=1e-13)
+            assert start.b.before.yaw_rate == pytest.approx(0.0, abs=1e-13)
+
+
+def test_the_impulse_plane_says_what_is_not_defined():
+    """Off the square, where the slip of a gate against a wall changes with the impulse; no no-slip impulse is drawn."""
+    impact = col.eccentric(*ONE_DEGREE["gate against a wall"], 0.1, normal=0.0, point=(0.3, 2.0), friction=0.0)
+    axes = col.plot.impulse_plane(impact)
+    assert "the no-slip impulse is not defined" in axes.get_title()
+    assert "no-slip impulse" not in {line.get_gid() for line in axes.get_lines()}
+
+
 def test_exact_zeros():
     """Slip after sticking, loss of an elastic impact, delta-V of a barrier: exact, not rounded."""
     place = {"normal": 0.1, "point": (1.7, 0.3)}

@@ -197,7 +197,10 @@ class Impact:
 
     @derived("")
     def critical_impulse_ratio(self) -> Value:
-        """The signed impulse ratio that just stops slip under the law used; infinite where no slip would need a pull."""
+        """The signed impulse ratio that just stops slip under the law used; infinite where no slip would need a pull.
+
+        NaN, as it is not defined, for a contact with one degree of freedom: two parallel arms, or a gate against a wall.
+        """
         normal, tangential = self._output("no_slip_normal"), self._output("no_slip_tangential")
         # 0 times the normal impulse keeps the NaN of a refused case.
         with np.errstate(invalid="ignore"):

@@ -30,6 +30,11 @@ def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
     """Both components of the impulse on B."""
     rule, bound = impact._asked.rule, impact._asked.bound
     change = (1.0 + contact.e) * contact.closing
+    if math.isnan(contact.critical.value):
+        page.say(
+            "The contact has one degree of freedom, so the impulse that just stops the slip and the critical impulse ratio are "
+            "not defined."
+        )
     if rule == codes.FRICTION and bound == 0.0:
         page.say(f"Without friction the impulse is along the normal alone, as in the paper: {page.shown(contact.tangential)}.")
         page.equation("Normal impulse", contact.normal, over(change, k.normal))

@@ -79,7 +79,8 @@ def impulse_ratio(case: Case) -> Iterator[Finding]:
     """A tangential impulse beyond what ends the slip, or against it."""
     impact = case.impact
     ratio, critical = impact.impulse_ratio, impact.critical_impulse_ratio
-    if ratio == 0.0 or impact.model == "linear_central":
+    # A contact with one degree of freedom has no critical ratio.
+    if ratio == 0.0 or math.isnan(critical) or impact.model == "linear_central":
         return
     part = math.inf if critical == 0.0 else ratio / critical
     if part < 0.0:

@@ -4,6 +4,7 @@ Every body answers an impulse at the contact through K_i = a_i 1 + b_i q q^T, wi
 pivots and free bodies differ only in a_i and b_i.
 """
 
+from math import nan
 from typing import Any
 
 from .codes import (
@@ -182,6 +183,8 @@ def eccentric(
             ),
         )
     )
+    # A contact with one degree of freedom has no impulse without slip.
+    no_slip_n = select(regular, no_slip_n, nan)
     return (
         status, closing, slip, slip_after, normal, impulse_t, normal / (1.0 + restitution), no_slip_n, no_slip_t,
         sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss, impulse_x, impulse_y,

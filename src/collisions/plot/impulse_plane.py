@@ -126,7 +126,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s"))
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
-    beyond = "" if plain or shows_no_slip else "\n(the no-slip impulse lies outside)"
+    without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside"
+    beyond = "" if plain or shows_no_slip else f"\n(the no-slip impulse {without_slip})"
     axes.set_title(f"{pair}{beyond}", fontsize=10.5)
     tidy(axes)
     legend_below(axes)

@@ -96,7 +96,9 @@ class End:
                 *(self._along("sliding", np.where(self.bound > 0.0, sign * finite, np.nan)) for sign in (1.0, -1.0)),
                 self._sticking("sticking", self.bound > 0.0),
             ]
-        shared = (np.where(self.bound < 1.0, ratio, np.nan) for ratio in self._shared_ratios())
+        # No part of the critical ratio is 0, also where a contact has none.
+        ratios = (np.where(self.bound == 0.0, 0.0, ratio) for ratio in self._shared_ratios())
+        shared = (np.where(self.bound < 1.0, ratio, np.nan) for ratio in ratios)
         return [*(self._along("given", ratio) for ratio in shared), self._sticking("given", self.bound == 1.0)]
 
     def _along(self, regime: str, ratio: Any) -> Origin:
