@@ -434,6 +434,15 @@ def test_figures_show_this_impact(impacts):
     assert "The figures are in the HTML form" in report(impacts["wall"], form="markdown")
 
 
+@pytest.mark.parametrize("name", [name for name in IMPACTS if name != "evil"])
+def test_every_letter_of_a_figure_can_be_read(name, impacts):
+    """Math text would stand on the page as its source: formulas are off there, as names are none."""
+    spreads = spread("b.delta_v", "own") if name == "eccentric" else None
+    told = Page(report(impacts[name], uncertainty=spreads)).of("text")
+    assert sum(bool(re.fullmatch(r"\u2212?[\d.]+", text)) for text in told) >= 4  # the axis of energy alone
+    assert not set("".join(told)) & set("$\\{}")
+
+
 def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
     import matplotlib.pyplot as plt
 

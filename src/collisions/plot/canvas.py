@@ -127,13 +127,12 @@ def tidy(axes: Axes, in_full: tuple[int, int] = (-3, 6)) -> None:
     """Only the lines that are read, and numbers in full beside them, or beyond these with a power of ten at the end."""
     from matplotlib.ticker import ScalarFormatter
 
+    from .ticks import PlainTicks
+
     axes.spines[["top", "right"]].set_visible(False)
     for axis in (axes.xaxis, axes.yaxis):
-        formatter = axis.get_major_formatter()
-        if isinstance(formatter, ScalarFormatter):
-            formatter.set_useOffset(False)
-            formatter.set_powerlimits(in_full)
-            formatter.set_useMathText(True)
+        if isinstance(axis.get_major_formatter(), ScalarFormatter):
+            axis.set_major_formatter(PlainTicks(in_full))
 
 
 def legend_below(axes: Axes, columns: int = 2) -> None:

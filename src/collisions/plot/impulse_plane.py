@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
+_ROUNDING = 64.0 * codes.EPS  # relative: what differences of speeds leave of a coefficient that is 0
 
 
 def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
@@ -41,7 +42,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     matplotlib.axes.Axes
         Lines by gid: "end of compression", "end of restitution", "no slip", "no slip at separation" (only under
         "kudlich-slibar", where slip returns), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
-        compression" and "no-slip impulse". ``linear_central`` has no tangential impulse, and no lines of slip and friction.
+        compression" and "no-slip impulse". ``linear_central`` has no tangential impulse, and no lines of slip and friction; a
+        contact that moves along the normal alone, as a wall squarely on a pinned gate, has no lines of slip.
 
     Raises
     ------
@@ -95,8 +97,11 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     if not plain:
         k_tt = _tangential_yield(impact)
         slip = impact.slip_before * factor
-        line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
-        if impact.law == codes.KUDLICH_SLIBAR and e > 0.0:
+        # A contact that moves along the normal alone keeps its slip under every impulse: there is no such line.
+        slip_yields = closing * math.hypot(k_nt, k_tt) > _ROUNDING * k_nn * (closing + abs(slip))
+        if slip_yields:
+            line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
+        if slip_yields and impact.law == codes.KUDLICH_SLIBAR and e > 0.0:
             text = "slip at separation if it sticks"
             line("no slip at separation", k_nt, k_tt, -(1.0 + e) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
 
