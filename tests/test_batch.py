@@ -219,3 +219,23 @@ def test_a_batch_without_a_case_asks_for_what_one_with_cases_does():
     b = col.Vehicle(mass=300.0, yaw_rate=1.0, yaw_inertia=np.array([]))
     with pytest.raises(col.MissingInputError, match="b has no x"):
         col.eccentric(col.Vehicle.barrier(), b, 0.0, normal=0.0, point=(0.0, 0.0), friction=0.0)
+
+
+def test_dimensions_beyond_what_numpy_holds_everywhere():
+    """24 are solved, by every function; more are refused where they are given, before numpy stops at 32 in its midst."""
+    calls = {
+        "vx": lambda x: (solve(x), col.linear_central(striking(x), col.Vehicle(mass=900.0), 0.1)),
+        "va": lambda x: col.reconstruct.central(1500.0, 1200.0, va=x, vb=0.0, restitution=0.1),
+        "delta_v_a": lambda x: col.reconstruct.speeds(
+            striking(0.0), B, course_a=0.0, course_b=1.0, speed_b=3.0, delta_v_a=x / 5.0, restitution=0.2, friction=0.3, **PLACE
+        ),
+        "distance": lambda x: (col.travel.speed(x, drag=0.7), col.travel.time(x, drag=0.7)),
+        "stiffness_a": lambda x: col.reconstruct.crush_energy(1.0, [0.1, 0.2], x, 1e6),
+        "duration": lambda x: col.left_out(solve(20.0), duration=x / 200.0),
+        "closing_speed": lambda x: col.reference.restitution(x / 10.0),
+    }
+    for name, call in calls.items():
+        call(np.full((1,) * 24, 20.0))
+        for dimensions in (25, 33, 64 if np.lib.NumpyVersion(np.__version__) >= "2.0.0" else 32):
+            with pytest.raises(col.ShapeError, match=f"{name} is an array of {dimensions} dimensions"):
+                call(np.full((1,) * dimensions, 20.0))

@@ -289,6 +289,31 @@ def test_the_impulse_plane_says_what_is_not_defined():
     assert "no-slip impulse" not in {line.get_gid() for line in axes.get_lines()}
 
 
+def test_answers_of_batches_compare_by_value():
+    """Equal to one that was asked again and to its pickle, and not to one with another number in one case."""
+    vx = np.array([20.0, 21.0])
+
+    def found(vx):
+        by_central = col.reconstruct.central(1500.0, 1200.0, va=vx, vb=0.0, vb_after=13.0)
+        bodies = (A.replace(vx=vx), B)
+        return {
+            "Impact": by_central,
+            "Reconstruction": by_central.reconstruction,
+            "LeftOut": col.left_out(by_central),
+            "RunOut": col.travel.path([(0.0, 0.0), (vx, 1.0)], [0.0, 0.1], friction=0.7, lock=0.5),
+            "ModelChoice": col.required_model(*bodies, 0.1, normal=0.1, point=(1.7, 0.3), friction=0.1, tolerance=vx / 10.0),
+            "MomentumSolution": col.reconstruct.momentum(
+                1000.0, 1100.0, course_a=0.0, course_b=1.0, course_a_after=0.1, course_b_after=0.9, speed_a=vx, speed_b=12.0
+            ),
+        }
+
+    for (name, one), same, other in zip(found(vx).items(), found(vx).values(), found(vx + [0.0, 1.0]).values(), strict=True):
+        assert type(one).__name__ == name
+        assert one == same == pickle.loads(pickle.dumps(one))
+        assert one != other
+        assert one != vx.tolist()
+
+
 def test_exact_zeros():
     """Slip after sticking, loss of an elastic impact, delta-V of a barrier: exact, not rounded."""
     place = {"normal": 0.1, "point": (1.7, 0.3)}

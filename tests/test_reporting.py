@@ -563,6 +563,18 @@ def test_results_of_a_record_must_be_those_of_its_inputs(change, said):
     assert replay(tampered(page, lambda r: r["impact"]["results"].update(energy_loss=89100.000001))).energy_loss == 89100.0
 
 
+def test_a_number_beyond_floats_is_no_number_of_the_record():
+    """JSON holds whole numbers of any size; wherever one stands it is refused, and named as what the inputs do not give."""
+    page = report(crash(), form="markdown")
+    for huge in (10**400, -(10**400)):
+        with pytest.raises(col.InputError, match="its inputs do not give its energy_loss"):
+            replay(tampered(page, lambda r, huge=huge: r["impact"]["results"].update(energy_loss=huge)))
+        for part in ("inputs", "results"):
+            for name in tuple(json.loads(json.dumps(crash().to_dict()))[part]):
+                with pytest.raises(col.InputError):
+                    replay(tampered(page, lambda r, huge=huge, part=part, name=name: r["impact"][part].update({name: huge})))
+
+
 @pytest.mark.parametrize(
     ("text", "code"),
     [

@@ -22,7 +22,7 @@ NOT_NEGATIVE = "not negative"
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
-_DEEPEST = 32  # dimensions of a nested list; numpy itself stops at 64
+_MOST_DIMENSIONS = 24  # numpy itself stops at 32 in places, and some solvers add a few of their own
 
 
 class Door:
@@ -215,6 +215,12 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             code="not_a_number",
             argument=argument,
         )
+    if value.ndim > _MOST_DIMENSIONS:
+        raise ShapeError(
+            f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} at most; give {argument}.ravel()",
+            code="bad_shape",
+            argument=argument,
+        )
     kept = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
     with np.errstate(over="ignore"):
         array = np.array(value, dtype=kept)
@@ -228,7 +234,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
     while stack:
         item, depth = stack.pop()
         if isinstance(item, (list, tuple)):
-            if depth == _DEEPEST:
+            if depth == _MOST_DIMENSIONS:
                 raise ShapeError(f"{argument} is nested too deeply; give an array", code="bad_shape", argument=argument)
             stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):

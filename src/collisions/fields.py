@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import Field, fields
 from functools import partial
 from typing import Any, ClassVar, Generic, Never, TypeVar, overload
@@ -152,7 +152,9 @@ def show(value: Any, unit: str | None = None) -> str:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Equality by value for numbers, arrays, pairs and None, NaN equal to itself."""
+    """Equality by value for numbers, arrays, pairs, mappings and None, NaN equal to itself."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(same(value, other[name]) for name, value in one.items())
     if isinstance(one, tuple) or isinstance(other, tuple):
         return isinstance(one, tuple) and isinstance(other, tuple) and len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
@@ -161,6 +163,11 @@ def same(one: Any, other: Any) -> bool:
         one, other = np.asarray(one), np.asarray(other)
         return bool(np.array_equal(one, other, equal_nan="f" in one.dtype.kind + other.dtype.kind))
     return bool(one == other) or (one != one and other != other)
+
+
+def same_fields(one: Any, other: Any) -> bool:
+    """Equality of two dataclasses of one kind by the values of their fields, which may be arrays."""
+    return type(one) is type(other) and all(same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))
 
 
 def table(title: str, rows: Iterator[tuple[str, str]]) -> str:
@@ -186,6 +193,9 @@ class Shown:
     def q(self) -> Any:
         """The same attributes as pint Quantities of the application registry."""
         return Quantities(self)
+
+    def __eq__(self, other: object) -> bool:
+        return same_fields(self, other) if isinstance(other, Shown) else NotImplemented
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), {f.name: getattr(self, f.name) for f in fields(self)})

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .fields import Shown, lock, same, show
+from .fields import Shown, lock, same, same_fields, show
 from .units import Value, to_quantity
 
 # From the least to the full one.
 MODELS = ("linear_central", "oblique_central", "eccentric")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reconstruction:
     """How a reverse solver found an impact.
 
@@ -39,6 +39,9 @@ class Reconstruction:
     known: tuple[str, ...]
     condition: Value
     answers: Any = 1
+
+    def __eq__(self, other: object) -> bool:
+        return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
 
     @property
     def _fitting(self) -> str:
@@ -72,7 +75,7 @@ class ByModel(Mapping[str, Any]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mapping):
             return NotImplemented
-        return self.keys() == other.keys() and all(same(value, other[name]) for name, value in self.items())
+        return same(dict(self), dict(other))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ByModel, (self._values, self._unit)
@@ -119,11 +122,6 @@ class ModelChoice(Shown):
     def model(self) -> Any:
         """The name, or the names of a batch, which take fifty times the room of the numbers that are kept."""
         return lock(np.array(MODELS).take(self._which)) if isinstance(self._which, np.ndarray) else MODELS[self._which]
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, ModelChoice):
-            return NotImplemented
-        return all(same(getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         yield prefix + "model", show(self.model)

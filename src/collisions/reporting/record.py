@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from collections.abc import Iterator, Mapping
 from html.parser import HTMLParser
 from typing import Any
@@ -180,7 +181,8 @@ def _apart(told: Any, found: Any, name: str, off: float) -> Iterator[str]:
         for i, (one, other) in enumerate(zip(told, found, strict=True)):
             yield from _apart(one, other, f"{name}[{i}]", off)
     elif isinstance(told, (int, float)) and isinstance(found, float):
-        if not math.isclose(told, found, rel_tol=_OFF, abs_tol=off):
+        # JSON may hold whole numbers beyond any float.
+        if not (abs(told) <= sys.float_info.max and math.isclose(told, found, rel_tol=_OFF, abs_tol=off)):
             yield f"{name}, {told!r}, but {found!r}"
     elif told != found:
         yield f"{name}, {shown(told)}, but {shown(found)}"

@@ -29,7 +29,7 @@ _NOT_CHECKED = ""
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RunOut(Shown):
     """A vehicle that slid and yawed from separation to where its speed is known, worked out backward by ``path``.
 
