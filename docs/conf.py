@@ -25,7 +25,7 @@ author = "The collisions developers"
 release = version = collisions.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "sphinx_design", "mathml", "attributes"]
-exclude_patterns = ["_build", "_ext", "_static", "**/.ipynb_checkpoints"]
+exclude_patterns = ["_build", "jupyter_execute", "_ext", "_static", "**/.ipynb_checkpoints"]
 nitpicky = True
 # Bases outside the package have no page here.
 nitpick_ignore = [("py:class", name) for name in ("ValueError", "UserWarning", "Exception", "enum.IntEnum", "IntEnum")]

@@ -65,6 +65,12 @@ def test_every_page_is_in_the_index():
     assert listed - {"examples/index"} == {path.stem for path in DOCS.glob("*.md")} - {"index"}
 
 
+def test_no_page_has_a_table_of_contents_of_its_own():
+    """The theme has one beside every page, and prints "ERROR:" in place of another; ``.ci/run`` looks at the pages built."""
+    for path in DOCS.glob("*.md"):
+        assert not re.search(r"\{contents\}|\.\. contents::", path.read_text(encoding="utf-8")), path.name
+
+
 def figures():
     """Every figure that a page shows, with the page."""
     return [

@@ -1,10 +1,14 @@
 """The package itself: runs uninstalled, names what it promises, and type checkers see what callers write."""
 
+import rlcompleter
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import collisions as col
+from collisions.fields import unit_of
 
 ROOT = Path(__file__).parents[1]
 
@@ -15,6 +19,23 @@ def test_public_names():
         assert hasattr(col, name)
     text = (ROOT / "src/collisions/__init__.py").read_text()
     assert f'__version__ = "{col.__version__}"' in text
+
+
+def test_names_complete_as_far_as_they_are_public():
+    """Of the package nothing but its public names; of ``.q`` every quantity, and no method that gives none."""
+    assert {name for name in dir(col) if not name.startswith("_")} == set(col.__all__)
+    car = col.Vehicle(mass=1100.0, vx=20.0)
+    momentum = col.reconstruct.momentum(1e3, 2e3, course_a=0, course_b=1, course_a_after=0.5, speed_a_after=9, together=True)
+    run = col.travel.path([(0, 0), (6, -1)], [0.0, 0.1], friction=0.7, lock=0.5)
+    impact = col.linear_central(car, car.replace(vx=0.0), 0.4)
+    for owner in (car, impact, impact.a, momentum, run, col.left_out(impact)):
+        complete = rlcompleter.Completer({"owner": owner})
+        found = {name.rstrip("()") for name in complete.attr_matches("owner.q.")}
+        wanted = {name for name in dir(owner) if unit_of(type(owner), name) is not None}
+        assert {f"owner.q.{name}" for name in wanted} <= found, type(owner)
+        assert found.isdisjoint({"owner.q.q", "owner.q.to_dict", "owner.q.replace"})
+    with pytest.raises(AttributeError):
+        _ = impact.q.q
 
 
 def test_runs_from_src_without_being_installed():

@@ -112,4 +112,4 @@ SOLVERS["solve"] = _solve
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return [*__all__, "__version__"]

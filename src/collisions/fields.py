@@ -88,8 +88,8 @@ class Quantities:
         self._owner = owner
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
-            raise AttributeError(name)
+        if name == "q" or name.startswith("__"):
+            raise AttributeError(f"{name!r} is no quantity")
         value = getattr(self._owner, name)
         unit = unit_of(type(self._owner), name)
         if unit == OWN:
@@ -103,7 +103,9 @@ class Quantities:
         return to_quantity(value, unit)
 
     def __dir__(self) -> list[str]:
-        return [name for name in dir(self._owner) if not name.startswith("_")]
+        kind = type(self._owner)
+        names = [name for name in dir(kind) if name != "q" and not name.startswith("_")]
+        return [name for name in names if unit_of(kind, name) is not None or not callable(getattr(kind, name))]
 
     def __repr__(self) -> str:
         return f"<Quantities of {self._owner!r}>"
