@@ -6,6 +6,7 @@ import subprocess
 import sys
 import warnings
 from dataclasses import fields
+from decimal import Decimal
 
 import numpy as np
 import pint
@@ -186,6 +187,61 @@ def test_texts_are_read_by_the_registry_of_the_moment():
         pint.set_application_registry(before)
 
 
+@pytest.fixture
+def decimal_registry():
+    """A registry that counts in Decimal, as the application's."""
+    before = pint.get_application_registry().get()
+    registry = pint.UnitRegistry(non_int_type=Decimal)
+    pint.set_application_registry(registry)
+    yield registry
+    pint.set_application_registry(before)
+
+
+def test_quantities_of_a_registry_that_counts_in_decimal():
+    """Its Quantities hold Decimals, or floats that it cannot convert itself; also in arrays, pairs and outlines."""
+    q = pint.UnitRegistry(non_int_type=Decimal).Quantity
+    car = col.Vehicle(mass=q(Decimal("1100.5"), "kg"), vx=q(90.0, "km/h"), heading=q(Decimal(-30), "deg"), x=q(7, "ft"), y=0)
+    assert (car.mass, car.vx, car.heading, car.x) == (1100.5, 25.0, -math.pi / 6, pytest.approx(7 * EXACT["ft"], rel=2**-52))
+    speeds = (np.array([Decimal(18), Decimal("inf")]), np.array([18.0, math.inf]))
+    for given in speeds:
+        assert col.Vehicle(mass=1.0, vx=q(given, "km/h")).vx.tolist() == [5.0, math.inf]
+    for pair in (q([Decimal(1), Decimal(-2)], "km"), (q(Decimal(1), "km"), q(-2.0, "km"))):
+        assert car.replace(heading=0.0).velocity_at(pair) == (25.0, 0.0)
+    wall = col.Vehicle.barrier()
+    impact = col.oblique_central(car, wall, q(Decimal("12.5"), "percent"), normal=q(Decimal(0), "deg"), friction=0.0)
+    assert (impact.restitution, impact.normal, impact.a.after.vx) == (0.125, (1.0, 0.0), -3.125)
+    corners = np.array([[2, 1], [-2, 1], [-2, -1], [2, -1]]) * Decimal(1)
+    findings = [col.diagnose(impact, outline_a=outline) for outline in (q(corners, "m"), corners.astype(float))]
+    assert findings[0] == findings[1]
+
+
+@pytest.mark.parametrize("number", ["1e400", "sNaN"])
+def test_decimals_that_no_float_can_hold_are_refused(number):
+    """Alone and in an array."""
+    q = pint.UnitRegistry(non_int_type=Decimal).Quantity
+    for value in (Decimal(number), np.array([Decimal(1), Decimal(number)])):
+        assert value_error_code(lambda value=value: col.Vehicle(mass=q(value, "kg"))) == "not_a_number"
+
+
+def test_an_application_registry_that_counts_in_decimal(decimal_registry):
+    """Texts are read, .q gives what the registry can convert, and what came out goes in again."""
+    a = col.Vehicle(mass="1.1 tonne", vx="90 km/h", heading="30 deg")
+    assert (a.mass, a.vx, a.heading) == (1100.0, 25.0, math.pi / 6)
+    batch = col.linear_central(a.replace(vx=np.array([20.0, 25.0])), col.Vehicle(mass=1100.0), "50 %")
+    impact = batch.case(1)
+    assert impact.a.after.q.vx == decimal_registry.Quantity(Decimal(impact.a.after.vx), "m/s")
+    assert float(impact.a.after.q.vx.m_as("km/h")) == pytest.approx(impact.a.after.vx * 3.6, rel=1e-15)
+    assert float(impact.a.q.pdof.m_as("deg")) == pytest.approx(30.0, rel=1e-15)
+    assert [part.m_as("percent") for part in impact.q.normal] == [100, 0]
+    per_hour = batch.a.after.q.vx.to("km/h")
+    assert per_hour.magnitude.astype(float) == pytest.approx(batch.a.after.vx * 3.6, rel=1e-15)
+    assert col.Vehicle(mass=a.q.mass.to("lb"), vx=per_hour).vx == pytest.approx(batch.a.after.vx, rel=2 * 2**-52)
+    assert impact.q.ees(0.5)[0].m_as("mph") > 0
+    assert col.uncertainty.Normal("90 km/h", "9 km/h").mean == 25.0
+    assert math.isinf(col.Vehicle.barrier().q.mass.magnitude)
+    assert "mph" in col.explain(impact, units="us")
+
+
 def test_the_default_system_of_a_registry_changes_nothing():
     """to_base_units() follows the registry's default system; the door names its target."""
     registry = pint.UnitRegistry(system="imperial")
@@ -309,6 +365,75 @@ def test_an_angle_is_no_proportion():
     with pytest.raises(col.UnitsError, match="friction"):
         col.oblique_central(a, b, 0.1, normal=0, friction="20 deg")
     assert col.linear_central(a, b, "40 %").restitution == pytest.approx(0.4, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("field", "given", "strange"),
+    [
+        ("vx", "5 m/s/deg", "degree"),
+        ("vx", "30 deg*m/s", "degree"),
+        ("vx", "2 m*rad/s", "radian"),
+        ("vx", "3 m*rpm", "revolutions_per_minute"),
+        ("vx", "50 %*m/s", "percent"),
+        ("vx", "5 m*Hz", "hertz"),
+        ("vx", "5 m/s*deg/rad", "degree"),
+        ("mass", "1000 kg/deg", "degree"),
+        ("mass", "3 kg*bit", "bit"),
+        ("yaw_inertia", "1800 N*m*s**2/rad", "radian"),
+        ("x", "3 m/turn", "turn"),
+        ("heading", "90 deg*deg", "degree"),
+        ("heading", "1 deg**-1", "degree"),
+        ("heading", "1 sr", "steradian"),
+        ("yaw_rate", "30 deg**2/s", "degree"),
+        ("restitution", "40 %*%", "percent"),
+        ("restitution", "40 %/deg", "degree"),
+        ("restitution", "40 deg/rad", "degree"),
+    ],
+)
+def test_an_angle_or_a_proportion_inside_another_unit_is_refused(field, given, strange, ureg):
+    """pint multiplies by 180/pi or 0.01 in silence: "5 m/s/deg" is 286 m/s to it. As a text and as a Quantity."""
+    number, _, unit = given.partition(" ")
+    for value in (given, ureg.Quantity(float(number), unit), ureg.Quantity(np.array([float(number)]), unit)):
+        given_to = {"mass": 1.0, "vx": 1.0} if field == "restitution" else {"mass": 1.0, field: value}
+        with pytest.raises(col.UnitsError, match=rf"{field}: .* cannot be taken as .*{strange} has no place in it"):
+            col.linear_central(col.Vehicle(**given_to), col.Vehicle(mass=1.0), value if field == "restitution" else 0.1)
+
+
+@pytest.mark.parametrize(
+    ("field", "given", "expected"),
+    [
+        ("vx", "50 mph", 50 * EXACT["mph"]),
+        ("yaw_rate", "2 rad/s", 2.0),
+        ("yaw_rate", "30 deg/s", math.pi / 6),
+        ("yaw_rate", "1800 deg/min", math.pi / 6),
+        ("yaw_rate", "0.5 turn/s", math.pi),
+        ("yaw_rate", "500 mrad/s", 0.5),
+        ("heading", "5400 arcmin", math.pi / 2),
+        ("heading", "0.5 pi*rad", math.pi / 2),
+        ("x", "3 m*m/m", 3.0),
+        ("yaw_inertia", "10 J*s**2", 10.0),
+    ],
+)
+def test_units_that_hold_the_angle_they_should(field, given, expected):
+    """A yaw rate holds one angle, a heading is one; whatever cancels is gone."""
+    assert getattr(col.Vehicle(**{"mass": 1.0, field: given}), field) == pytest.approx(expected, rel=4 * 2**-52)
+
+
+def test_speeds_per_degree_go_out_and_come_back_as_inputs_of_a_model(ureg):
+    """Sensitivities have angles below the line: .q gives them, and an input of a model may be one."""
+    found = col.reconstruct.momentum(
+        1100.0, 950.0, course_a="0 deg", course_b="90 deg", course_a_after="30 deg", course_b_after="40 deg",
+        speed_a_after=8.0, speed_b_after=9.0,
+    )  # fmt: skip
+    per_degree = found.q.sensitivity["speed_a"]["course_b_after"]
+    assert per_degree.m_as("m/s/deg") == pytest.approx(math.radians(found.sensitivity["speed_a"]["course_b_after"]), rel=1e-15)
+    for given in (ureg.Quantity(2.0, "m/s/deg"), "2 m/s/deg"):
+        result = col.uncertainty.propagate(
+            lambda slope: {"v": slope * math.radians(3.0)},
+            {"slope": col.uncertainty.Normal(given, given)},
+            method="first_order",
+        )
+        assert result["v"].mean == pytest.approx(6.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(

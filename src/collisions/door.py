@@ -13,7 +13,7 @@ import numpy as np
 
 from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
 from .quiet import warn
-from .units import example, factor, has_unit, in_degrees, is_quantity, parse, shown
+from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
 
 POSITIVE = "positive"
 FINITE = "finite"
@@ -74,7 +74,7 @@ class Door:
 
     def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
         """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
-        whole = value.magnitude if is_quantity(value) else value
+        whole = magnitude(value) if is_quantity(value) else value
         parts = value
         if isinstance(whole, np.ndarray):
             parts = tuple(value) if whole.shape == (2,) and whole.dtype.kind in "fiu" else None
@@ -157,19 +157,19 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
 
 def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
     """The magnitude in the unit, and the quantity as a text."""
-    magnitude = _plain(quantity.magnitude, argument, unit)
+    number = _plain(magnitude(quantity), argument, unit)
     by, name = factor(quantity, unit, argument, given)
-    text = f"{magnitude!r} {name}" if name and isinstance(magnitude, float) else ""
+    text = f"{number!r} {name}" if name and isinstance(number, float) else ""
     if by == 1.0:
-        return magnitude, text
-    if isinstance(magnitude, float):
-        converted: Any = magnitude * by
-        overflows = math.isinf(converted) and not math.isinf(magnitude)
+        return number, text
+    if isinstance(number, float):
+        converted: Any = number * by
+        overflows = math.isinf(converted) and not math.isinf(number)
     else:
-        infinite = np.count_nonzero(np.isinf(magnitude))
+        infinite = np.count_nonzero(np.isinf(number))
         with np.errstate(over="ignore"):
-            magnitude *= by
-        converted, overflows = magnitude, bool(np.count_nonzero(np.isinf(magnitude)) > infinite)
+            number *= by
+        converted, overflows = number, bool(np.count_nonzero(np.isinf(number)) > infinite)
     if overflows:
         raise InputError(f"{argument} is too large: {shown(given)}", code="out_of_range", argument=argument)
     return converted, text

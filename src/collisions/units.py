@@ -5,16 +5,18 @@ The only file that names pint, which it loads when a unit first appears.
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
 from .errors import UnitsError
 
 if TYPE_CHECKING:
-    import numpy as np
     import numpy.typing as npt
 
     class Quantity(Protocol):
@@ -113,7 +115,30 @@ def to_quantity(value: Any, unit: str) -> Any:
     """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's own; pairs part by part."""
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
-    return _registry().Quantity(value, unit or "dimensionless")
+    registry = _registry()
+    if registry.non_int_type.__name__ == "Decimal":
+        # Such a registry cannot multiply floats. A float is a Decimal exactly.
+        value = np.vectorize(registry.non_int_type, otypes=[object])(np.asarray(value, dtype=np.float64))[()]
+    return registry.Quantity(value, unit or "dimensionless")
+
+
+def magnitude(quantity: Any) -> Any:
+    """The number or array of a Quantity, floats for Decimals; a Decimal that no float can hold stays, to be refused."""
+    given = quantity.magnitude
+    if type(given) is float:
+        return given
+    from decimal import Decimal
+
+    parts = given.ravel().tolist() if isinstance(given, np.ndarray) and given.dtype == object else [given]
+    if not all(type(part) is Decimal for part in parts):
+        return given
+    try:
+        floats = np.array([float(part) for part in parts])
+    except ValueError:  # a signalling NaN
+        return given
+    if any(part.is_finite() for part, read in zip(parts, floats.tolist(), strict=True) if math.isinf(read)):
+        return given
+    return floats.reshape(np.shape(given)) if isinstance(given, np.ndarray) else float(floats[0])
 
 
 def has_unit(value: Any) -> bool:
@@ -209,12 +234,12 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
         try:
             # Whole numbers, because a registry may count in Decimal.
             zero, one, two = (float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0, 1, 2))
-            found = one, "" if quantity.unitless else f"{quantity.units}"
+            found = one, "" if registry.Quantity(1, quantity.units).unitless else f"{quantity.units}"
         except Exception as error:
             raise _bad_units(given, unit, argument, error) from error
-        if zero != 0.0 or two != 2.0 * one or _is_of_another_kind(quantity, unit):
+        if zero != 0.0 or two != 2.0 * one:
             raise _bad_units(given, unit, argument, None)
-        if hint := _hardly_meant(quantity):
+        if (hint := _out_of_place(quantity, unit)) or (hint := _hardly_meant(quantity)):
             raise _bad_units(given, unit, argument, None, hint)
         if not in_context:
             known[key] = found
@@ -235,13 +260,27 @@ def example(unit: str) -> str:
     return _EXAMPLES.get(unit) or f"'1 {unit}'"
 
 
-def _is_of_another_kind(quantity: Any, unit: str) -> bool:
-    """Units that pint calls dimensionless are still not one kind: an angle is no proportion, a count of turns no angle."""
-    names = [str(name) for name in quantity._units]
-    if unit == "":
-        units = quantity._REGISTRY.Unit
-        return any(units(name).dimensionless and name not in _SPOKEN_PROPORTIONS for name in names)
-    return unit in ("rad", "rad/s") and any(_is_count(quantity._REGISTRY, name) for name in names)
+def _out_of_place(quantity: Any, unit: str) -> str:
+    """What to say of an angle, a proportion or a count that is no part of the wanted unit; "" without one.
+
+    To pint they are numbers, by which it multiplies: "5 m/s/deg" would be 286 m/s, and 4 %*% would be 0.0004.
+    """
+    registry = quantity._REGISTRY
+    units = {str(name): power for name, power in quantity._units.items()}
+    if unit == "" and units in [{name: 1} for name in _SPOKEN_PROPORTIONS]:
+        return ""
+    wanted = _radians(registry, unit or "dimensionless")
+    angles = {name: turned * power for name, power in units.items() if (turned := _radians(registry, name))}
+    strange = [] if wanted and sum(angles.values()) == wanted else list(angles)
+    strange += [name for name in units if _is_count(registry, name) or (unit == "" and registry.Unit(name).dimensionless)]
+    if strange and unit == "rad/s" and _is_count(registry, strange[0]):
+        return "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
+    return f"; {strange[0]} has no place in it, though pint takes it for a number" if strange else ""
+
+
+def _radians(registry: Any, unit: str) -> Any:
+    """The power of an angle in a unit."""
+    return registry.get_root_units(unit)[1]._units.get("radian", 0)
 
 
 def _is_count(registry: Any, name: str) -> bool:
@@ -249,8 +288,7 @@ def _is_count(registry: Any, name: str) -> bool:
     powers = {str(kind): power for kind, power in registry.get_dimensionality(name).items()}
     if name == "pi" or powers not in ({}, {"[time]": -1}):
         return False
-    roots = registry.get_root_units(name)[1]._units
-    return roots.get("radian", 0) != 1 or not roots.keys() <= {"radian", "second"}
+    return _radians(registry, name) != 1 or not registry.get_root_units(name)[1]._units.keys() <= {"radian", "second"}
 
 
 def _hardly_meant(quantity: Any) -> str:
@@ -277,8 +315,6 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
     elif unit == "kg*m**2" and is_force:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
-    elif unit == "rad/s" and error is None and not hint:
-        hint = "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     return UnitsError(
         f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",
         code="bad_units",
