@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPT = ROOT / "docs" / "import_picture.py"
 
-pytestmark = pytest.mark.skipif(not SCRIPT.is_file(), reason="this copy has no documentation")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not SCRIPT.is_file(), reason="this copy has no documentation")]
 
 
 @pytest.fixture(scope="module")

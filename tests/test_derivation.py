@@ -278,6 +278,7 @@ def test_every_line_of_planar_momentum(which, units, pages):
     assert check_lines(text) >= 5
 
 
+@pytest.mark.slow
 def test_random_scenes_hold_too(pages):
     """Oblique and eccentric impacts of all sizes and turns: every printed line gives its printed result, and none needs an excuse."""
     random = np.random.default_rng(7)
@@ -515,6 +516,7 @@ def test_plain_text_has_no_latex(name):
 RENDERED = set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_markdown_can_be_rendered(name):
     """All maths is read by the converter of the docs, every dollar has its partner, and nothing of the plain form is left."""
@@ -729,6 +731,7 @@ def test_a_form_that_loses_the_digits_says_so():
     assert answer(text, "contact", "closing speed") == "16.00 m/s"
 
 
+@pytest.mark.slow
 def test_extremes_are_written_down_without_a_crash():
     """Twelve powers of ten either way: what a form cannot hold is said, and the answers are still the result's own."""
     random = np.random.default_rng(1)

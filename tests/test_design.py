@@ -10,7 +10,7 @@ import pytest
 DESIGN = Path(__file__).resolve().parent.parent / "design"
 NOTES = sorted(path.name for path in DESIGN.glob("*.py") if path.stem != "measuring")
 
-pytestmark = pytest.mark.skipif(not DESIGN.is_dir(), reason="this copy has no design notes")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not DESIGN.is_dir(), reason="this copy has no design notes")]
 
 
 @pytest.mark.parametrize("note", NOTES)

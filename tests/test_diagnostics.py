@@ -893,6 +893,7 @@ def test_a_reconstruction_is_diagnosed_as_the_impact_it_is():
     assert [f.code for f in diagnose(in_line)] == ["restitution", "model_unknown"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_extreme_scenes_are_diagnosed_too(family):
     """Every answer has findings that are whole, within the limits' order, whatever its size; nothing is refused."""

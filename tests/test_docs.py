@@ -15,7 +15,7 @@ from collisions.side import Side
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle}
 
-pytestmark = pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are")]
 
 
 def page(name):

@@ -57,7 +57,10 @@ def test_there_are_examples():
     assert expected <= {script.stem for script in EXAMPLES}
 
 
-@pytest.mark.parametrize("script", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "script",
+    [pytest.param(path, id=path.stem, marks=() if path.stem == "paper_examples" else pytest.mark.slow) for path in EXAMPLES],
+)
 @pytest.mark.parametrize("elsewhere", [False, True], ids=["from the root", "from elsewhere"])
 def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
     """An example exits with 0 and ends in its checks, without a warning, wherever it is started."""

@@ -653,6 +653,7 @@ def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
                 )
 
 
+@pytest.mark.slow
 @every_model
 @examples()
 @given(data=st.data())

@@ -15,6 +15,8 @@ from collisions import reconstruct, travel
 from strategies import arrays, garbage, never_numbers, numbers, plausible, registries, values
 from test_fuzz import attempt, bodies, called_wrongly, check_numbers, examples, look_at_impact, must_answer
 
+pytestmark = pytest.mark.slow
+
 # What each function takes: names of numbers as ``strategies`` knows them, by keyword.
 MASSES = {"mass_a": "mass", "mass_b": "mass"}
 CENTRAL = {

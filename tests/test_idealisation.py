@@ -626,17 +626,20 @@ def measured(script):
     return script.measure(steps=160)
 
 
+@pytest.mark.slow
 def test_the_reference_is_the_impulse_where_nothing_is_left_out(measured):
     """With the geometry of first contact and no tyres; 0.0005 is what friction that fades out below 10 cm/s takes off."""
     for row in measured["rows"]:
         assert row["fixed"]["share"] <= 6e-4, row["scene"]
 
 
+@pytest.mark.slow
 def test_the_reference_has_converged(script, measured):
     """Half the step changes no delta-V by 0.1 %."""
     assert measured["halving_the_step"] < 1e-3
 
 
+@pytest.mark.slow
 def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
     """Sliding with the centre, and at four wheels, which also turn."""
     for row in measured["rows"]:
@@ -644,6 +647,7 @@ def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
             assert 1 / 1.5 < row["left_out"]["tyre_delta_v"] / row[which]["delta_v"] < 1.5, (row["scene"], which)
 
 
+@pytest.mark.slow
 def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
     """Where it matters at all; with a contact that stays with A or B it may be 0.5 to 1.5 times as much."""
     for row in measured["rows"]:
@@ -658,6 +662,7 @@ def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
         assert row["engaged"]["delta_v"] < 0.55 * moved, row["scene"]
 
 
+@pytest.mark.slow
 def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
     """Worked out again; the docstring has the figures of the committed file, which keeps three digits."""
     file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
@@ -680,6 +685,7 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
             assert row["no_estimate"] == 0
 
 
+@pytest.mark.slow
 def test_the_figures_of_the_design(measured):
     """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 6 %."""
     rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
@@ -688,6 +694,7 @@ def test_the_figures_of_the_design(measured):
     assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.06, abs=0.002)
 
 
+@pytest.mark.slow
 def test_the_script_writes_what_it_prints(script, measured, monkeypatch, capsys, tmp_path):
     """Strict JSON in the file that is named, a table on the screen."""
     monkeypatch.setattr(script, "measure", lambda: measured)

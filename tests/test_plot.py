@@ -168,6 +168,7 @@ def scale(axes, what):
 # What they have in common
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 @pytest.mark.parametrize("picture", DRAWN)
 def test_every_picture_of_every_impact_has_its_units_on_its_axes(picture, case):
@@ -420,6 +421,7 @@ def in_line(solver):
         yield solver(a, b, 0.3, normal=0.0, **({"point": (0.0, 0.0), "friction": 0.0} if solver is col.eccentric else {}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", [col.linear_central, col.eccentric])
 def test_arrows_of_an_in_line_scene_do_not_hide_each_other(solver):
     """No two lie on one line where both are, by five points at least: wider than their heads; and the picture says so."""
@@ -467,6 +469,7 @@ def test_the_scene_of_small_bodies_is_small():
     assert 2.0 < np.ptp(one.get_xlim()) < 20.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", [1e-3, 1e9])
 @pytest.mark.parametrize("picture", DRAWN)
 def test_numbers_beside_the_axes_are_told_apart_at_any_size(picture, mass):
@@ -638,6 +641,7 @@ def test_a_slow_rebound_is_not_under_the_arrow_that_arrives():
     assert "drawn side by side" in axes.get_xlabel()
 
 
+@pytest.mark.slow
 def test_a_label_does_not_stand_on_the_other_vehicle():
     """What is said of A not on B, nor what is said of B on A, by a quarter of it or more."""
     with warnings.catch_warnings():
@@ -660,6 +664,7 @@ def test_a_label_does_not_stand_on_the_other_vehicle():
         plt.close(axes.figure)
 
 
+@pytest.mark.slow
 def test_long_names_leave_room_for_the_picture():
     """In lines of their own; the title within the figure, and no two of the energies' names on each other."""
     impact = named_long(IMPACTS["sticking"])
@@ -705,6 +710,7 @@ def test_names_are_text_and_no_formula():
     assert not text.get_parse_math()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("picture", "case"),
     [

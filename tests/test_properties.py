@@ -47,15 +47,21 @@ MODELS = [("eccentric", constraint) for constraint in CONSTRAINTS] + [
 ]
 
 
+def marks(constraint: str) -> Any:
+    """A free and a pinned body are for every run; the rest is slow."""
+    return () if constraint in ("free", "B pinned") else pytest.mark.slow
+
+
 def crossing(pairs: list[tuple[str, str]]) -> Any:
     """Every pair of model and constraint as a test of its own."""
-    return pytest.mark.parametrize(("model", "constraint"), pairs, ids=map(", ".join, pairs))
+    cases = [pytest.param(*pair, marks=marks(pair[1]), id=", ".join(pair)) for pair in pairs]
+    return pytest.mark.parametrize(("model", "constraint"), cases)
 
 
 PLANAR = [pair for pair in MODELS if pair[0] != "linear_central"]
 every_model = crossing(MODELS)
 every_law = pytest.mark.parametrize("law", LAWS)
-every_constraint = pytest.mark.parametrize("constraint", CONSTRAINTS)
+every_constraint = pytest.mark.parametrize("constraint", [pytest.param(name, marks=marks(name)) for name in CONSTRAINTS])
 
 
 def point_mass(body: Body) -> Body:

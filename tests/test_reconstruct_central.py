@@ -324,6 +324,7 @@ def roots_by_search(mass_a, mass_b, names, known):
     return int(np.count_nonzero(fine & (np.sign(mismatch[:-1]) != np.sign(mismatch[1:]))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", TWO_ROOTS, ids="-".join)
 def test_every_root_is_found_and_no_more(names):
     """As many as a search over the restitution shows; both run forward to what was known, and one is what it came from."""

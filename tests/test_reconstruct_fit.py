@@ -294,6 +294,7 @@ def test_published_oblique_crash_tests(test):
     assert "undetermined" in codes
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """64 simulated scenes: 95 and 68.27 percent intervals, chi-squared and its chances, within binomial error.
 
@@ -610,6 +611,7 @@ def least_misfit(e, observed):
     return np.min(((loss - factor * v**2) / loss_error) ** 2 + ((speed - v) / speed_error) ** 2)
 
 
+@pytest.mark.slow
 def test_nearly_plastic_impacts_are_answered():
     """Loss of energy and speed observed, true restitution even from 0 to 0.3: on the bound the range is that of chi-squared.
 

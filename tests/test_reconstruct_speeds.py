@@ -379,6 +379,7 @@ def steep(closing):
     return 0.5 * math.exp(-closing / 3.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.1, steep], ids=["number", "steep"])
 @pytest.mark.parametrize("pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_a", "ees"), ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
 def test_the_condition_is_that_of_the_whole_call(pair, restitution):
@@ -462,6 +463,7 @@ def test_refusals(code, kind, changes, words):
 EDGES = re.compile(r"(between|at least|at most) (\d[\d.e+-]*)(?: and (\d[\d.e+-]*))? (?:J|m/s), and (?:\w+ = )?(\d[\d.e+-]*)")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pair", [pair for pair in PAIRS if pair[1] != "ees" or not pair[0].startswith("speed")], ids="-".join)
 def test_a_contradiction_says_what_would_fit(pair):
     """The ends of the range that is printed to 6 digits: 2e-5 inside there is an answer, 1e-3 outside none.
@@ -655,6 +657,7 @@ def test_a_course_across_the_normal_leaves_its_speed_open():
         assert caught.value.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("short", [0.0, 1e-12, 1e-9, 1e-6, 1e-3])
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("friction", [0.0, 0.5])

@@ -77,6 +77,7 @@ def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):
         compare(kernel, (*settings, eps), numbers(count, 301, dtype, rng, odd), dtype, 128)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
 def test_plain_numbers_among_the_arrays(kernel, settings, count, dtype):

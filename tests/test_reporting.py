@@ -185,6 +185,7 @@ def test_other_ends_of_lines_do_no_harm(impacts):
         assert replay(page.replace("\n", "\r\n")) == impacts["eccentric"]
 
 
+@pytest.mark.slow
 def test_with_everything_it_is_the_same_too_and_in_another_process():
     """Neither hashes, nor settings of matplotlib, nor the record change a byte."""
     code = (
@@ -410,6 +411,7 @@ def test_an_uncertainty_of_another_case_is_seen():
     assert "of the propagation: are both of the same case?" in text
 
 
+@pytest.mark.slow
 def test_intervals_and_local_methods():
     interval = spread("b.delta_v", restitution=uncertainty.Interval(0.05, 0.15))
     ranges = report(crash(), form="markdown", uncertainty=interval)
@@ -927,6 +929,7 @@ def test_bad_records_name_the_text():
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_record", "text")
 
 
+@pytest.mark.slow
 def test_a_name_with_half_a_letter_can_be_written():
     """A lone surrogate stands for no sign; the record keeps it."""
     impact = crash(golf(name="\ud800x"))

@@ -16,7 +16,7 @@ PAGE = ROOT / "docs" / "speed_against_accuracy.md"
 # Rows of what need not be installed.
 OPTIONAL = {"numba", "numba_threads", "pymunk"}
 
-pytestmark = pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
 
 
 @pytest.fixture(scope="module")

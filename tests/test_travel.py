@@ -110,6 +110,7 @@ def exact(segments, end):
         return found, times
 
 
+@pytest.mark.slow
 @run_often
 @given(st.lists(st.tuples(lengths, st.floats(0.31, 1.4), grades), min_size=1, max_size=6), speeds)
 def test_speed_and_time_keep_their_digits(segments, end):

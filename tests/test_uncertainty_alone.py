@@ -156,6 +156,7 @@ def test_answers_whose_width_leaves_the_range_of_floats():
 # Models that do not
 
 
+@pytest.mark.slow
 @every_run
 def test_answers_are_the_same_to_the_bit(inputs, how, monkeypatch):
     """As without the comparison: it draws nothing, and its cases are not counted."""
@@ -177,6 +178,7 @@ def test_answers_are_the_same_to_the_bit(inputs, how, monkeypatch):
     assert figures() == compared
 
 
+@pytest.mark.slow
 @every_run
 def test_few_cases_are_asked_again_once(inputs, how, monkeypatch):
     """Four at most, however many outputs, blocks, and places between bounds; always the same ones, on threads too.

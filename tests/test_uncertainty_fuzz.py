@@ -16,6 +16,8 @@ from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangu
 from strategies import extreme, garbage, registries, texts
 from test_fuzz import attempt, examples
 
+pytestmark = pytest.mark.slow
+
 METHODS = ("first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval")
 
 
