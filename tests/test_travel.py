@@ -951,11 +951,10 @@ def test_a_run_out_is_a_frozen_record_with_units():
 @pytest.mark.parametrize("function", [travel.speed, travel.distance, travel.time, travel.path])
 def test_what_is_documented_of_each_function(function):
     """The sections a reader needs: what goes in, what comes out, what is refused and warned of, one worked example."""
+    text = inspect.getdoc(function)
     for section in ("Parameters", "Returns", "Raises", "Warns", "Examples"):
-        assert f"\n    {section}\n    {'-' * len(section)}\n" in function.__doc__
-    named = re.findall(
-        r"^    ([a-z_, ]+?)(?: :|$)", function.__doc__.split("Parameters\n")[1].split("Returns\n")[0], re.MULTILINE
-    )
+        assert f"\n{section}\n{'-' * len(section)}\n" in text
+    named = re.findall(r"^([a-z_, ]+?)(?: :|$)", text.split("Parameters\n")[1].split("Returns\n")[0], re.MULTILINE)
     assert {name for line in named for name in line.split(", ")} >= set(inspect.signature(function).parameters)
 
 
