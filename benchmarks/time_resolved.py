@@ -1,10 +1,11 @@
 """A contact that takes time and has tyres, integrated, against the impulse that takes none: what ``left_out`` estimates.
 
 ``python benchmarks/time_resolved.py [file.json]`` prints a table, and writes it when a file is named. Two rigid bodies in the
-plane push at each other for 0.1 s with a force of a given shape in time, as large as it takes for the contact points to part
-at restitution times closing speed; Coulomb friction along the contact, tyres that slide on the ground. Nothing here but the
-first column and the estimates comes from the library. Nothing is timed. Nine scenes are listed one by one; over seeded random
-ones only the ratio of estimate to integration is kept, once with a friction of 0.2 to 0.8 and once of 0 to 0.1.
+plane push at each other for 0.1 s with a force of a given shape in time, that of a spring which unloads along a stiffer one, as
+large as it takes for the contact points to part at restitution times closing speed; Coulomb friction along the contact, tyres
+that slide on the ground. Nothing here but the first column and the estimates comes from the library. Nothing is timed. Nine
+scenes are listed one by one; over seeded random ones only the ratio of estimate to integration is kept, once with a friction of
+0.2 to 0.8 and once of 0 to 0.1.
 
 The contact point is carried by the mean of the two places of the bodies that met, and the normal turns by the mean of the
 rotations; with a fixed wall the point is the body's and the normal the wall's. What a contact that stays with one of the
@@ -166,16 +167,16 @@ class Physics:
 
     tyres: str | None = None
     carrier: str | None = None
-    pulse: str = "half-sine"
+    pulse: str = "spring"
 
 
-def force_shape(pulse: str, share: float) -> float:
+def force_shape(pulse: str, share: float, e: Any) -> Any:
     """Force at a share of the duration, over its mean."""
-    if pulse == "half-sine":
-        return 0.5 * math.pi * math.sin(math.pi * share)
-    if pulse == "triangle":
-        return 4.0 * min(share, 1.0 - share)
-    return 1.0
+    if pulse == "square":
+        return 1.0
+    since_peak = share * (1.0 + e) - 1.0
+    falling = np.clip(since_peak / np.where(e == 0.0, 1.0, e), 0.0, 1.0)
+    return 0.5 * math.pi * np.cos(0.5 * math.pi * np.where(since_peak < 0.0, since_peak, falling))
 
 
 class Contact:
@@ -227,7 +228,7 @@ class Contact:
     def rates(self, share: float, state: Any, impulse: Any) -> Any:
         """How the state changes at a share of the duration."""
         _, slip, rx, ry, nx, ny = self.at_contact(state)
-        push = impulse * (force_shape(self.physics.pulse, share) / self.duration)
+        push = impulse * (force_shape(self.physics.pulse, share, self.e) / self.duration)
         along = -self.mu * push * np.tanh(slip / CONTACT_CREEP)
         on_b_x, on_b_y = push * nx - along * ny, push * ny + along * nx
         fx, fy = np.array([-on_b_x, on_b_x]), np.array([-on_b_y, on_b_y])

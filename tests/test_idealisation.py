@@ -36,6 +36,18 @@ def t_bone(speed=20.0, restitution=0.1, b=None, **changes):
     return col.eccentric(a, b, restitution, **{"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, **changes})
 
 
+def spring(e, count=200_000):
+    """Shares of the duration, the share of the impulse that comes in each, and what has passed by its middle.
+
+    The force of a spring up to the end of compression and of a stiffer one after it, summed up in steps; 1e-9 of each sum.
+    """
+    share = (np.arange(count) + 0.5) / count
+    phase = (1.0 + e) * share
+    force = np.where(phase < 1.0, np.sin(0.5 * np.pi * phase), np.cos(0.5 * np.pi * (phase - 1.0) / (e or 1.0)))
+    force /= force.sum()
+    return share, force, np.cumsum(force) - 0.5 * force
+
+
 def numbers(found):
     """Every field by its name."""
     return {name: getattr(found, name) for name in TOGETHER} | {
@@ -61,9 +73,10 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
         assert side.tyre_share == pytest.approx(side.tyre_share_bound)
         assert side.rotation == 0.0
         assert side.geometry_delta_v is side.geometry_share is None
-    # A goes on at 0.3 and B at 0.7 of the speed.
-    assert found.a.displacement_x == pytest.approx(0.065 * speed)
-    assert found.b.displacement_x == pytest.approx(0.035 * speed)
+    # A goes on at 0.3 and B at 0.7 of the speed, half of which they have after more than half of the time.
+    passed = spring(0.4)[2].mean()
+    assert found.a.displacement_x == pytest.approx(0.1 * (1.0 - 0.7 * passed) * speed, rel=1e-8)
+    assert found.b.displacement_x == pytest.approx(0.1 * 0.7 * passed * speed, rel=1e-8)
     assert found.a.displacement_y == found.b.displacement_y == found.contact_slide == 0.0
     assert found.residual_crush == pytest.approx(found.a.displacement_x - found.b.displacement_x)
 
@@ -79,18 +92,24 @@ def test_tyres_of_one_vehicle_are_shared_by_the_contact():
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.05, 0.3, 0.7, 1.0])
-def test_mutual_crush_is_that_of_a_half_sine(restitution):
-    """The closing speed summed up to where it is 0, and to the end: midpoints of 200 000 steps, 1e-9 of the crush."""
-    found = col.left_out(rear_end(10.0, restitution), duration=0.12)
-    middles = (np.arange(200_000) + 0.5) / 200_000
-    closing = 10.0 - (1.0 + restitution) * 10.0 * 0.5 * (1.0 - np.cos(np.pi * middles))
-    assert found.mutual_crush == pytest.approx(0.12 * np.maximum(closing, 0.0).mean(), rel=1e-8)
-    assert found.residual_crush == pytest.approx(0.12 * closing.mean(), abs=1e-9)
+def test_mutual_crush_is_that_of_a_spring(restitution):
+    """m x'' = -k x: the most is c sqrt(m/k), after a quarter period; a spring of k/e**2 takes e times as long to let go, and
+    gives back the share e**2 of the way. And the closing speed summed up to where it is 0, and to the end.
+    """
+    mass, stiffness = 750.0, 400e3
+    quarter = 0.5 * math.pi * math.sqrt(mass / stiffness)
+    found = col.left_out(rear_end(10.0, restitution), duration=(1.0 + restitution) * quarter)
+    crush = 10.0 * math.sqrt(mass / stiffness)
+    assert found.mutual_crush == pytest.approx(crush, rel=1e-14)
+    assert found.residual_crush == pytest.approx((1.0 - restitution**2) * crush, rel=1e-14, abs=1e-15)
+    closing = 10.0 - (1.0 + restitution) * 10.0 * spring(restitution)[2]
+    assert found.mutual_crush == pytest.approx(found.duration * np.maximum(closing, 0.0).mean(), rel=1e-8)
+    assert found.residual_crush == pytest.approx(found.duration * closing.mean(), abs=1e-8)
 
 
 def test_crush_at_the_ends_of_restitution():
-    """Half of closing times duration if plastic, a share of 1/pi if elastic and then nothing is left."""
-    assert col.left_out(rear_end(10.0, 0.0)).mutual_crush == pytest.approx(0.5)
+    """A share of 2/pi of closing times duration if plastic, of 1/pi if elastic, and then nothing is left."""
+    assert col.left_out(rear_end(10.0, 0.0)).mutual_crush == pytest.approx(2.0 / math.pi)
     elastic = col.left_out(rear_end(10.0, 1.0))
     assert elastic.mutual_crush == pytest.approx(1.0 / math.pi)
     assert elastic.residual_crush == 0.0
@@ -120,8 +139,8 @@ def test_oblique_points_slide_along_each_other():
     a, b = col.Vehicle(mass=1500.0, vx=10.0, vy=0.0), col.Vehicle(mass=1500.0, vy=10.0)
     found = col.left_out(col.oblique_central(a, b, 0.0, normal=0.0, friction=0.0))
     assert found.contact_slide == pytest.approx(1.0)
-    assert found.mutual_crush == pytest.approx(0.5)
-    assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx((0.25, 1.0))
+    assert found.mutual_crush == pytest.approx(2.0 / math.pi)
+    assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx((0.5 * (1.0 - 2.0 / math.pi), 1.0))
     # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the pull, towards +x.
     assert found.a.tyre_impulse == pytest.approx(1500 * MOST)
     assert 0.9 * 1500 * MOST < found.b.tyre_impulse < 1500 * MOST
@@ -129,13 +148,14 @@ def test_oblique_points_slide_along_each_other():
 
 
 def test_t_bone():
-    """Rotation and displacement are the mean of before and after times the duration; geometry moves delta-V by a tenth."""
+    """Rotation and displacement are those of velocities that change as the impulse passes; geometry moves delta-V by a tenth."""
     impact = t_bone()
     found = col.left_out(impact)
-    assert found.b.rotation == pytest.approx(0.05 * impact.b.after.yaw_rate)
-    assert found.a.displacement_x == pytest.approx(0.05 * (20.0 + impact.a.after.vx))
+    passed = spring(0.1)[2].mean()
+    assert found.b.rotation == pytest.approx(0.1 * passed * impact.b.after.yaw_rate, rel=1e-8)
+    assert found.a.displacement_x == pytest.approx(0.1 * (20.0 + passed * impact.a.delta_vx), rel=1e-8)
     assert found.a.geometry_share == pytest.approx(found.b.geometry_share)
-    assert found.b.geometry_share == pytest.approx(0.104, abs=0.002)
+    assert found.b.geometry_share == pytest.approx(0.107, abs=0.002)
     assert found.b.geometry_share == pytest.approx(found.b.geometry_delta_v / impact.b.delta_v)
 
 
@@ -169,7 +189,8 @@ def test_a_pinned_vehicle():
     common = (1500 * kick_a + pushed * kick_b) / (1500 + pushed)
     assert found.a.tyre_delta_v == pytest.approx(abs(common))
     assert found.b.tyre_delta_v == pytest.approx(abs(common) * 1.5)
-    assert found.b.rotation == pytest.approx(0.05 * impact.b.after.yaw_rate)
+    passed = spring(impact.restitution)[2].mean()
+    assert found.b.rotation == pytest.approx(0.1 * passed * impact.b.after.yaw_rate, rel=1e-8)
     assert 0.0 < found.b.geometry_delta_v < impact.b.delta_v
 
 
@@ -195,10 +216,14 @@ def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_
     assert "no bound but an estimate" in " ".join(LeftOutSide.__doc__.split())
 
 
-def later(body, side, time):
-    """How far a vehicle has gone and turned halfway from the mean that a half-sine sees to the end, and where its point is."""
+def later(body, side, time, e=0.1):
+    """How far a vehicle has gone and turned halfway from the mean that the force sees to the end, and where its point is."""
+    share, force, passed = spring(e)
+    # By the velocity before and by its change: at each moment, weighed with the force; and in the end.
+    gone = (np.cumsum(passed) - 0.5 * passed) / passed.size
+    by_was, by_change = 0.5 * (float(force @ share) + 1.0), 0.5 * (float(force @ gone) + float(passed.mean()))
     dx, dy, turn = (
-        time * (0.5 * (0.5 + 1.0) * was + 0.5 * (0.125 + 0.5) * change)
+        time * (by_was * was + by_change * change)
         for was, change in ((body.vx, side.delta_vx), (body.vy, side.delta_vy), (body.yaw_rate, side.delta_yaw_rate))
     )
     c, s = math.cos(turn), math.sin(turn)
@@ -217,7 +242,7 @@ def test_geometry_between_two_vehicles_is_their_mean():
     for name in "ab":
         old, new = getattr(impact, name), getattr(again, name)
         moved = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
-        assert getattr(found, name).geometry_delta_v == pytest.approx(moved, rel=1e-12)
+        assert getattr(found, name).geometry_delta_v == pytest.approx(moved, rel=1e-8)
 
 
 def test_a_wall_keeps_its_normal_and_the_car_its_place_of_contact():
@@ -229,11 +254,11 @@ def test_a_wall_keeps_its_normal_and_the_car_its_place_of_contact():
     again = col.eccentric(moved, col.Vehicle.barrier(), 0.1, **{**rest, "point": point})
     wanted = math.hypot(again.a.delta_vx - impact.a.delta_vx, again.a.delta_vy - impact.a.delta_vy)
     assert wanted > 1.0
-    assert col.left_out(impact).a.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
+    assert col.left_out(impact).a.geometry_delta_v == pytest.approx(wanted, rel=1e-8)
     placed = col.left_out(col.eccentric(a, col.Vehicle.barrier(x=1.0, y=0.0), 0.1, **rest))
     swapped = col.left_out(col.eccentric(col.Vehicle.barrier(), a, 0.1, **{**rest, "normal": "210 deg"}))
-    assert placed.a.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
-    assert swapped.b.geometry_delta_v == pytest.approx(wanted, rel=1e-12)
+    assert placed.a.geometry_delta_v == pytest.approx(wanted, rel=1e-8)
+    assert swapped.b.geometry_delta_v == pytest.approx(wanted, rel=1e-8)
 
 
 @pytest.mark.parametrize("turn", [0.7, 2.5, -1.9])
@@ -649,16 +674,17 @@ def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
 
 @pytest.mark.slow
 def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
-    """Where it matters at all; with a contact that stays with A or B it may be 0.5 to 1.5 times as much."""
+    """Where it matters at all; with a contact that stays with A or B it may be 0.49 to 1.86 times as much, as the docstring says."""
     for row in measured["rows"]:
         moved = row["moving"]["delta_v"]
         if row["scene"].startswith("rear_end"):
             assert moved == row["left_out"]["geometry_delta_v"] == 0.0
             continue
         assert 1 / 1.5 < row["left_out"]["geometry_delta_v"] / moved < 1.5, row["scene"]
-        assert row["moving_square"]["delta_v"] == pytest.approx(moved, rel=0.15), row["scene"]
+        # With a force that is the same throughout.
+        assert row["moving_square"]["delta_v"] == pytest.approx(moved, rel=0.25), row["scene"]
         for carrier in ("moving_with_a", "moving_with_b"):
-            assert 0.5 <= row[carrier]["delta_v"] / moved < 1.5, (row["scene"], carrier)
+            assert 0.49 <= row[carrier]["delta_v"] / moved < 1.86, (row["scene"], carrier)
         assert row["engaged"]["delta_v"] < 0.55 * moved, row["scene"]
 
 
@@ -681,17 +707,17 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
             assert measured[key][name]["vehicles"] == row["vehicles"] > 150
             least, low, *_, high, most = row["quantiles"]
             assert re.search(rf"{low:.2f} to {high:.2f} of [\w ]+ in 9 of 10, {least:.2f} to {most:.2f} in all", said)
-            assert 0.0 < row["outside_1.5"] < most_outside.get((key, name), 0.03)
+            assert 0.0 <= row["outside_1.5"] < most_outside.get((key, name), 0.03)
             assert row["no_estimate"] == 0
 
 
 @pytest.mark.slow
 def test_the_figures_of_the_design(measured):
-    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 6 %."""
+    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 5 %."""
     rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
     assert rows["rear_end_2", "b"]["wheels"]["share"] == pytest.approx(0.43, abs=0.01)
     assert rows["rear_end_20", "b"]["wheels"]["share"] == pytest.approx(0.049, abs=0.001)
-    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.06, abs=0.002)
+    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.052, abs=0.002)
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import pulse
 from .directions import from_radians
 from .fields import hypot, numeric
 from .impact import Impact
@@ -16,8 +17,8 @@ from .kernels.turning import turning_velocity
 from .provenance import MODELS
 from .side import Side
 
-# Share of the impulse that has passed at moments that split the half-sine into parts that weigh the same in time.
-_PASSED = tuple(0.5 - 0.5 * math.cos(math.pi * (k + 0.5) / 4) for k in range(4))
+# Moments that weigh the same in time, as shares of the duration.
+_MOMENTS = (0.125, 0.375, 0.625, 0.875)
 # So little of the tyre impulse that sticking stays sticking; a power of 2, so that scaling it back rounds nothing.
 _LITTLE = 2.0**-6
 
@@ -34,18 +35,19 @@ class Kick(NamedTuple):
     most: Any
 
     @classmethod
-    def of(cls, side: Side, point: Any, most: Any) -> Kick:
+    def of(cls, side: Side, restitution: Any, point: Any, most: Any) -> Kick:
         """``most`` is the change of velocity of a free body by tyres that pull one way throughout."""
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
         moves = numeric(before.mass).isfinite(before.mass)
         most = select(moves, most, 0.0)
         x: Any = 0.0
         y: Any = 0.0
-        for passed in _PASSED:
+        for moment in _MOMENTS:
+            passed = pulse.passed(restitution, moment)
             vx, vy = before.vx + passed * change_x, before.vy + passed * change_y
             speed = hypot(vx, vy)
             speed = select(speed == 0.0, 1.0, speed)
-            x, y = x - vx / speed / len(_PASSED), y - vy / speed / len(_PASSED)
+            x, y = x - vx / speed / len(_MOMENTS), y - vy / speed / len(_MOMENTS)
         x, y = most * x, most * y
         pull = hypot(x, y)
         if before.pivot is None:
@@ -93,11 +95,14 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
     if impact.refused is True or not np.any(placed):
         return [math.nan] * 2
     bodies, turns, places, fixed = [], [], [], []
+    passed = pulse.mean_passed(impact.restitution)
+    # Halfway from the mean that the force sees, T ((1 - m) v + (m - q) change) with m and q the means of the share that has
+    # passed and of its square, to the end, T (v + m change).
+    by_was, by_change = 1.0 - 0.5 * passed, passed - 0.5 * pulse.mean_square_passed(impact.restitution)
     for side in (impact.a, impact.b):
         before = side.before
-        # Halfway from the mean that the force sees, T/2 (v + change/4), to the end, T (v + change/2).
         dx, dy, turn = (
-            time * (0.75 * was + 0.3125 * change)
+            time * (by_was * was + by_change * change)
             for was, change in (
                 (before.vx, side.delta_vx),
                 (before.vy, side.delta_vy),

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from . import pulse
 from .amounts import at_least_zero
 from .door import Door, broadcast, warn_if_large
 from .during_contact import Kick, with_motion, with_tyres
@@ -105,7 +106,8 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
     An impulse acts at once, at one place; a real contact takes about 0.1 s, in which tyres push too, and the vehicles move and
     turn. The bound of the tyres needs nothing but drag and duration; the rest is estimated from the states before and after,
-    with a contact force that rises and falls as a half-sine.
+    with the spring pulse for the contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
+    compression, and one down that takes e times as long.
 
     Parameters
     ----------
@@ -131,30 +133,32 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     Notes
     -----
     With s the share of the impulse that has passed, every velocity of a body of constant geometry is its value before plus s
-    times its change; in a half-sine of duration T, s = (1 - cos(pi t/T))/2. Then, all derived here:
+    times its change. The spring pulse is the force of a linear spring that unloads along a stiffer one. In a duration T it has
+    s = (1 - cos(pi (1 + e) t/(2 T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of
+    m = (1 - 2 (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. Then, all derived here:
 
-    - displacement and rotation are T times the mean of before and after (any pulse that is symmetrical in time); so is the
-      slide, which is exact if slip does not end during the contact;
-    - mutual crush is c T/(2 pi) ((1 - e)(pi - 2 atan(sqrt(e))) + 2 sqrt(e)) for a closing speed c: c T/2 if plastic, c T/pi if
-      elastic; with a constant force it would be c T/(2 (1 + e)). When they part (1 - e) c T/2 of it is left;
+    - displacement and rotation are T times the value before plus m times its change; so is the slide, which is exact if slip
+      does not end during the contact;
+    - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if elastic; with a constant force
+      it would be c T/(2 (1 + e)). When they part 2 (1 - e) c T/pi of it is left;
     - the tyre impulse is drag x weight x T times the mean, over time, of the direction against the motion of the centre.
       It moves delta-V together with what the contact makes of it: restitution still ends the impact with e times the closing
       speed, and the solver is asked again. Against a wall in line that leaves nothing of it;
     - for the geometry the solver is asked again with every position and angle halfway between where it is on average while the
-      force acts, T/2 (v + delta_v/4) on, which is where the impulse works, and where it is in the end, T (v + delta_v/2) on,
-      which is where restitution holds. The contact point goes with the mean of the two places that met, the normal with the
+      force acts, which is where the impulse works, and where it is in the end, T (v + m delta_v) on, which is where restitution
+      holds. The contact point goes with the mean of the two places that met, the normal with the
       mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
 
     Measured against the integration in benchmarks/time_resolved.py, over 150 random impacts of two cars that do not spin
     before and close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V
-    changes by more than 2 percent: the estimate is 0.89 to 1.09 of the change by tyres in 9 of 10, 0.49 to 1.29 in all; and
-    0.86 to 1.37 of that by geometry in 9 of 10, 0.69 to 1.69 in all. Over as many with a friction of 0 to 0.1 it is worse:
-    0.82 to 1.16 of the change by tyres in 9 of 10, 0.44 to 1.89 in all; and 0.86 to 2.34 of that by geometry in 9 of 10, 0.47
-    to 3.03 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. If the contact stayed with
-    one of the vehicles instead of going between them, that of geometry would be 0.5 to 1.5 times as large, and that on yaw
+    changes by more than 2 percent: the estimate is 0.83 to 1.11 of the change by tyres in 9 of 10, 0.45 to 1.83 in all; and
+    0.85 to 1.31 of that by geometry in 9 of 10, 0.74 to 1.50 in all. Over as many with a friction of 0 to 0.1 it is worse:
+    0.74 to 1.14 of the change by tyres in 9 of 10, 0.47 to 1.82 in all; and 0.84 to 1.96 of that by geometry in 9 of 10, 0.57
+    to 2.44 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. If the contact stayed with
+    one of the vehicles instead of going between them, that of geometry would be 0.49 to 1.86 times as large, and that on yaw
     rates could have either sign: none is given.
 
-    Positions at maximum engagement, as they are found in a real crash, leave a half to a fifteenth of the effect of geometry;
+    Positions at maximum engagement, as they are found in a real crash, leave a half to a seventeenth of the effect of geometry;
     then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
     load and suspension, and crush that moves the centre of mass.
 
@@ -168,14 +172,14 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     ...     found = col.left_out(col.linear_central(a, b, restitution=0.4))
     ...     side = found.b
     ...     print(f"{side.tyre_delta_v_bound:.2f} m/s, {side.tyre_share_bound:.0%} of it; crush {found.mutual_crush:.2f} m")
-    0.69 m/s, 49% of it; crush 0.08 m
-    0.69 m/s, 5% of it; crush 0.79 m
+    0.69 m/s, 49% of it; crush 0.09 m
+    0.69 m/s, 5% of it; crush 0.91 m
     >>> a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0)
     >>> b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-1.0)
     >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
     >>> found = col.left_out(impact, duration="100 ms")
     >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}")
-    -13 deg, delta-V moves by 9%
+    -10 deg, delta-V moves by 9%
     """
     door = Door()
     if not isinstance(impact, Impact):
@@ -229,10 +233,11 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
         if isinstance(most + reach, float) and math.isinf(most + reach):
             raise out_of_range()
-        kicks = (Kick.of(impact.a, point, most), Kick.of(impact.b, point, most))
+        kicks = (Kick.of(impact.a, impact.restitution, point, most), Kick.of(impact.b, impact.restitution, point, most))
         tyres = [math.nan] * 2 if lost else with_tyres(impact, kicks)
         moved = with_motion(impact, point, time)
-        found = {"duration": time, "drag": pull, **_whole(impact, time)}
+        passed = pulse.mean_passed(impact.restitution)
+        found = {"duration": time, "drag": pull, **_whole(impact, time, passed)}
         for label, kick, by_tyres, by_motion in zip("ab", kicks, tyres, moved, strict=True):
             side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
@@ -244,9 +249,9 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
                 "tyre_impulse": mass * kick.free,
                 "tyre_delta_v": by_tyres,
                 "tyre_share": _share(by_tyres, delta_v),
-                "displacement_x": (before.vx + 0.5 * side.delta_vx) * time,
-                "displacement_y": (before.vy + 0.5 * side.delta_vy) * time,
-                "rotation": (before.yaw_rate + 0.5 * side.delta_yaw_rate) * time,
+                "displacement_x": (before.vx + passed * side.delta_vx) * time,
+                "displacement_y": (before.vy + passed * side.delta_vy) * time,
+                "rotation": (before.yaw_rate + passed * side.delta_yaw_rate) * time,
                 "geometry_delta_v": by_motion,
                 "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
             }
@@ -293,15 +298,14 @@ def _unusable(values: dict[str, Any]) -> Any:
     return lanes
 
 
-def _whole(impact: Impact, time: Any) -> dict[str, Any]:
+def _whole(impact: Impact, time: Any, passed: Any) -> dict[str, Any]:
     """What is left out of the contact as a whole."""
-    e, closing = impact.restitution, impact.closing_speed
-    xp = numeric(e)
-    root = xp.sqrt(e)
+    e, way = impact.restitution, impact.closing_speed * time
+    crush = pulse.greatest_crush(e) * way
     return {
-        "mutual_crush": closing * time / (2.0 * math.pi) * ((1.0 - e) * (math.pi - 2.0 * xp.atan(root)) + 2.0 * root),
-        "residual_crush": 0.5 * (1.0 - e) * closing * time,
-        "contact_slide": 0.5 * (impact.slip_before + impact.slip_after) * time,
+        "mutual_crush": crush,
+        "residual_crush": (1.0 - e) * (1.0 + e) * crush,
+        "contact_slide": (impact.slip_before + passed * (impact.slip_after - impact.slip_before)) * time,
     }
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .. import pulse
 from ..door import Door, warn_if_large
 from ..errors import InputError
 from ..impact import Impact
@@ -27,9 +27,10 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
 
     Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;
-    the shape is assumed: a quarter of a sine up to the end of compression and another one down, with one peak. Then restitution
-    takes e times as long as compression: as long if elastic, no time if plastic, as in the figure. The duration is
-    assumed too: peak and mean force go as one over it, and no impulse tells them.
+    the shape is assumed, the spring pulse on which ``left_out`` builds its crush too: a quarter of a sine up to the end of
+    compression and another one down, with one peak. Then restitution takes e times as long as compression: as long if elastic,
+    no time if plastic, as in the figure. The duration is assumed too: peak and mean force go as one over it, and no impulse
+    tells them.
 
     Parameters
     ----------
@@ -85,9 +86,9 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
 
     e = impact.restitution
     compression, restitution = impact.compression_impulse, impact.restitution_impulse
-    turn = time / (1.0 + e)
+    turn = time * pulse.compression_time(e)
     share = np.linspace(0.0, 1.0, _POINTS)
-    rise = np.sin(0.5 * math.pi * share)
+    rise = pulse.rise(share)
     # The height for which the polygon drawn, not only the sine, has the area A1; A2 then has its own.
     peak = compression / (turn * float(np.mean(0.5 * (rise[1:] + rise[:-1]))))
     in_time, in_force = labels.factor("duration"), labels.factor("N")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import CollisionsError, InputError, NoSolutionError
-from ..fields import hypot
+from ..fields import hypot, numeric
 from ..kernels.select import select
 
 GRAVITY = 9.80665
@@ -37,7 +37,7 @@ def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Seque
     """Time over each segment, along its slope: at a constant deceleration the mean speed is half the sum."""
     found = []
     for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
-        length = plan * hypot(1.0, grade)
+        length = plan * numeric(grade).hypot(1.0, grade)
         double = before + after
         found.append(select(length == 0.0, 0.0, 2.0 * length / select(double == 0.0, math.nan, double)))
     return found

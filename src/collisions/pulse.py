@@ -1,0 +1,50 @@
+"""The spring pulse: the force of the contact against time, wherever a shape has to be assumed.
+
+The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
+rises as that of a linear spring, a quarter of a sine, and falls as that of a stiffer one, another quarter, which takes
+restitution times as long. Whatever the restitution, its peak is pi/2 times its mean. ``share`` is of the duration.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .fields import numeric
+from .kernels.select import divisor, select
+
+_QUARTER = 0.5 * math.pi
+
+
+def rise(share: Any) -> Any:
+    """Force over its peak at a share of the time of compression; restitution runs it backwards."""
+    return numeric(share).sin(_QUARTER * share)
+
+
+def compression_time(e: Any) -> Any:
+    """Share of the duration after which compression ends."""
+    return 1.0 / (1.0 + e)
+
+
+def passed(e: Any, share: float) -> Any:
+    """Share of the impulse that has passed."""
+    xp = numeric(e)
+    phase = share * (1.0 + e)
+    compressing = 1.0 - xp.cos(_QUARTER * phase)
+    restoring = 1.0 + e * xp.sin(_QUARTER * ((phase - 1.0) / divisor(True, e)))
+    return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
+
+
+def mean_passed(e: Any) -> Any:
+    """Mean over the duration of the share that has passed."""
+    return (1.0 - (1.0 - e) / _QUARTER) / (1.0 + e)
+
+
+def mean_square_passed(e: Any) -> Any:
+    """Mean of its square."""
+    return (1.5 - 2.0 / _QUARTER + e * (1.0 + e * (2.0 / _QUARTER + 0.5 * e))) / (1.0 + e) ** 3
+
+
+def greatest_crush(e: Any) -> Any:
+    """How far the contact points pass into each other at most, over closing speed times duration."""
+    return compression_time(e) / _QUARTER
