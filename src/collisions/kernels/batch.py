@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .codes import ENERGY_GAIN, OK, OUT_OF_RANGE, OUTPUTS
+from .codes import AT, ENERGY_GAIN, OK, OUT_OF_RANGE, OUTPUTS
 from .replay import Replay, aligned, record
 from .select import select
 
@@ -38,7 +38,7 @@ FIRST = (
 )
 LATER = ("status", *(name for name in OUTPUTS if name not in FIRST))
 # What a kernel sees to it that it is finite, in the precision it works in.
-_FINITE = frozenset(name for name in OUTPUTS if name.startswith(("energy_loss", "slip_after", "delta_")))
+_FINITE = frozenset(name for name in OUTPUTS if name.startswith(("energy_loss", "slip_after", "tangential", "delta_")))
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -196,6 +196,11 @@ def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[
         for name, output in zip(OUTPUTS, outputs, strict=True):
             if output is not None and name in _FINITE:
                 beyond |= np.isinf(output)
+        closing, normal = (outputs[AT[name]] for name in ("closing_speed", "normal_impulse"))
+        if closing is not None and normal is not None:
+            # The work of the normal impulse, of which an elastic contact loses nothing, however large it is.
+            with np.errstate(over="ignore"):
+                beyond |= np.isinf(closing * normal)
         beyond &= outputs[0] <= ENERGY_GAIN
         if beyond.any():
             blank([np.where(beyond, np.uint8(OUT_OF_RANGE), np.uint8(OK))], outputs)
