@@ -927,7 +927,11 @@ def test_attributes_with_units():
     assert found.q.mass_a.check("[mass]")
     assert found.q.translational_energy_loss.check("[energy]")
     assert found.q.condition.check("[]")
-    assert found.q.pdof_b is None
+    with pytest.raises(col.MissingInputError, match=r"pdof_b needs a heading, which was not given; write heading_b='30 deg'"):
+        _ = found.q.pdof_b
+    with pytest.raises(col.MissingInputError, match=r"restitution needs a normal, which was not given; write normal="):
+        _ = crossing().q.restitution
+    assert found.q.outside_impulse_x is None
     assert found.q.unknowns == ("speed_a", "speed_b")
     text = repr(found)
     assert text.startswith("MomentumSolution(")

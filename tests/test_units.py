@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+import pickle
 import subprocess
 import sys
 import warnings
@@ -625,9 +626,31 @@ def test_results_come_back_in_the_callers_registry():
     assert impact.q.a.delta_v.m_as("m/s") == impact.a.delta_v
     assert impact.q.normal[0].dimensionless
     assert a.q.name == ""
-    assert col.Vehicle(mass=1.0).q.x is None
+    assert a.q.pivot is None
     assert a.q.momentum[0].check("[mass] * [length] / [time]")
     assert "vx" in dir(a.q)
+
+
+def test_a_quantity_that_needs_an_input_says_which():
+    """Without a heading pdof is None; its Quantity is asked for to be converted, and what None cannot do tells nothing."""
+    golf = col.Vehicle(mass=1000.0, vx=20.0, name="Golf")
+    impact = col.linear_central(golf.replace(heading=0.0), golf.replace(vx=0.0), 0.1)
+    for name in ("pdof", "delta_v_forward", "delta_v_left"):
+        assert getattr(impact.b, name) is None
+        with pytest.raises(col.MissingInputError, match=rf"b \(Golf\) has no heading, which {name} needs; give heading=") as caught:
+            getattr(impact.b.q, name)
+        assert (caught.value.code, caught.value.fields["argument"]) == ("missing_heading", "heading")
+        assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+        # What looks whether it is there, as completion does, finds that it is not.
+        assert hasattr(impact.a.q, name)
+        assert not hasattr(impact.q.b, name)
+    for name, code in (("heading", "missing_heading"), ("x", "missing_position"), ("yaw_inertia", "missing_inertia")):
+        with pytest.raises(col.MissingInputError, match=rf"no {name}, which \.q\.{name} needs; give {name}=") as caught:
+            getattr(golf.q, name)
+        assert caught.value.code == code
+    # None where nothing is missing: a free body, a central model.
+    assert golf.q.pivot is None
+    assert impact.q.point is None
 
 
 def test_methods_of_q_give_quantities():

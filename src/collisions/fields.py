@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, Never, TypeVar, overload
 
 import numpy as np
 
-from .errors import Status
+from .errors import MissingInputError, Status
 from .units import Value, to_quantity
 
 T = TypeVar("T")
@@ -79,8 +79,17 @@ def unit_of(kind: type[Any], name: str) -> str | None:
     return unit
 
 
+class NoQuantityError(MissingInputError, AttributeError):
+    """An attribute is None for want of an input. Also an AttributeError, so that ``hasattr`` and completion pass over it."""
+
+    name: Any = None  # Python would suggest another attribute.
+
+
 class Quantities:
-    """The same attributes as the owner's, and what its methods return, with their units."""
+    """The same attributes as the owner's, and what its methods return, with their units.
+
+    An owner that knows of an attribute which input it wants, where it is None, says so by ``_missing(name)``.
+    """
 
     __slots__ = ("_owner",)
 
@@ -98,6 +107,10 @@ class Quantities:
             if unit is None:
                 raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")
             return lambda *args, **kwargs: to_quantity(value(*args, **kwargs), unit)
+        if value is None and unit is not None and hasattr(self._owner, "_missing"):
+            problem = self._owner._missing(name)
+            if problem is not None:
+                raise NoQuantityError(str(problem), code=problem.code, **problem.fields)
         if value is None or unit is None:
             return getattr(value, "q", value)
         return to_quantity(value, unit)

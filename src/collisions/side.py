@@ -9,11 +9,12 @@ import numpy as np
 
 from .directions import angle_of, from_radians
 from .door import Door, broadcast
+from .errors import MissingInputError
 from .fields import Quantities, attributes, derived, hypot, returns, show, table
 from .kernels import codes
 from .kernels.select import select
 from .units import Pair, Value
-from .vehicle import Vehicle
+from .vehicle import Vehicle, missing
 
 if TYPE_CHECKING:
     from .impact import Asked
@@ -43,7 +44,7 @@ class Side:
 
     @property
     def q(self) -> Any:
-        """The same attributes as pint Quantities."""
+        """The same attributes as pint Quantities; a MissingInputError for one that needs a heading not given."""
         return Quantities(self)
 
     @derived()
@@ -186,6 +187,9 @@ class Side:
             return None, None
         c, s = from_radians(self.before.heading)
         return c * x + s * y, c * y - s * x
+
+    def _missing(self, name: str) -> MissingInputError:
+        return missing(self.before, "heading", name, "ab"[self._index])
 
     def _pivot_impulse(self, dv: Value, impulse: Value) -> Value:
         return 0.0 * impulse + 0.0 if self.before.pivot is None else self.before.mass * dv - impulse

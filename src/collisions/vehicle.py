@@ -353,6 +353,9 @@ class Vehicle(_Written):
         """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
         return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
+    def _missing(self, name: str) -> MissingInputError | None:
+        return None if name == "pivot" else missing(self, name, f".q.{name}")
+
     def _need(self, name: str, purpose: str, label: str = "the vehicle") -> Any:
         """The value of an optional field, or a MissingInputError that says what it is needed for."""
         value = getattr(self, name)

@@ -6,10 +6,13 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from ..errors import MissingInputError
 from ..fields import Shown, derived
 from ..kernels import codes
 from ..units import Value, to_quantity
 
+# Of the attributes that may be None the arguments that give them.
+_NEEDED = {"pdof_a": "heading_a", "pdof_b": "heading_b", "closing_speed": "normal", "restitution": "normal"}
 _UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg", "outside": "m/s/(N*s)"}
 
 
@@ -63,6 +66,15 @@ class MomentumSolution(Shown):
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
 
     _title = "Planar momentum"
+
+    def _missing(self, name: str) -> MissingInputError | None:
+        if name not in _NEEDED:
+            return None
+        argument = _NEEDED[name]
+        kind = argument.partition("_")[0]
+        return MissingInputError(
+            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
+        )
 
     @derived()
     def ok(self) -> Any:
