@@ -44,7 +44,8 @@ def linear_central(
     threads : int, optional
         Threads for a batch.
     progress : callable or True, optional
-        Called as ``progress(done, total)`` after each block of a batch; True shows a bar once a run takes over a second.
+        Called as ``progress(done, total)`` after each block of a batch; True shows a bar once a run takes over a second,
+        with tqdm where that is installed (extra ``progress``).
 
     Returns
     -------

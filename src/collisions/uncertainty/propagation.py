@@ -79,7 +79,7 @@ def propagate(
         Blocks of cases worked on at once. The model must then be safe to call from several threads.
     progress : function or bool, optional
         Of methods that draw: called with cases done and cases in all (as far as is known with ``tolerance``); True shows a
-        bar. An interrupt returns what was done until then.
+        bar, with tqdm where that is installed (extra ``progress``). An interrupt returns what was done until then.
 
     Returns
     -------
