@@ -1056,3 +1056,13 @@ def test_what_needs_more_figures_has_them():
     assert "1 / 2 * 1202 * 10.74**2" not in text
     formula, printed = re.search(r"Kinetic energy of B after:\n.*\n +=? ?(.*)\n +=? ?(\d+) J", text).groups()
     assert round(eval(formula)) == int(printed) == round(impact.b.after.kinetic_energy)
+
+
+def test_a_number_too_large_for_the_unit_is_refused():
+    """1e308 m cannot be written in feet; it is neither infinite nor somebody else's error."""
+    a, b = (col.Vehicle(mass=1500.0, vx=speed, x=x, y=1.0) for speed, x in ((20.0, 0.0), (1.0, 1e308)))
+    impact = col.linear_central(a, b, 0.1)
+    assert len(explain(impact)) > 1000
+    with pytest.raises(col.InputError, match="too large to be written in ft") as refused:
+        explain(impact, units="us")
+    assert refused.value.code == "out_of_range"

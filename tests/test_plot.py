@@ -1251,3 +1251,30 @@ def test_what_does_not_vary_has_no_variance_to_share():
     with pytest.raises(col.InputError, match="'one' has no variance to share") as caught:
         plot.contributions(fixed)
     assert caught.value.code == "no_variance"
+
+
+HALF = "\ud800"
+
+
+@pytest.mark.parametrize("name", ["energy", "momentum", "scene"])
+def test_half_a_letter_in_a_name_is_drawn_as_a_sign(name):
+    """No font has it, and matplotlib cannot be given it."""
+    a = col.Vehicle(mass=1500.0, vx=20.0, x=0.0, y=0.0, name=f"car {HALF}")
+    axes = getattr(plot, name)(col.linear_central(a, col.Vehicle(mass=1200.0, x=3.0, y=0.0, name=HALF * 40), 0.1))
+    axes.figure.draw_without_rendering()
+
+
+@pytest.mark.parametrize(
+    ("mass", "speed", "duration", "argument"),
+    [(1e-320, 1e-3, 0.1, "normal_impulse"), (1500.0, 1e-300, 0.1, "closing_speed"), (1500.0, 1e152, 0.1, "vx"), (1500.0, 20.0, 1e-308, "duration")],
+)  # fmt: skip
+def test_what_is_too_large_or_too_small_to_be_drawn_is_refused(mass, speed, duration, argument):
+    """The impact has its numbers; its picture would need axes beyond the range of floats."""
+    impact = col.linear_central(col.Vehicle(mass=mass, vx=speed, x=0.0, y=0.0), col.Vehicle(mass=mass, x=3.0, y=0.0), 0.3)
+    with pytest.raises(col.InputError, match=f"{argument} = .* cannot be drawn") as refused:
+        plot.force_time(impact, duration)
+    assert refused.value.code == "out_of_range"
+    for mass, speed in ((1e45, 1e20), (1e-45, 1e-20)):
+        a, b = col.Vehicle(mass=mass, vx=speed, x=0.0, y=0.0), col.Vehicle(mass=mass, x=3.0, y=0.0)
+        for draw in (plot.energy, plot.impulse_plane, plot.momentum, plot.scene):
+            draw(col.linear_central(a, b, 0.3)).figure.draw_without_rendering()

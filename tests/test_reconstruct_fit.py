@@ -994,3 +994,16 @@ def test_a_unit_of_another_kind_is_refused():
     with pytest.raises(col.UnitsError, match="observed x is in rad, but the model returns it in m/s") as refused:
         fit(model, {"x": 1.0}, {"x": ("3 deg", "1 deg")})
     assert refused.value.code == "bad_units"
+
+
+@pytest.mark.parametrize(("value", "error"), [(-1e-320, 1e-154), (1e300, 1e-300), (5e-324, 5e-324)])
+def test_observations_whose_errors_leave_the_range_of_floats(value, error):
+    """Answered or refused; numpy has no say in it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        try:
+            found = reconstruct.fit(lambda x: {"s": 2.0 * x}, {"x": Normal(24.6, 1.0)}, {"s": (value, error)})
+        except col.CollisionsError:
+            return
+    assert math.isfinite(found["x"].value)

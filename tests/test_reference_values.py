@@ -1,6 +1,7 @@
 """Published values: against where they were published, their ranges, sources, refusals and warnings."""
 
 import math
+import operator
 import re
 import warnings
 
@@ -277,3 +278,20 @@ def test_values_and_formulas_with_their_units():
         assert fit.q.ranges.keys() == fit.ranges.keys()
         for name, ends in fit.q.ranges.items():
             assert tuple(end.m_as(fit.ranges[name][2]) for end in ends[:2]) == fit.ranges[name][:2]
+
+
+@pytest.mark.parametrize("name", ["mass", "length"])
+def test_a_yaw_inertia_of_nothing_is_refused(name):
+    """None is no number, for the arguments that every form needs."""
+    with pytest.raises(col.InputError, match=f"{name} must be a number"):
+        reference.yaw_inertia(**{"mass": 1500.0, "length": 4.5, "wheelbase": 2.6, name: None})
+
+
+def test_membership_reads_units_and_refuses_what_is_no_number():
+    """A range is asked with the unit or without; texts that are no number, arrays and objects are refused, not compared."""
+    assert "60 %" in reference.INTER_VEHICLE_FRICTION
+    assert "110 ms" not in reference.CONTACT_DURATION
+    assert 0.108 in reference.CONTACT_DURATION
+    for value in ("x", b"0.5", None, np.array([0.5, 0.6]), "0.5 m", True):
+        with pytest.raises(col.InputError):
+            operator.contains(reference.INTER_VEHICLE_FRICTION, value)

@@ -765,3 +765,45 @@ def test_read_input():
         found = read_input("x", given)
         assert type(found) is float
         assert found == pytest.approx(expected, rel=2 * EPS)
+
+
+@pytest.mark.parametrize("ask", ["quantile", "scored"])
+@pytest.mark.parametrize(
+    "given",
+    ["x", "0.5", True, np.array([True]), None, 0.5j, pint.Quantity(0.5, "m"), pint.Quantity(0.5), np.ma.masked_array([0.5], [True]),
+     object(), [[0.5], [0.1, 0.2]], pytest.param(10**400, id="too large")],
+)  # fmt: skip
+def test_what_is_no_plain_number_has_no_quantile(ask, given):
+    """A unit is not dropped, a truth is no 1, and nobody else's error comes out."""
+    with pytest.raises(col.InputError) as refused:
+        getattr(Normal(10, 1), ask)(given)
+    assert refused.value.code in ("bad_fraction", "not_a_number", "bad_shape", "out_of_range")
+
+
+@pytest.mark.parametrize("coverage", [5e-324, 1e-320, 1e-300])
+def test_a_coverage_of_next_to_nothing(coverage):
+    """The range is so small a part of the distribution that its width in standard deviations is coverage times sqrt(pi/2)."""
+    if coverage == 1e-300:
+        assert Normal.between(1, 2, coverage).sd == pytest.approx(0.5 / (coverage * math.sqrt(math.pi / 2.0)), rel=1e-13)
+        return
+    for between in (Normal.between, LogNormal.between):
+        with pytest.raises(col.InputError) as refused:
+            between(1, 2, coverage)
+        assert refused.value.code == "out_of_range"
+
+
+def test_a_score_far_out_is_at_the_end_of_the_range():
+    """Of an array as of a number: nothing is above it, also where its square is too large for a float."""
+    bounded = Normal(0.0, 1.0, truncate=(-1.0, 2.0))
+    far = np.array([-math.inf, -1e300, -50.0, 50.0, 1e300, math.inf])
+    assert bounded.scored(far).tolist() == [-1.0] * 3 + [2.0] * 3 == [bounded.scored(z) for z in far.tolist()]
+
+
+def test_a_lognormal_with_a_deviation_far_smaller_than_its_mean():
+    """Bounds that cut nothing off leave it as it is; where half is cut off, rounding leaves no spread, and that is refused."""
+    mean, sd = 6.885814622919143e305, 2.5402266878585364
+    whole = LogNormal(mean, sd, truncate=(30.0, None))
+    assert (whole.mean, whole.sd) == (mean, sd)
+    with pytest.raises(col.InputError) as refused:
+        LogNormal(mean, sd, truncate=(mean, None))
+    assert refused.value.code == "out_of_range"

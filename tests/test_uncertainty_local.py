@@ -512,3 +512,18 @@ def test_more_inputs_than_points_are_spread_over():
     assert propagate(lambda **x: {"y": sum(x.values())}, inputs, method="first_order")["y"].std == pytest.approx(
         math.sqrt(32.0)
     )
+
+
+def test_a_local_answer_of_next_to_nothing():
+    """What differs by the least of all floats is rounding; what jumps beside the mean is none."""
+    inputs = {"x": Normal(1212.0, 130.9, truncate=(0.0, None))}
+    found = propagate(lambda x: {"y": np.arctan2(-1e-320, x)}, inputs, method="first_order")
+    assert abs(found["y"].mean) < 1e-300
+    with pytest.warns(col.OutOfRangeWarning):
+        propagate(lambda x: {"y": np.where(abs(x - 1212.0) < 20.0, 1.0, 0.0 * x)}, inputs, method="first_order")
+
+
+def test_a_correlation_that_is_an_array():
+    with pytest.raises(col.InputError, match="correlation must be a dict") as refused:
+        propagate(lambda x: {"y": x}, {"x": Normal(1.0, 0.1)}, method="first_order", correlation=np.eye(2))
+    assert refused.value.code == "bad_correlation"

@@ -244,3 +244,9 @@ def test_replace_takes_fields_only():
     with pytest.raises(col.InputError, match="a vehicle has no 'colour'") as caught:
         col.Impact.from_dict(record)
     assert caught.value.code == "bad_record"
+
+
+def test_a_distance_and_an_angle_that_do_not_go_together():
+    vehicle = col.Vehicle(mass=1100.0, x=10.0, y=5.0, heading=0.0)
+    with pytest.raises(col.ShapeError, match=r"distance.*angle"):
+        vehicle.point(distance=np.array([1.0, 2.0, 3.0]), angle=np.array([0.1, 0.2]))

@@ -300,6 +300,7 @@ class Vehicle(_Written):
         if all(polar):
             length = door.number(distance, "m", "distance")
             c, s = direction(door, angle, "angle")
+            broadcast({"distance": length, "angle": c})
             with np.errstate(all="ignore"):
                 ahead, aside = length * c, length * s
         else:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
+from ..errors import InputError
 from ..unit_systems import decimals_of, scale_of, unit_of
 
 # Labels of units with their powers.
@@ -61,11 +62,22 @@ class System:
         """What an SI value of this kind is multiplied by."""
         return scale_of(kind, self.name)
 
+    def shown(self, value: float, kind: str) -> float:
+        """An SI value of this kind in the unit it is written in."""
+        shown = value * self.scale(kind)
+        if math.isinf(shown):
+            raise InputError(
+                f"{value:.6g} {unit_of(kind, 'si')} is too large to be written in {self.label(kind)}; look for a slipped digit",
+                code="out_of_range",
+                argument="units",
+            )
+        return shown
+
     def working(self, value: float, kind: str, more: int = 0) -> str:
         """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
-        shown = value * self.scale(kind)
+        shown = self.shown(value, kind)
         least = decimals_of(kind, self.name)
         if abs(value) <= _NOTHING.get(kind, 1e-10):
             return "0"
@@ -98,11 +110,10 @@ class System:
         """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
         if not math.isfinite(value):
             return str(value)
-        scale = self.scale(kind)
-        shown = value * scale
+        shown = self.shown(value, kind)
         unit = self.unit(kind, False)
         if deviation is not None and math.isfinite(deviation) and deviation > _DUST * abs(value):
-            spread = deviation * scale
+            spread = self.shown(deviation, kind)
             places = 1 - _magnitude(spread, 2)
             return f"{_plain(shown, places)} ± {_plain(spread, places)}{unit}"
         decimals = decimals_of(kind, self.name)

@@ -23,6 +23,7 @@ FORCE = "#a01040"
 THIN = "\u2009"  # between thousands
 _WIDTH = 26  # letters of a name on one line
 _MOST_DECIMALS = 6
+SMALLEST, LARGEST = 1e-100, 1e100
 
 
 class Units:
@@ -83,7 +84,25 @@ def answered(impact: Any, function: str) -> Impact:
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
     answer: Impact = impact
+    for side in (answer.a, answer.b):
+        for state in (side.before, side.after):
+            for name in ("vx", "vy", "yaw_rate", "x", "y"):
+                check_size(name, getattr(state, name) or 0.0)
+    check_size("energy_loss", answer.energy_loss)
+    for name in ("closing_speed", "normal_impulse"):
+        check_size(name, getattr(answer, name), least=SMALLEST)
     return answer
+
+
+def check_size(name: str, value: float, least: float = 0.0) -> None:
+    """Refuses what is so large, or so small beside nothing larger, that axes cannot be laid out for it."""
+    if not least <= abs(value) <= LARGEST:
+        raise InputError(
+            f"{name} = {value:.3g} cannot be drawn: a picture shows what is between {SMALLEST:g} and {LARGEST:g} in SI; look "
+            f"for a wrong unit or a slipped digit",
+            code="out_of_range",
+            argument=name,
+        )
 
 
 def who(index: int, vehicle: Vehicle) -> str:
@@ -92,8 +111,14 @@ def who(index: int, vehicle: Vehicle) -> str:
     return letter if vehicle.name in ("", letter) else in_lines(f"{letter} ({vehicle.name})")
 
 
+def drawable(text: str) -> str:
+    """The text with a sign in place of each half of a letter, which no font has."""
+    return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+
+
 def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
     """A text in lines that are no longer than this; what does not go into so many lines is left out, and shown to be."""
+    text = drawable(text)
     if len(text) <= width:
         return text
     return "\n".join(textwrap.wrap(text, width, max_lines=most, placeholder="\u2026"))

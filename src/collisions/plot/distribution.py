@@ -8,7 +8,7 @@ from ..errors import InputError
 from ..uncertainty.bounds import Bounds
 from ..uncertainty.output import COVERAGE, Output
 from ..unit_systems import UnitSystem
-from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, legend_below, number, tidy
+from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, drawable, legend_below, number, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -94,7 +94,7 @@ def distribution(
     ):
         axes.axvline(value * factor, color=colour, lw=1.7, ls=style, zorder=4, gid=gid, label=text)
     axes.set_ylim(0.0, 1.08 * 100.0 * float(histogram.shares.max()))
-    axes.set_xlabel(labels.label(output.name, unit) if unit else output.name, parse_math=False)
+    axes.set_xlabel(drawable(labels.label(output.name, unit) if unit else output.name), parse_math=False)
     axes.set_ylabel("share of the cases [%]")
     axes.set_title("given the stated inputs", fontsize=10.5, color=GREY)
     tidy(axes)

@@ -13,7 +13,7 @@ from ..impact import Impact
 from ..travel.reading import one_value
 from ..unit_systems import UnitSystem
 from ..units import Input, shown
-from .canvas import FORCE, GREY, INK, Units, answered, begin, legend_below, tidy
+from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -82,6 +82,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
             argument="duration",
         )
     warn_if_large(duration, time, _LONGEST, "duration", "seconds", "ms")
+    check_size("duration", time, SMALLEST)
     axes = begin(axes)
 
     e = impact.restitution

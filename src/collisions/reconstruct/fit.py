@@ -107,14 +107,16 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     >>> round(3.6 * found["speed_golf"].value, 1), round(3.6 * found["speed_pinto"].value, 1)
     (63.2, 55.6)
     """
-    question = read_question(model, unknowns, observed)
-    first = _searched(question)
-    ends = _searched_around(question, first)
-    best = seen_closely(question, ends, _lowest(ends))
-    if best.state == CONVERGED:
-        best = on_bounds(best, ends)
-    _check_ended(best, ends)
-    fits = [answer_at(place, ends, len(ends.state) - len(first.state)) for place in _rivals(question, ends, best)]
+    # What leaves the range of floats is a point that is refused.
+    with np.errstate(all="ignore"):
+        question = read_question(model, unknowns, observed)
+        first = _searched(question)
+        ends = _searched_around(question, first)
+        best = seen_closely(question, ends, _lowest(ends))
+        if best.state == CONVERGED:
+            best = on_bounds(best, ends)
+        _check_ended(best, ends)
+        fits = [answer_at(place, ends, len(ends.state) - len(first.state)) for place in _rivals(question, ends, best)]
     if len(fits) > 1:
         raise _ambiguous(fits)
     _say(question, fits[0])

@@ -96,14 +96,10 @@ def yaw_inertia(
             InputError(f"give exactly one of wheelbase= and width=, got {found}", code="one_form", argument="wheelbase")
         )
     other = "wheelbase" if width is None else "width"
-    numbers: dict[str, Any] = {}
-    for name, value, unit in (
-        ("mass", mass, "kg"),
-        ("length", length, "m"),
-        (other, wheelbase if width is None else width, "m"),
-    ):
-        if value is not None:
-            numbers[name] = door.number(value, unit, name, POSITIVE)
+    numbers: dict[str, Any] = {"mass": door.number(mass, "kg", "mass", POSITIVE)}
+    for name, value in (("length", length), ("wheelbase", wheelbase), ("width", width)):
+        if value is not None or name == "length":
+            numbers[name] = door.number(value, "m", name, POSITIVE)
     check_outside(door, outside)
     door.close()
     shape = broadcast(numbers)

@@ -9,9 +9,9 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from ..door import Door
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..quiet import warn_of_cases
-from ..units import shown, to_quantity
+from ..units import Input, shown, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 
@@ -60,9 +60,14 @@ class Published:
         given = {name: getattr(self, name) for name in ("low", "high", "typical")}
         return replace(self, **{name: to_quantity(value, self.unit) for name, value in given.items() if value is not None})
 
-    def __contains__(self, value: float) -> bool:
-        """Whether a number in the SI unit lies in the range."""
-        return self.low <= value <= self.high
+    def __contains__(self, value: Input) -> bool:
+        """Whether a number in the SI unit, or with its unit, lies in the range."""
+        door = Door()
+        number: Any = door.number(value, self.unit, "value")
+        if isinstance(number, np.ndarray):
+            door.refuse(ShapeError("value must be one number; ask of each", code="bad_shape", argument="value"))
+        door.close()
+        return bool(self.low <= number <= self.high)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,8 +11,10 @@ import numpy as np
 
 from ..door import FINITE, Door
 from ..errors import InputError, ShapeError, UnitsError
-from ..units import has_unit, shown, si_unit
+from ..units import has_unit, is_quantity, shown, si_unit
 from .standard_normal import both_tails
+
+_ANY = ""  # the door's word for a number that no domain bounds
 
 
 class Stated:
@@ -103,11 +105,9 @@ class Distribution(Stated):
         Raises
         ------
         InputError
-            A probability outside 0 to 1.
+            A probability outside 0 to 1, or no number.
         """
-        p = _float_or_array(p)
-        if not np.all((p >= 0.0) & (p <= 1.0)):
-            raise InputError("p must be a probability from 0 to 1", code="bad_fraction", argument="p")
+        p = probability(p)
         return self._at(p, 1.0 - p)
 
     def scored(self, z: Any) -> Any:
@@ -128,9 +128,11 @@ class Distribution(Stated):
         Raises
         ------
         InputError
-            A score that is NaN.
+            A score that is NaN, or no number.
         """
-        z = _float_or_array(z)
+        door = Door()
+        z = _bare(door, z, "z")
+        door.close()
         if np.any(np.isnan(z)):
             raise InputError("z must be a number, got NaN", code="not_finite", argument="z")
         return self._scored(z)
@@ -161,11 +163,25 @@ def _again(kind: type[Stated], unit: str, *parts: Any) -> Stated:
     return kind._of(unit, *parts)
 
 
-def _float_or_array(value: Any) -> Any:
-    if isinstance(value, float):
-        return float(value)
-    array = np.asarray(value, dtype=np.float64)
-    return float(array) if array.ndim == 0 else array
+def probability(given: Any, argument: str = "p") -> Any:
+    """A probability, or an array of them, as float64; a text or a Quantity is none."""
+    door = Door()
+    found = _bare(door, given, argument)
+    if door.problems or not np.all((found >= 0.0) & (found <= 1.0)):
+        raise InputError(
+            f"{argument} must be a probability from 0 to 1, got {shown(given)}", code="bad_fraction", argument=argument
+        )
+    return found
+
+
+def _bare(door: Door, given: Any, argument: str) -> Any:
+    """A float64 or an array of them, from what has no unit."""
+    if isinstance(given, str) or is_quantity(given):
+        return door.refuse(
+            InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
+        )
+    found = door.number(given, "", argument, _ANY)
+    return found.astype(np.float64) if isinstance(found, np.ndarray) else found
 
 
 def show(value: Any, unit: str) -> str:

@@ -27,7 +27,7 @@ class Joint:
     def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
         self.inputs = inputs
         self.names = tuple(inputs)
-        pairs = _checked(inputs, correlation or {})
+        pairs = _checked(inputs, {} if correlation is None else correlation)
         self.groups = _groups(inputs, pairs)
         # The values of joint samples, in the order in which they belong together.
         self._together = {name: d.rows for name, d in inputs.items() if isinstance(d, Samples) and d.group is not None}

@@ -58,7 +58,7 @@ def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> M
     half = 0.5 * (end - start) / panels
     t = (start + half * (2.0 * np.arange(panels)[:, None] + 1.0 + _NODES)).reshape(-1)
     weighted = np.tile(_WEIGHTS, 2 * panels) * (half * np.exp(-0.5 * t * (t + 2.0 * anchor)))
-    with np.errstate(over="ignore", invalid="ignore"):
+    with np.errstate(all="ignore"):
         value = np.expm1(steepness * t) if steepness else t
         total = float(np.sum(weighted))
         mean = float(np.sum(weighted * value)) / total

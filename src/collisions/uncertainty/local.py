@@ -26,6 +26,7 @@ from .shares import label
 _STEP = 0.01
 _LEAST_STEP = 1e6  # roundings of the mean, so that the step itself is known to a millionth
 _EPSILON = float(np.finfo(np.float64).eps)
+_LEAST = float(np.finfo(np.float64).tiny)  # below, floats have few digits
 _PROBES = 4096
 _NOTICED = 0.1  # standard deviations by which a local figure may differ at the probes before it is said so
 # Of the slope: a change of it within the steps, beyond what a curvature makes, which is a bend or a jump. That of a smooth
@@ -207,7 +208,8 @@ def differences(model: Model, joint: Joint, design: Design, outputs: dict[str, L
         away += list(np.quantile(values, ends) - local.quantile(ends))
         scale = max(local.std, sampled)
         most = float(max(map(abs, away)))
-        worst[name] = most / scale if most > _NO_DIFFERENCE * float(np.max(np.abs(values))) else 0.0
+        differs = most > max(_NO_DIFFERENCE * float(np.max(np.abs(values))), _LEAST)
+        worst[name] = (most / scale if scale else math.inf) if differs else 0.0
     return {name: by for name, by in worst.items() if by > _NOTICED}, _PROBES, int(np.count_nonzero(failed))
 
 

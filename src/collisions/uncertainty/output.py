@@ -10,7 +10,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..fields import OWN, Quantities, derived, returns, show
-from ..units import is_quantity, shown
+from ..units import shown
+from .distribution import probability
 
 COVERAGE = 0.95
 
@@ -184,19 +185,8 @@ class _Told:
         return self.shares
 
 
-def probability(p: Any) -> Any:
-    """A probability, or an array of them, as floats."""
-    try:
-        found = np.asarray(math.nan if is_quantity(p) else p)
-    except (TypeError, ValueError):
-        found = np.array(math.nan)
-    if found.dtype.kind not in "fiu" or not np.all((found >= 0.0) & (found <= 1.0)):
-        raise InputError(f"a probability must be a number from 0 to 1, got {shown(p)}", code="bad_fraction", argument="p")
-    return found.astype(np.float64) if found.ndim else float(found)
-
-
 def _one_probability(coverage: Any) -> float:
-    found = probability(coverage)
+    found = probability(coverage, "coverage")
     if not isinstance(found, float):
         raise InputError(f"coverage must be one number, got {shown(coverage)}", code="bad_fraction", argument="coverage")
     return found

@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..fields import OWN, derived, returns
 from ..units import shown
 from . import angles
-from .output import Histogram, Output, Shares, average, deviation, probability
+from .distribution import probability
+from .output import Histogram, Output, Shares, average, deviation
 from .points import REPLICATES
 
 _MOST_BINS = 10000

@@ -79,6 +79,7 @@ _FAR_BOTTOM = (
 # (1 + z) exp(z**2 / 2) times the probability above z, in powers of (z - 5) / (z + 5), highest first: its Chebyshev series cut
 # where the terms fall below 2e-17.
 _TAIL_CENTRE = 5.0
+_NOTHING_BEYOND = 40.0  # standard deviations: the density is 0 as a float
 _TAIL = (
     -3.815900213168514e-10,
     -2.822113988910648e-10,
@@ -131,7 +132,8 @@ def from_median(offset: Any) -> Any:
 def score_of_coverage(coverage: float) -> float:
     """Half the width, in standard deviations, of the central range that holds this share of a normal distribution."""
     if coverage <= 2.0 * _MIDDLE:
-        return float(from_median(0.5 * coverage))
+        # Halved last: half of the least float is 0.
+        return 0.5 * float(coverage * _ratio(_MIDDLE_TOP, _MIDDLE_BOTTOM, _MIDDLE * _MIDDLE - 0.25 * coverage * coverage))
     return -float(quantile(0.5 * (1.0 - coverage)))
 
 
@@ -201,7 +203,8 @@ def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
 
 def _tails(z: Any) -> Any:
     """The probabilities above the elements of an array."""
-    distance = np.abs(z)
+    distance = np.minimum(np.abs(z), _NOTHING_BEYOND)
+    density = np.exp(-0.5 * np.square(distance))
     smaller = _TAIL[0] * (u := (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
     for coefficient in _TAIL[1:-1]:
         smaller += coefficient
@@ -209,5 +212,5 @@ def _tails(z: Any) -> Any:
     smaller += _TAIL[-1]
     distance += 1.0
     smaller /= distance
-    smaller *= np.exp(-0.5 * np.square(z))
+    smaller *= density
     return np.where(z > 0.0, smaller, 1.0 - smaller)
