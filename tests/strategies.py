@@ -49,8 +49,12 @@ UNITS = {
     "drag": "",
     "grade": "",
     "lock": "",
+    "tolerance": "m/s",
+    "duration": "s",
+    "length": "m",
+    "wheelbase": "m",
 }
-_SPELLINGS = {
+SPELLINGS = {
     "kg": ("kg", "lb", "tonne", "g", "slug"),
     "m/s": ("m/s", "km/h", "mph", "ft/s", "knot"),
     "rad/s": ("rad/s", "deg/s", "rpm", "turn/s"),
@@ -59,10 +63,43 @@ _SPELLINGS = {
     "rad": ("rad", "deg", "°", "mrad", "turn", "arcsec"),
     "J": ("J", "kJ", "ft*lbf", "kWh", "N*m"),
     "N*s": ("N*s", "kN*s", "lbf*s", "kg*m/s"),
+    "s": ("s", "ms", "minute"),
     "N/m": ("N/m", "N/cm", "lbf/inch"),
     "N/m**2": ("N/m**2", "kPa", "psi"),
     "": ("%", "percent", "ppm", "dimensionless", ""),
 }
+# What a caller who knows the library gives, in SI.
+RANGES = {
+    "mass": (300.0, 4e4),
+    "yaw_inertia": (200.0, 1e5),
+    "restitution": (0.0, 1.0),
+    "friction": (0.0, 2.0),
+    "impulse_ratio": (-1.0, 1.0),
+    "critical_fraction": (0.0, 1.0),
+    "share_a": (0.0, 1.0),
+    "heading": (-3.0, 3.0),
+    "normal": (-3.0, 3.0),
+    "course": (-3.0, 3.0),
+    "angle": (-3.0, 3.0),
+    "vx": (-40.0, 40.0),
+    "vy": (-40.0, 40.0),
+    "speed": (0.0, 40.0),
+    "distance": (0.0, 60.0),
+    "energy_loss": (0.0, 4e5),
+    "outside_impulse": (-4e3, 4e3),
+    "stiffness_a": (1e4, 1e5),
+    "stiffness_b": (1e5, 1e6),
+    "width": (0.0, 2.0),
+    "drag": (0.0, 1.2),
+    "grade": (-0.2, 0.2),
+    "lock": (0.0, 1.0),
+    "tolerance": (0.0, 2.0),
+    "duration": (0.05, 0.2),
+    "length": (3.0, 6.0),
+    "wheelbase": (2.3, 3.2),
+}
+YAW_RATES = (0.0, 0.0, 0.5, -3.0)
+PLACES = (-5.0, 5.0)
 ODD_UNITS = (
     "degC", "degF", "delta_degC", "dBm", "dB", "Np", "hertz", "count", "bit", "N", "g_0", "kelvin", "J", "percent", "rad", "sr", "m/m",
     "deg*deg", "km/h/s", "1/s", "m**-9", "lbf", "pH", "cm_1", "quettameter", "yoctokg", "US_survey_foot", "eV/c**2", "tex", "foo",
@@ -94,33 +131,10 @@ def registries() -> tuple[Any, ...]:
 @cache
 def plausible(name: str) -> Any:
     """What a caller who knows the library gives, in SI."""
-    ranges = {
-        "mass": st.floats(300.0, 4e4),
-        "yaw_inertia": st.floats(200.0, 1e5),
-        "yaw_rate": st.sampled_from((0.0, 0.0, 0.5, -3.0)),
-        "restitution": st.floats(0.0, 1.0),
-        "friction": st.one_of(st.floats(0.0, 2.0), st.just(INF)),
-        "impulse_ratio": st.floats(-1.0, 1.0),
-        "critical_fraction": st.floats(0.0, 1.0),
-        "share_a": st.floats(0.0, 1.0),
-        "heading": st.floats(-3.0, 3.0),
-        "normal": st.floats(-3.0, 3.0),
-        "course": st.floats(-3.0, 3.0),
-        "angle": st.floats(-3.0, 3.0),
-        "vx": st.floats(-40.0, 40.0),
-        "vy": st.floats(-40.0, 40.0),
-        "speed": st.floats(0.0, 40.0),
-        "distance": st.floats(0.0, 60.0),
-        "energy_loss": st.floats(0.0, 4e5),
-        "outside_impulse": st.floats(-4e3, 4e3),
-        "stiffness_a": st.floats(1e4, 1e5),
-        "stiffness_b": st.floats(1e5, 1e6),
-        "width": st.floats(0.0, 2.0),
-        "drag": st.floats(0.0, 1.2),
-        "grade": st.floats(-0.2, 0.2),
-        "lock": st.floats(0.0, 1.0),
-    }
-    return ranges.get(name, st.floats(-5.0, 5.0))
+    if name == "yaw_rate":
+        return st.sampled_from(YAW_RATES)
+    kind = st.floats(*RANGES.get(name, PLACES))
+    return st.one_of(kind, st.just(INF)) if name == "friction" else kind
 
 
 @cache
@@ -174,7 +188,7 @@ def _arrays(draw: Any, name: str, shapes: Any, kinds: Any) -> np.ndarray:
 @cache
 def values(name: str, shapes: Any = SHAPES) -> Any:
     """A number, an array, a text or a Quantity, as may be given for this argument."""
-    spellings = st.sampled_from(_SPELLINGS[UNITS[name]])
+    spellings = st.sampled_from(SPELLINGS[UNITS[name]])
     as_text = st.builds("{!r} {}".format, plausible(name), spellings)
     return st.one_of(
         numbers(name),
@@ -248,10 +262,10 @@ def deep(depth: int) -> Any:
 @brief
 def never_numbers() -> Any:
     """What no numeric argument may ever take for a number."""
-    return st.sampled_from(_NEVER).map(lambda make: make())
+    return st.sampled_from(NEVER).map(lambda make: make())
 
 
-_NEVER = (
+NEVER = (
     lambda: True,
     lambda: np.False_,
     lambda: np.array(True),
@@ -353,7 +367,7 @@ _NEVER = (
 @brief
 def texts() -> Any:
     """Texts of any kind, and such as are nearly a number and a unit."""
-    spelled = st.sampled_from([text for group in _SPELLINGS.values() for text in group] + list(ODD_UNITS))
+    spelled = st.sampled_from([text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS))
     number = st.one_of(
         st.floats().map(repr),
         st.sampled_from(
@@ -418,6 +432,6 @@ def garbage() -> Any:
     magnitude = st.one_of(
         numbers("mass"), arrays("mass"), st.none(), st.booleans(), st.integers(), blank, st.lists(extreme(), max_size=3)
     )
-    spelled = [text for group in _SPELLINGS.values() for text in group] + list(ODD_UNITS)
+    spelled = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
     odd = st.builds(quantity, magnitude, st.sampled_from(spelled), st.integers(0, 3))
     return st.one_of(never_numbers(), nested, texts(), blank, scalar, odd, odd, st.integers(-(10**400), 10**400), arrays("x"))

@@ -1,0 +1,435 @@
+"""Fuzz by seeds: cheap draws, calls that are counted by public name, and every name of the package listed to be compared.
+
+Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range (``50000:100000``), without it a few;
+``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, and what a call cost.
+A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -k TEST``.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import inspect
+import math
+import os
+import pickle
+import random
+import re
+import signal
+import threading
+import time
+import traceback
+import warnings
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions.derivation import explain
+from collisions.diagnostics.finding import Findings
+from collisions.fields import Quantities
+from collisions.idealisation import LeftOut, LeftOutSide
+from collisions.provenance import ByModel
+from collisions.reconstruct.fit_parts import Direction, Estimate, Residual, Values
+from collisions.reconstruct.momentum_solution import Sensitivity
+from collisions.side import Side
+from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
+
+_FEW = 12
+_HANGS = 60.0  # seconds
+_MOST_FAILURES = 25
+_PACKAGE = str(Path(col.__file__).parent)
+# What Python itself says of a keyword that is unknown or left out.
+_MISSPELT = re.compile(
+    r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle"
+)
+
+
+def seeds() -> range:
+    """The cases of a run."""
+    first, _, last = os.environ.get("COLLISIONS_FUZZ_CASES", str(_FEW)).rpartition(":")
+    return range(int(first or 0), int(last))
+
+
+# --- the names -------------------------------------------------------------------------------------------------------------
+
+MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
+# What is given back without being in any __all__.
+GIVEN_BACK = (Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel)
+
+
+@cache
+def public() -> dict[str, Any]:
+    """Every public callable by name: functions, classes and their own public methods, each under the first of its names."""
+    found: dict[str, Any] = {}
+    modules = [name for name in col.__all__ if isinstance(getattr(col, name), ModuleType)]
+    for prefix in ("", *modules, *MODULES):
+        module = importlib.import_module(f"collisions.{prefix}".rstrip("."))
+        for name in getattr(module, "__all__", ()) or [explain.__name__]:
+            value = getattr(module, name)
+            if callable(value) and all(value is not other for other in found.values()):
+                found[f"{prefix}.{name}".lstrip(".")] = value
+    for kind in GIVEN_BACK:
+        found.setdefault(kind.__name__, kind)
+    for name, kind in list(found.items()):
+        if inspect.isclass(kind):
+            for method, value in vars(kind).items():
+                if not method.startswith("_") and (inspect.isfunction(value) or isinstance(value, classmethod | staticmethod)):
+                    found[f"{name}.{method}"] = value
+    return found
+
+
+@cache
+def _names_of(kind: type) -> list[str]:
+    """The public names of a class and of those it is made from, nearest first."""
+    names = {value: name for name, value in public().items() if inspect.isclass(value)}
+    return [names[base] for base in kind.__mro__ if base in names]
+
+
+@cache
+def _shown_by(kind: type) -> tuple[str, ...]:
+    """The public attributes of a class that are no methods."""
+    return tuple(name for name in dir(kind) if not name.startswith("_") and name != "q" and not callable(getattr(kind, name)))
+
+
+# --- the run ---------------------------------------------------------------------------------------------------------------
+
+FUZZED: dict[str, str] = {}  # test by public name
+_cases: Counter[str] = Counter()
+_answered: Counter[str] = Counter()
+_seconds: defaultdict[str, float] = defaultdict(float)
+
+
+def fuzzes(*names: str, share: float = 1.0) -> Callable[[Callable[[Case], None]], Callable[[], None]]:
+    """Makes a test of a function of one case, which calls these public names; ``share`` of the seeds are enough for it."""
+
+    def declare(body: Callable[[Case], None]) -> Callable[[], None]:
+        for name in names:
+            FUZZED[name] = body.__name__
+
+        def test() -> None:
+            _run(body, names, share)
+
+        test.__name__, test.__doc__ = body.__name__, body.__doc__
+        return test
+
+    return declare
+
+
+def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> None:
+    every = seeds()
+    chosen = range(every.start, every.start + max(3, round(len(every) * share))) if len(every) > 3 else every
+    before, failures = Counter(_cases), {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        for seed in chosen:
+            case = Case(f"{body.__name__} {seed}")
+            try:
+                with _promptly():
+                    body(case)
+            except Exception as error:
+                where = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename.startswith(_PACKAGE)]
+                place = f"{Path(where[-1].filename).relative_to(_PACKAGE)}:{where[-1].lineno}" if where else "the check"
+                told = f"{type(error).__name__}: {str(error)[:400]} at {place}, in {case.last}"
+                failures.setdefault((type(error), place, case.last_name), [seed, told, 0])[2] += 1
+                if len(failures) == _MOST_FAILURES:
+                    break
+    _write_counts()
+    listed = "\n".join(f"seed {seed} ({count} like it): {told}" for seed, told, count in failures.values())
+    if failures:
+        pytest.fail(f"{body.__name__}:\n{listed}", pytrace=False)
+    silent = [name for name in names if _cases[name] == before[name]]
+    if silent and len(chosen) >= _FEW:
+        pytest.fail(f"{body.__name__} says that it fuzzes {silent}, and never called them", pytrace=False)
+
+
+class HungError(Exception):
+    """What is still running is stopped by this."""
+
+
+@contextlib.contextmanager
+def _promptly() -> Iterator[None]:
+    """Stops what has not ended within some seconds, where the system has an alarm to set."""
+    if not hasattr(signal, "SIGALRM") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def ring(*_: Any) -> None:
+        raise HungError(f"still running after {_HANGS} s")
+
+    previous = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, _HANGS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, previous)
+
+
+def _write_counts() -> None:
+    path = os.environ.get("COLLISIONS_FUZZ_COUNTS")
+    if path:
+        rows = [f"{'name':42}{'cases':>9}{'answered':>10}{'us a case':>11}{'seconds':>9}"]
+        for name in sorted(_cases, key=lambda name: -_seconds[name]):
+            each = 1e6 * _seconds[name] / _cases[name]
+            rows.append(f"{name:42}{_cases[name]:9}{_answered[name]:10}{each:11.0f}{_seconds[name]:9.1f}")
+        Path(path).write_text("\n".join(rows) + "\n", encoding="utf-8")
+
+
+# --- one case --------------------------------------------------------------------------------------------------------------
+
+_MOODS = ("plain",) * 8 + ("written",) * 3 + ("extreme",) * 3 + ("batch",) * 3 + ("odd",) * 3
+_KINDS = ("f8", "f8", "f8", "f8", "f4", "f2", "g", ">f8", ">f4", "i4", "u1", "i8")
+_BLANKS = ("?", "b", "H", "q", "e", "f", "d", "g", "F", "D", "S3", "U3", "O", "V4", "M8[s]", "m8[s]", ">f8", "f8,i4")
+_ALPHABET = "abcdefghijkmnrstxyzKLMN0123456789 */^().-+%°·²³µΩ_[]{}<>&$|\\\n\x00é中\ud800"
+_TEXTS = ("", "x", "a", "si", "us", "metric", "nan", "inf", "html", "text", "markdown", "brach", "raise", "sliding", "both")
+_NUMBERS = ("1", "-.5", "1e3", "1e400", "-1e-400", "+inf", "nan", "1_0", "٣", "1.", ".", "1e", "--1", "0x1", "1,5", "½", "²")
+_SPELLED = [text for group in SPELLINGS.values() for text in group] + list(ODD_UNITS)
+
+
+Open = frozenset[str] | None
+
+
+class Case(random.Random):
+    """One case: what it draws, and the calls it makes."""
+
+    last_name = ""
+    _call: tuple[Any, ...] = ()
+
+    def __init__(self, seed: str) -> None:
+        super().__init__(seed)
+        self.mood = self.choice(_MOODS)
+        self.shape = self.choice(((3,), (3,), (3,), (1,), (2, 3), (0,)))
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a case is not copied")
+
+    # What is called.
+
+    def call(self, name: str, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Any:
+        """The answer of a public function, or the error it refuses with; anything else it raises is a failure."""
+        _cases[name] += 1
+        self.last_name, self._call = name, (args, kwargs)
+        start, refused = time.process_time(), None
+        try:
+            found = function(*args, **kwargs)
+        except col.CollisionsError as error:
+            found = refused = error
+        except TypeError as error:
+            if not _MISSPELT.search(str(error)):
+                raise
+            return error
+        _seconds[name] += time.process_time() - start
+        if refused is None:
+            _answered[name] += 1
+        else:
+            _check_refusal(refused)
+        return found
+
+    def must(self, name: str, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Any:
+        """The answer of a call that nothing can be wrong with."""
+        found = self.call(name, function, *args, **kwargs)
+        assert not isinstance(found, col.CollisionsError | TypeError), f"refused: {found}"
+        return found
+
+    @property
+    def last(self) -> str:
+        """The last call, as a text."""
+
+        def shown(value: Any) -> str:
+            try:
+                return repr(value)[:300]
+            except Exception:
+                return f"a {type(value).__name__}"
+
+        args, kwargs = self._call or ((), {})
+        return f"{self.last_name}({', '.join([*map(shown, args), *(f'{k}={shown(v)}' for k, v in kwargs.items())])})"
+
+    def look(self, value: Any, documented: Open = frozenset(), thorough: bool | None = None) -> None:
+        """Read everything that an answer shows; ``documented`` are names that may be no finite number in a plain case.
+
+        None are all of them. Only now and then (``thorough``) with units, as a text, a table and a pickle.
+        """
+        thorough = self.random() < 0.1 if thorough is None else thorough
+        self._look(value, "", documented, thorough)
+
+    def _look(self, value: Any, label: str, documented: Open, thorough: bool) -> None:
+        kind = type(value)
+        if kind is float:
+            free = documented is None or self.mood != "plain" or label in documented
+            assert free or math.isfinite(value), f"{label} is {value}"
+            return
+        if kind.__module__.partition(".")[0] == "collisions" and kind is not col.Status:
+            self._look_at(value, kind, documented, thorough)
+        for part in value.values() if isinstance(value, Mapping) else value if isinstance(value, tuple | list) else ():
+            self._look(part, label, documented, thorough)
+
+    def _look_at(self, value: Any, kind: type, documented: Open, thorough: bool) -> None:
+        names = _names_of(kind)
+        if kind is col.Impact and np.any(value.refused):
+            documented = None
+        assert names, f"{kind} is given back, and fuzzing.GIVEN_BACK does not have it"
+        name = names[0]
+        start = time.process_time()
+        last = self.last_name
+        self.last_name = f"{last}, of whose answer {name}"
+        for attribute in (*_shown_by(kind), *(name for name in getattr(value, "__dict__", ()) if not name.startswith("_"))):
+            try:
+                found = getattr(value, attribute)
+                if thorough and isinstance(quantities := getattr(value, "q", None), Quantities):
+                    getattr(quantities, attribute)
+            except col.CollisionsError as error:
+                found = _check_refusal(error)
+            self._look(found, f"{name}.{attribute}", documented, thorough)
+        if thorough:
+            assert isinstance(repr(value) + str(value), str)
+            if hasattr(value, "_repr_html_"):
+                assert isinstance(value._repr_html_(), str)
+            if hasattr(kind, "__reduce__") and not isinstance(value, _UNPICKLABLE):
+                assert type(pickle.loads(pickle.dumps(value))) is kind
+        self.last_name = last
+        _cases.update(names)
+        _answered.update(names)
+        _seconds[name] += time.process_time() - start
+
+    # What is drawn.
+
+    def maybe(self, chance: float) -> bool:
+        """True so often."""
+        return self.random() < chance
+
+    def number(self, name: str) -> float:
+        """What a caller who knows the library gives, in SI."""
+        if name == "yaw_rate":
+            return self.choice(YAW_RATES)
+        low, high = RANGES.get(name, PLACES)
+        if self.random() < 0.05:
+            return self.choice((low, high, round(self.uniform(low, high))))
+        return self.uniform(low, high)
+
+    def extreme(self) -> float:
+        """Any float, the ends of the range more often than the rest."""
+        if self.random() < 0.7:
+            return self.choice(EXTREMES) * self.choice((1.0, -1.0))
+        return math.ldexp(self.uniform(-1.0, 1.0), self.randint(-1074, 1024))
+
+    def array(self, name: str, shape: tuple[int, ...] | None = None) -> Any:
+        """Numbers of any precision, order and layout."""
+        shape = self.shape if shape is None else shape
+        spoiled = self.random() < 0.3
+        draw = (lambda: self.extreme() if self.random() < 0.2 else self.number(name)) if spoiled else lambda: self.number(name)
+        made = np.array([draw() for _ in range(math.prod(shape))], dtype=float).reshape(shape)
+        kind = np.dtype(self.choice(_KINDS))
+        if kind.kind in "iu":
+            return np.nan_to_num(made, posinf=9.0, neginf=-9.0).clip(0, 200).astype(kind)
+        if kind != np.float64:
+            with np.errstate(all="ignore"):
+                made = made.astype(kind)
+        layout = self.randrange(8)
+        if layout == 0 and shape:
+            return np.repeat(made, 2, axis=-1)[..., ::2]
+        if layout == 1 and shape:
+            return made[..., ::-1]
+        if layout == 2 and shape and made.size:
+            return np.broadcast_to(made[..., :1], shape)
+        return made
+
+    def text(self) -> str:
+        """A text of any kind, often nearly a number and a unit."""
+        kind = self.randrange(6)
+        if kind == 0:
+            return self.choice(_TEXTS)
+        if kind == 1:
+            return "".join(self.choices(_ALPHABET, k=self.randrange(70)))
+        number = self.choice(_NUMBERS) if kind == 2 else repr(self.extreme()) if kind == 3 else repr(self.uniform(-50.0, 50.0))
+        near = number + self.choice((" ", "", "\t", "\u00a0", " *", "\x00")) + self.choice(_SPELLED)
+        at = self.randrange(len(near))
+        return near[:at] + self.choice(_ALPHABET) + near[at:] if kind == 5 else near
+
+    def written(self, name: str) -> Any:
+        """A plausible number with its unit, as a text or as a Quantity."""
+        unit = self.choice(SPELLINGS[UNITS.get(name, "m")])
+        value = self.number(name)
+        return f"{value!r} {unit}" if self.random() < 0.5 else quantity(value, unit, self.randrange(4))
+
+    def garbage(self) -> Any:
+        """Anything at all."""
+        kind = self.randrange(12)
+        if kind < 4:
+            return self.choice(NEVER)()
+        if kind == 4:
+            return self.extreme()
+        if kind == 5:
+            return self.choice((None, None, True, False, (), [], {}, "", b"", 0, -1, 2**63, -(2**70), 3 + 0j))
+        if kind in (6, 7):
+            return self.text()
+        if kind == 8:
+            found = np.zeros(self.choice(((), (2,), (0,), (3,), (2, 2), (1,) * 33)), dtype=self.choice(_BLANKS))
+            return found.reshape(-1)[0] if found.size and self.maybe(0.3) else found
+        if kind == 9:
+            return quantity(self.choice((self.extreme(), self.number("vx"), 3, None)), self.choice(_SPELLED), self.randrange(4))
+        if kind == 10:
+            return self.array("x", self.choice(((2,), (0,), (3,), (4, 1), (2, 2), ())))
+        return self.choice((list, tuple))([self.garbage() for _ in range(self.randrange(3))])
+
+    def value(self, name: str) -> Any:
+        """An argument, as the mood of the case has it."""
+        mood, chance = self.mood, self.random()
+        if mood == "odd":
+            if chance < 0.15:
+                return self.garbage()
+            mood = self.choice(_MOODS)
+        if mood == "written" and chance < 0.5:
+            return self.written(name)
+        if mood == "extreme" and chance < 0.25:
+            return self.extreme()
+        if mood == "batch" and chance < 0.4:
+            return self.array(name)
+        return self.number(name)
+
+    def pair(self, name: str) -> Any:
+        """A pair of arguments, at times anything."""
+        if self.mood == "odd" and self.maybe(0.15):
+            return self.garbage()
+        return self.value(name), self.value(name)
+
+    def spoil(self, keywords: dict[str, Any]) -> dict[str, Any]:
+        """The same keywords; in an odd case now and then with one of them anything, left out or misspelt."""
+        if self.mood == "odd" and keywords and self.maybe(0.5):
+            name = self.choice(sorted(keywords))
+            how = self.random()
+            if how < 0.1:
+                del keywords[name]
+            elif how < 0.15:
+                keywords[name + "_"] = keywords.pop(name)
+            else:
+                keywords[name] = self.garbage()
+        return keywords
+
+    def option(self, *usual: Any) -> Any:
+        """One of these, in an odd case at times anything."""
+        return self.garbage() if self.mood == "odd" and self.maybe(0.15) else self.choice(usual)
+
+
+def _check_refusal(error: Any) -> None:
+    """Every error has a label and a text, and can be caught as a ValueError."""
+    assert re.fullmatch("[a-z][a-z_0-9]*", error.code), f"code {error.code!r} of {error}"
+    assert isinstance(error, ValueError), type(error)
+    assert str(error), "an error without a word"
+
+
+# What holds the user's model, or is a mapping that is part of another answer.
+_UNPICKLABLE = (ByModel, col.uncertainty.Propagation, col.uncertainty.Output)
+
+
+@cache
+def load_units() -> None:
+    """The first unit loads pint, which is no case's fault."""
+    registries()[0].Quantity(1.0, "km/h").to("m/s")
