@@ -18,7 +18,7 @@ import pytest
 
 import collisions as col
 from reference import EPS, Answer, Body, Scene, evaluate
-from scenes import FAMILIES, LAWS, NEAR_JAMMING, RULES, cases, solved, solved_together
+from scenes import FAMILIES, LAWS, NEAR_JAMMING, RULES, answerable, cases, draw, solved, solved_together
 
 COUNT = 100
 FLAT_COUNT = 40
@@ -270,6 +270,97 @@ def test_oblique_central_keeps_its_promises(family: str, law: str, rule: str, wa
     answers = _answers("oblique_central", family, law, rule, way)
     for measure in PROMISES:
         check(answers, measure)
+
+
+# --- The ends of the range -----------------------------------------------------------------------------------------------------
+
+# Powers of mass, length and speed of what an impact is worked out from and answers with: m, r, v, m v, m v^2, m r^2, w, 1/(m r), v/(m r).
+PRODUCTS = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 0, 2), (1, 2, 0), (0, -1, 1), (-1, -1, 0), (-1, -1, 1))
+
+
+def in_other_units(scene: Scene, mass: float, length: float, speed: float) -> Scene:
+    """The scene with its masses, lengths and speeds so many times as large."""
+
+    def grown(body: Body) -> Body:
+        return replace(
+            body, mass=body.mass * mass, inertia=body.inertia * mass * length * length, vx=body.vx * speed, vy=body.vy * speed,
+            spin=body.spin * speed / length, x=body.x * length, y=body.y * length,
+        )  # fmt: skip
+
+    return replace(scene, a=grown(scene.a), b=grown(scene.b), point=(scene.point[0] * length, scene.point[1] * length))
+
+
+def sized(rng: random.Random, rule: str, most: float) -> tuple[Scene, float]:
+    """A scene of ordinary traffic in units drawn from 1e-most to 1e+most, and the decade of its largest or smallest product."""
+    powers = [rng.uniform(-most, most) if rng.random() < 0.6 else 0.0 for _ in range(3)]
+    decade = max(abs(sum(power * times for power, times in zip(powers, product, strict=True))) for product in PRODUCTS)
+    scene = draw("traffic", rng.choice(LAWS), rule, rng)
+    return in_other_units(scene, *(10.0**power for power in powers)), decade
+
+
+# A bare yaw rate of 1e100 rad/s is suspected to be in degrees, rightly.
+unsuspected = pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
+
+
+@unsuspected
+@pytest.mark.parametrize("rule", RULES)
+def test_the_promises_hold_over_the_range(rule: str) -> None:
+    """While every product is within 1e-150 to 1e150; of the ten decades left, the scenes themselves span those."""
+    rng = random.Random(f"range {rule}")
+    found, widest = [], 0.0
+    while len(found) < 150:
+        scene, decade = sized(rng, rule, 140.0)
+        answer = evaluate(scene) if decade <= 140.0 else None
+        if answer is not None and answerable(answer):
+            found.append((scene, answer, _outputs(solved("eccentric", scene))))
+            widest = max(widest, decade)
+    assert widest > 130.0
+    for measure in PROMISES:
+        check(found, measure)
+
+
+@unsuspected
+@pytest.mark.parametrize("rule", RULES)
+def test_what_overflows_is_refused(rule: str) -> None:
+    """Beyond the range no answer holds an infinity or a NaN, but for the direction of no impulse; what underflows is not noticed."""
+    rng = random.Random(f"overflow {rule}")
+    refused = answered = 0
+    for _ in range(400):
+        scene, _ = sized(rng, rule, 300.0)
+        sizes = [size for body in (scene.a, scene.b) for size in (body.mass, body.inertia)]
+        others = [value for body in (scene.a, scene.b) for value in (body.vx, body.vy, body.spin, body.x, body.y)]
+        if min(sizes) == 0.0 or not all(map(math.isfinite, (*sizes, *others, *scene.point))):
+            continue
+        try:
+            outputs = _outputs(solved("eccentric", scene))
+        except col.CollisionsError as error:
+            refused += error.code == "out_of_range"
+            continue
+        answered += 1
+        for path, value in outputs.items():
+            nothing = path.endswith("pdof") and outputs["a.impulse_x"] == outputs["a.impulse_y"] == 0.0
+            assert math.isfinite(value) or nothing, (path, scene)
+    assert refused > 20
+    assert answered > 100
+
+
+def test_closing_is_decided_by_the_sign_that_is_computed() -> None:
+    """Where the exact closing speed is beyond 4 eps S_U the decision is right; nearer than that it is sometimes the other one."""
+    rng = random.Random("sign")
+    wrong = 0
+    for _ in range(400):
+        scene = draw("grazing", "brach", "friction", rng)
+        ux, uy = (scene.b.vx - scene.a.vx, scene.b.vy - scene.a.vy)
+        a, b = replace(scene.a, spin=0.0), replace(scene.b, spin=0.0)
+        angle = math.atan2(uy, ux) + math.pi / 2 + rng.uniform(-4.0, 4.0) * EPS
+        scene = replace(scene, a=a, b=b, normal=angle, rule="friction", value=0.0)
+        status = solved("eccentric", scene, on_failure="nan").status
+        exact = evaluate(scene).closing
+        closes = status.label not in ("separating", "grazing")
+        if closes != (exact > 0):
+            wrong += 1
+            assert abs(exact) <= 4 * EPS * math.hypot(ux, uy), scene
+    assert wrong > 0
 
 
 # --- The linear model ------------------------------------------------------------------------------------------------------------

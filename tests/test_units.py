@@ -637,7 +637,9 @@ def test_a_quantity_that_needs_an_input_says_which():
     impact = col.linear_central(golf.replace(heading=0.0), golf.replace(vx=0.0), 0.1)
     for name in ("pdof", "delta_v_forward", "delta_v_left"):
         assert getattr(impact.b, name) is None
-        with pytest.raises(col.MissingInputError, match=rf"b \(Golf\) has no heading, which {name} needs; give heading=") as caught:
+        with pytest.raises(
+            col.MissingInputError, match=rf"b \(Golf\) has no heading, which {name} needs; give heading="
+        ) as caught:
             getattr(impact.b.q, name)
         assert (caught.value.code, caught.value.fields["argument"]) == ("missing_heading", "heading")
         assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
