@@ -278,6 +278,76 @@ def test_every_line_of_planar_momentum(which, units, pages):
     assert check_lines(text) >= 5
 
 
+def fits():
+    """Of a line (known in closed form), with a prior, round the circle, on a bound, and with an unknown nothing tells."""
+    times, places = np.array([0.0, 1.0, 2.0, 3.0]), (1.1, 2.9, 5.2, 6.8)
+
+    def line(start, speed):
+        return {f"x{i}": start + speed * time for i, time in enumerate(times)}
+
+    observed = {f"x{i}": (f"{place} m", f"{0.1 + 0.1 * i} m") for i, place in enumerate(places)}
+    yield reconstruct.fit(line, {"start": "0 m", "speed": "1 m/s"}, observed)
+    yield reconstruct.fit(line, {"start": uncertainty.Normal("1.5 m", "0.2 m"), "speed": "1 m/s"}, observed)
+    ends = {"start": uncertainty.Interval("-3 m", "1.05 m"), "speed": uncertainty.Interval("0 m/s", "9 m/s")}
+    yield reconstruct.fit(line, ends, observed)
+    courses = {NAME: ("179 deg", "2 deg"), "mark": ("-178 deg", "2 deg"), "impulse": (25e3, 2e3)}
+    yield reconstruct.fit(
+        lambda course, p: {NAME: course, "mark": course, "impulse": p}, {"course": "-179 deg", "p": 24e3}, courses
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.IllConditionedWarning)
+        yield reconstruct.fit(lambda one, two: {"sum": one + two}, {"one": 1.0, "two": 2.0}, {"sum": (5.0, 0.1)})
+
+
+FITS = list(fits())
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("which", range(len(FITS)))
+def test_every_line_of_a_fit(which, units, pages):
+    """Every residual and their sum of squares."""
+    text = explain(FITS[which], form="text", units=units)
+    assert exact(*pages) == len(FITS[which].residuals) + 1
+    assert check_lines(text) == len(FITS[which].residuals) + 1
+    assert "$$" in explain(FITS[which], units=units)
+
+
+def test_answers_of_a_fit_are_those_of_the_normal_equations():
+    """Weighted least squares of a line in closed form."""
+    sigma = np.array([0.1, 0.2, 0.3, 0.4])
+    design = np.stack([np.ones(4), np.arange(4.0)], axis=1) / sigma[:, np.newaxis]
+    covariance = np.linalg.inv(design.T @ design)
+    estimate = covariance @ design.T @ (np.array([1.1, 2.9, 5.2, 6.8]) / sigma)
+    text = explain(FITS[0], form="text")
+    for name, unit, value, error in zip(("start", "speed"), ("m", "m/s"), estimate, np.sqrt(np.diag(covariance)), strict=True):
+        printed = re.fullmatch(rf"(-?[\d.]+) ± ([\d.]+) {unit}", answer(text, name, "estimate"))
+        assert float(printed[1]) == pytest.approx(value, abs=0.5 * 10.0 ** -len(printed[1].partition(".")[2]))
+        assert float(printed[2]) == pytest.approx(error, rel=0.05)  # two figures
+    wanted = covariance[0, 1] / math.sqrt(covariance[0, 0] * covariance[1, 1])
+    assert float(answer(text, "start", "correlation with speed")) == pytest.approx(wanted, abs=0.005)
+    assert answer(text, "all", "degrees of freedom (observations and priors less the unknowns they determine)") == "2"
+
+
+def test_what_a_fit_leaves_open_is_said():
+    assert "the short way round is" in explain(FITS[3], form="text")
+    assert ", at its high bound" in answer(explain(FITS[2], form="text"), "start", "estimate")
+    assert answer(explain(FITS[4], form="text"), "one", "estimate") == "not determined"
+    with pytest.raises(col.InputError, match="standard errors of its unknowns") as caught:
+        explain(FITS[0], uncertainty={"start": 0.1})
+    assert caught.value.fields["argument"] == "uncertainty"
+
+
+def test_a_bare_number_says_where_its_formula_is():
+    run = col.travel.path([(0.0, 0.0), (6.0, -1.0)], [0.0, 0.1], friction=0.7, lock=0.5)
+    crush = reconstruct.crush_energy("1.5 m", [0.3, 0.3], "40 kN/m", "600 kN/m**2")
+    for number in (crush, col.travel.speed(20.0, drag=0.7), run):
+        with pytest.raises(col.InputError, match=r"its formula is in help\(collisions\.") as caught:
+            explain(number)
+        assert caught.value.code == "not_an_impact"
+        for path in re.findall(r"help\(collisions\.(\w+)\.(\w+)\)", str(caught.value)):
+            assert "::" in (told := getattr(getattr(col, path[0]), path[1]).__doc__) or "A C + B C^2 / 2" in told
+
+
 @pytest.mark.slow
 def test_random_scenes_hold_too(pages):
     """Oblique and eccentric impacts of all sizes and turns: every printed line gives its printed result, and none needs an excuse."""

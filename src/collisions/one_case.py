@@ -36,14 +36,16 @@ def need_one_case(
                 code="not_an_impact",
                 argument="impact",
             )
-        wanted = " or ".join(f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}" for kind in kinds)
+        names = [kind.__name__ for kind in kinds]
+        wanted = " or ".join(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}" for name in names)
+        fit = "" if "Fit" in names else ", for a Fit with the values that it found"
         raise InputError(
-            f"impact must be {wanted}, got {type(answer).__name__}; write {function}(collisions.eccentric(...)), for a Fit "
-            f"with the values that it found{instead}",
+            f"impact must be {wanted}, got {type(answer).__name__}; write {function}(collisions.eccentric(...)){fit}{instead}",
             code="not_an_impact",
             argument="impact",
         )
-    status = answer.status
+    # A fit that was refused is an error.
+    status = getattr(answer, "status", Status.OK)
     if isinstance(status, np.ndarray):
         how = "ask the solver again with the numbers of that case, such as mass=float(masses[0])"
         if hasattr(answer, "case"):

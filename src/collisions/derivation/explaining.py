@@ -11,7 +11,7 @@ from ..door import Door
 from ..errors import InputError, ShapeError, Status
 from ..impact import Impact
 from ..one_case import need_one_case
-from ..reconstruct import MomentumSolution
+from ..reconstruct import Fit, MomentumSolution
 from ..reconstruct.outcome import plain_error
 from ..uncertainty.result import Propagation
 from ..unit_systems import SI_UNITS, UnitSystem, bad_system
@@ -19,6 +19,7 @@ from ..units import shown
 from . import answers, momentum
 from .changes import changes
 from .eccentric import eccentric
+from .fit import fit
 from .linear import linear
 from .oblique import oblique
 from .origin import chosen, found
@@ -27,11 +28,16 @@ from .rounding import System
 
 Form: TypeAlias = Literal["markdown", "text"]
 _FORMS = get_args(Form)
+# What to do about a result that holds no more than its number.
+NOT_EXPLAINED = (
+    ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
+    "help(collisions.reconstruct.crush_energy), help(collisions.travel.speed), help(collisions.travel.path)"
+)
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
 
 
 def explain(
-    impact: Impact | MomentumSolution,
+    impact: Impact | MomentumSolution | Fit,
     *,
     units: UnitSystem = "si",
     form: Form = "markdown",
@@ -52,8 +58,10 @@ def explain(
 
     Parameters
     ----------
-    impact : Impact or MomentumSolution
-        One case, of any forward or reverse solver.
+    impact : Impact, MomentumSolution or Fit
+        One case, of any forward or reverse solver. Of a ``Fit`` the misfit of every observation, the estimates and what their
+        errors come of; its model is code, which stands on no page. The numbers of ``crush_energy`` and ``travel`` do not hold
+        what they were worked out from; their formulas are in ``help(collisions.travel.speed)`` and so on.
     units : {"si", "metric", "us"}, optional
         "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Numbers that convert
         units within a line are listed at the end.
@@ -62,7 +70,8 @@ def explain(
     uncertainty : Propagation, or dict of float, str or Quantity, optional
         Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. Of a
         propagation those outputs are taken that have such a name, as SI if the model returned plain numbers. With an
-        ``Interval`` among its inputs an answer gets its range: a standard deviation would leave the interval out.
+        ``Interval`` among its inputs an answer gets its range: a standard deviation would leave the interval out. A ``Fit`` has
+        standard errors of its own.
 
     Returns
     -------
@@ -94,17 +103,33 @@ def explain(
     if problem is not None:
         raise problem
     _allowed("form", form, _FORMS)
-    need_one_case(impact, (Impact, MomentumSolution), "explain", refused=plain_error)
+    need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=plain_error)
     system = System(units)
-    if isinstance(impact, MomentumSolution):
+    if isinstance(impact, Fit):
+        if uncertainty is not None:
+            raise no_uncertainty()
+        page = Page(system, form == "markdown", {})
+        page.title("Fit to evidence, step by step")
+        fit(page, impact)
+    elif isinstance(impact, MomentumSolution):
         page = Page(system, form == "markdown", *_spread(uncertainty, momentum.NAMES, momentum.kind_of))
         page.title("Planar momentum, step by step")
         _gain(page, impact.status, impact.translational_energy_loss)
         momentum.momentum(page, impact)
     else:
         page = _of_impact(impact, system, form, uncertainty)
-    _notes(page, uncertainty)
+    _notes(page, uncertainty, of_impact=not isinstance(impact, Fit))
     return page.text()
+
+
+def no_uncertainty() -> InputError:
+    """The refusal of other errors than those that a fit has."""
+    return InputError(
+        "uncertainty is none of a Fit, which has the standard errors of its unknowns; leave it out, or explain the impact at "
+        "the values found, with a propagation of fit.inputs",
+        code="bad_option",
+        argument="uncertainty",
+    )
 
 
 def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> Page:
@@ -131,19 +156,22 @@ def _gain(page: Page, status: Any, loss: float) -> None:
         )
 
 
-def _notes(page: Page, uncertainty: Any) -> None:
+def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
     """What the numbers are."""
     page.heading("Notes")
     lines = [
-        'Equation numbers are those of "Application of Impulse Momentum Theory to Vehicle Collisions"; its vehicles 1 and 2 '
-        "are A and B here.",
         "Every step was worked out with all digits. A number is printed as it is if six figures hold it, else with four "
         "figures; but with all those before its decimal point, and a speed, angle, length or ratio with at most two decimals "
         "more than an answer has. Where the numbers of a line need more figures than that to give the result printed below "
         "them, they have more. So every line, worked out from its printed numbers and rounded like its result, gives that "
         "result; where a line cannot, the page says so below it. The answers are rounded.",
-        "x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.",
     ]
+    if of_impact:
+        lines[:0] = [
+            'Equation numbers are those of "Application of Impulse Momentum Theory to Vehicle Collisions"; its vehicles 1 and '
+            "2 are A and B here."
+        ]
+        lines.append("x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.")
     if page.ranges:
         held = "every value" if uncertainty.method == "interval" else "95 percent, wherever in the interval the truth lies"
         lines.append(

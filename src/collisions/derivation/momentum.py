@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from ..reconstruct import MomentumSolution
 from .changes import alpha_of, delta, magnitude, seen_from
@@ -11,6 +12,30 @@ from .letters import letter
 from .page import Page
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+
+
+def inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str, float, str]]:
+    """What was given: of what, in words, by which argument, its number and its kind."""
+    for label in "ab":
+        yield label.upper(), "mass", f"mass_{label}", getattr(solution, f"mass_{label}"), "mass"
+    shared = "speed_a_after" in solution.unknowns and _together(solution)
+    for name in _SPEEDS:
+        label, when = name[6].upper(), "after" if name.endswith("after") else "before"
+        course = name.replace("speed", "course")
+        if getattr(solution, course) is not None:
+            yield label, f"course {when}", course, getattr(solution, course), "angle"
+        if name not in solution.unknowns and not (name == "speed_b_after" and shared):
+            yield label, f"speed {when}", name, getattr(solution, name), "speed"
+    for label in "ab":
+        heading = getattr(solution, f"heading_{label}")
+        if heading is not None:
+            yield label.upper(), "heading", f"heading_{label}", heading, "angle"
+    if solution.normal_angle is not None:
+        yield "contact", "normal, direction from A into B", "normal", solution.normal_angle, "angle"
+    for at, axis in enumerate("xy"):
+        outside = getattr(solution, f"outside_impulse_{axis}")
+        if outside is not None:
+            yield "both", f"impulse from outside, along {axis}", f"outside_impulse[{at}]", outside, "impulse"
 
 
 def momentum(page: Page, solution: MomentumSolution) -> None:
@@ -24,25 +49,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
             courses[name] = letter(rf"\theta_{label}{mark}", f"theta{mark}_{label}", course, "angle")
             moving.append(name)
     masses = {"a": letter("m_A", "m_A", solution.mass_a, "mass"), "b": letter("m_B", "m_B", solution.mass_b, "mass")}
-    rows = [("A", "mass", page.number(solution.mass_a, "mass")), ("B", "mass", page.number(solution.mass_b, "mass"))]
-    for name in _SPEEDS:
-        label, when = name[6].upper(), "after" if name.endswith("after") else "before"
-        if name in courses:
-            rows.append((label, f"course {when}", page.number(courses[name].value, "angle")))
-        if name not in solution.unknowns and not (
-            name == "speed_b_after" and "speed_a_after" in solution.unknowns and _together(solution)
-        ):
-            rows.append((label, f"speed {when}", page.number(speeds[name].value, "speed")))
-    for label in "ab":
-        heading = getattr(solution, f"heading_{label}")
-        if heading is not None:
-            rows.append((label.upper(), "heading", page.number(heading, "angle")))
-    if solution.normal_angle is not None:
-        rows.append(("contact", "normal, direction from A into B", page.number(solution.normal_angle, "angle")))
-    for axis in "xy":
-        outside = getattr(solution, f"outside_impulse_{axis}")
-        if outside is not None:
-            rows.append(("both", f"impulse from outside, along {axis}", page.number(outside, "impulse")))
+    rows = [(of, what, page.number(value, kind)) for of, what, _, value, kind in inputs(solution)]
     page.heading("Given")
     page.table(("of", "quantity", "value"), rows)
     page.heading("Planar momentum")

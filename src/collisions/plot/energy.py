@@ -99,7 +99,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
 
 
 def _tint(colour: str) -> str:
-    """A quarter of a colour on white: in an SVG file the hatching of a face that is seen through takes the colour of the face."""
+    """A quarter of a colour on white: in SVG the hatching of a face that is seen through is lost in its colour."""
     return "#" + "".join(f"{255 - (255 - int(colour[at : at + 2], 16)) // 4:02x}" for at in (1, 3, 5))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -138,12 +139,24 @@ def momentum(
             **{f"normal[{i}]": part for i, part in enumerate(along or ())},
         }
     )
+    given: dict[str, Any] | None = None
+    if cases.shape is None:
+        read = masses | known | {name: angle.value for name, angle in (angles | headings).items()}
+        given = {name: door.texts.get(name, value) for name, value in read.items()} | ({"together": True} if together else {})
+        if impulse is not None:
+            given["outside_impulse"] = [door.texts.get(f"outside_impulse[{i}]", part) for i, part in enumerate(impulse)]
+        bare: Any = normal
+        if isinstance(bare, tuple):
+            given["normal"] = [door.texts.get(f"normal[{i}]") or float(part) for i, part in enumerate(bare)]
+        elif bare is not None:
+            given["normal"] = door.texts.get("normal") or float(bare)
     with np.errstate(all="ignore"):
         unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
         terms = _terms(masses, known, angles, together)
         exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
-        return solve(cases, Question(terms, masses, angles, headings, impulse, along, unlike, together), on_failure)
+        found = solve(cases, Question(terms, masses, angles, headings, impulse, along, unlike, together), on_failure)
+    return found if given is None else replace(found, _given=given)
 
 
 def _share(given: dict[str, Any], kind: str) -> Any:

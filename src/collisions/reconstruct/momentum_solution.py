@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -64,6 +65,8 @@ class MomentumSolution(Shown):
     normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
     outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
+    # The arguments as they were given, texts and numbers, from which one case can be asked again.
+    _given: Mapping[str, Any] | None = field(default=None)
 
     _title = "Planar momentum"
 

@@ -29,25 +29,15 @@ _TAG = re.compile(r"<[^>]*>")
 _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 
-def figures(
-    impact: Impact, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: UnitSystem
-) -> Iterator[Block]:
+def figures(impact: Any, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: UnitSystem) -> Iterator[Block]:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
         import_module("matplotlib.figure")
     except ImportError:
         yield Paragraph("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
         return
-    scene = partial(plot.scene, impact, units=units, outline_a=outline_a, outline_b=outline_b)
-    yield _drawn("scene", "The scene from above at the moment of impact.", scene)
-    if impact.model != "linear_central":
-        yield _drawn("momentum", "Momentum before and after, head to tail.", partial(plot.momentum, impact, units=units))
-        yield _drawn(
-            "impulse-plane",
-            "Normal and tangential impulse, with the lines that decide them.",
-            partial(plot.impulse_plane, impact, units=units),
-        )
-    yield _drawn("energy", "Where the kinetic energy went.", partial(plot.energy, impact, units=units))
+    if isinstance(impact, Impact):
+        yield from _of_impact(impact, outline_a, outline_b, units)
     for number, output in enumerate(() if uncertainty is None else uncertainty.outputs.values(), 1):
         name = plain(output.name)
         if not varies(output):
@@ -58,6 +48,19 @@ def figures(
             yield _drawn(f"distribution-{number}", caption, partial(plot.distribution, output, units=units))
         caption = f"{name}: the share of its variance that each input brings, by itself and in all."
         yield _drawn(f"contributions-{number}", caption, partial(plot.contributions, output, units=units))
+
+
+def _of_impact(impact: Impact, outline_a: Any, outline_b: Any, units: UnitSystem) -> Iterator[Block]:
+    scene = partial(plot.scene, impact, units=units, outline_a=outline_a, outline_b=outline_b)
+    yield _drawn("scene", "The scene from above at the moment of impact.", scene)
+    if impact.model != "linear_central":
+        yield _drawn("momentum", "Momentum before and after, head to tail.", partial(plot.momentum, impact, units=units))
+        yield _drawn(
+            "impulse-plane",
+            "Normal and tangential impulse, with the lines that decide them.",
+            partial(plot.impulse_plane, impact, units=units),
+        )
+    yield _drawn("energy", "Where the kinetic energy went.", partial(plot.energy, impact, units=units))
 
 
 def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:

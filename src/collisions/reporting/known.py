@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..derivation.answers import NAMES, kind_of
+from ..derivation import answers, momentum
 from ..errors import InputError
 from ..impact import Impact
+from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Output, Propagation
 from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import shown
@@ -15,18 +16,20 @@ from .blocks import Sheet, plain
 
 # A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
 _ROUNDING, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
-_ANSWERS = {**{name.replace(".", "_"): name for name in NAMES}, **{name: name for name in NAMES}}
 
 
 class Known:
     """The outputs of a propagation that are answers of the impact, by the name of the answer."""
 
-    def __init__(self, impact: Impact, uncertainty: Propagation | None) -> None:
+    def __init__(self, impact: Impact | MomentumSolution | Fit, uncertainty: Propagation | None) -> None:
         self.impact = impact
         self.outputs: dict[str, Output] = {}
+        names = momentum.NAMES if isinstance(impact, MomentumSolution) else answers.NAMES
+        self.kind_of = momentum.kind_of if isinstance(impact, MomentumSolution) else answers.kind_of
+        paths = {name.replace(".", "_"): name for name in names} | {name: name for name in names}
         for output in () if uncertainty is None else uncertainty.outputs.values():
-            name = _ANSWERS.get(output.name)
-            if name is not None and output.unit in (None, SI_UNITS[kind_of(name)]):
+            name = paths.get(output.name)
+            if name is not None and output.unit in (None, SI_UNITS[self.kind_of(name)]):
                 self.outputs[name] = output
 
     @property
@@ -36,7 +39,7 @@ class Known:
         return {
             name: std[0]
             for name, std in found.items()
-            if len(std) == 1 and math.isfinite(std[0]) and varies(self.outputs[name], kind_of(name))
+            if len(std) == 1 and math.isfinite(std[0]) and varies(self.outputs[name], self.kind_of(name))
         }
 
     @property
@@ -71,7 +74,7 @@ class Known:
 
     def _figures(self, sheet: Sheet, output: Output, method: str) -> list[tuple[str, str]]:
         name = next((name for name, own in self.outputs.items() if own is output), None)
-        kind = kind_of(name) if name is not None else None if output.unit is None else KIND_OF.get(output.unit)
+        kind = self.kind_of(name) if name is not None else None if output.unit is None else KIND_OF.get(output.unit)
         if kind is None:
             return [("figures", plain(output.row()[1])), *self._shares(output)]
         mean, std, (low, high) = _both(output.mean), _both(output.std), output.interval()
@@ -117,10 +120,10 @@ class Known:
         for part in name.split("."):
             value = getattr(value, part)
         low, high = output.interval()
-        turns = (-1, 0, 1) if kind_of(name) == "angle" else (0,)
-        off = max(_ROUNDING * max(abs(low), abs(high)), _NOTHING.get(kind_of(name), _ROUNDING))
+        turns = (-1, 0, 1) if self.kind_of(name) == "angle" else (0,)
+        off = max(_ROUNDING * max(abs(low), abs(high)), _NOTHING.get(self.kind_of(name), _ROUNDING))
         if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
-            told = "none" if value is None else sheet.system.answer(float(value), kind_of(name))
+            told = "none" if value is None else sheet.system.answer(float(value), self.kind_of(name))
             sheet.stress(
                 f"{name} of this impact, {told}, lies outside the 95 percent interval of the propagation: are both of the same "
                 f"case?"

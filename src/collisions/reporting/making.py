@@ -1,4 +1,4 @@
-"""report: the whole page of one impact."""
+"""report: the whole page of one answer."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from ..derivation.explaining import explain
+from ..derivation.explaining import NOT_EXPLAINED, explain, no_uncertainty
+from ..derivation.fit import fit
 from ..derivation.page import Page
 from ..derivation.rounding import System
 from ..diagnostics import diagnose
@@ -20,6 +21,7 @@ from ..impact import Impact
 from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
+from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
 from ..unit_systems import UnitSystem, bad_system
 from ..units import Input, shown
@@ -38,7 +40,7 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 def report(
-    impact: Impact,
+    impact: Impact | MomentumSolution | Fit,
     *,
     title: str | None = None,
     form: Form = "html",
@@ -59,16 +61,20 @@ def report(
     figures: bool = True,
     derivation: bool = False,
 ) -> str:
-    """One page about an impact: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
+    """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
 
     An energy gain stands first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, by the
     rounding of ``explain``. The same arguments give the same page, byte for byte, one fact a line, without a date; from the
     record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options, and ``report`` of both
     the same page.
 
+    A ``MomentumSolution`` knows neither contact nor places, and a ``Fit`` only unknowns and what was observed: their pages have
+    the parts that they have, and options of other parts are refused. The record of a ``Fit`` has its numbers, but no impact
+    comes back from it, because its model is code.
+
     Parameters
     ----------
-    impact : Impact
+    impact : Impact, MomentumSolution or Fit
         One case that was answered, of any forward or reverse solver.
     title : str, optional
         By default the names of the vehicles.
@@ -120,9 +126,8 @@ def report(
     given = dict(locals())
     from .. import __version__
 
-    momentum = ". A MomentumSolution, which knows no contact, has its page by explain(...)"
-    need_one_case(impact, (Impact,), "report", instead=momentum)
-    readable = _readable(impact)
+    need_one_case(impact, (Impact, MomentumSolution, Fit), "report", instead=NOT_EXPLAINED)
+    readable = _readable(impact) if isinstance(impact, Impact) else impact
     options = plain_options(given)
     duration, drag, limits, share_a = (options[name] for name in ("duration", "drag", "limits", "share_a"))
     door = Door()
@@ -144,6 +149,7 @@ def report(
                 argument="uncertainty",
             )
         )
+    _refuse_other_parts(door, impact, options)
     outlines = {
         label: read_outline(door, options[f"outline_{label}"], f"outline_{label}")
         for label in "ab"
@@ -154,22 +160,29 @@ def report(
     door.close()
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
-    findings = diagnose(impact, **looked_at, **evidence)
     known = Known(impact, uncertainty)
     sheet = Sheet(Page(System(units), False, known.deviations, known.ranges))
-    sheet.title(heading or plain(f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"))
-    sections.gain(sheet, impact)
-    sections.inputs(sheet, impact, evidence)
-    sections.assumptions(sheet, impact, left_out(impact, duration=duration, drag=drag), outlines, limits)
-    sections.results(sheet, impact, share_a)
+    sheet.title(heading or _title(impact))
+    findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
+    if isinstance(impact, Impact):
+        sections.gain(sheet, impact, impact.energy_loss)
+        sections.inputs(sheet, impact, evidence)
+        sections.assumptions(sheet, impact, left_out(impact, duration=duration, drag=drag), outlines, limits)
+        sections.results(sheet, impact, share_a)
+    elif isinstance(impact, MomentumSolution):
+        sections.gain(sheet, impact, impact.translational_energy_loss)
+        sections.momentum(sheet, impact, evidence)
+    else:
+        fit(sheet, impact)
     if uncertainty is not None:
         known.tell(sheet, uncertainty)
-    sections.findings(sheet, findings)
+    if findings is not None:
+        sections.findings(sheet, findings)
     if words:
         sheet.heading("Notes")
         for note in words:
             sheet.say(note)
-    if figures:
+    if figures and (isinstance(impact, Impact) or uncertainty is not None):
         sheet.heading("Figures")
         sheet.blocks += (
             pictures(readable, uncertainty, options["outline_a"], options["outline_b"], units)
@@ -179,14 +192,41 @@ def report(
     if derivation:
         sheet.heading("Derivation")
         spread = uncertainty if known.ranges else known.deviations
-        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=spread)
+        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=spread or None)
         sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
-    sections.sources(sheet, findings, __version__)
+    if findings is not None:
+        sections.sources(sheet, findings)
+    sheet.say(f"Worked out by collisions {__version__}.")
     sheet.blocks += [Heading("Record"), Record(record(impact, __version__, kept(options, _USUAL), uncertainty))]
     return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
 
 
 _USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
+
+
+# What no page of these answers has a part for.
+_OTHER_PARTS: dict[type, tuple[str, ...]] = {
+    MomentumSolution: ("outline_a", "outline_b", "share_a"),
+    Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
+}
+
+
+def _refuse_other_parts(door: Door, impact: Any, options: Mapping[str, Any]) -> None:
+    kind = type(impact)
+    for name in _OTHER_PARTS.get(kind, ()):
+        if options[name] != _USUAL[name]:
+            told = (
+                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself"
+            )
+            door.refuse(InputError(told, code="bad_option", argument=name))
+    if kind is Fit and isinstance(options["uncertainty"], Propagation):
+        door.refuse(no_uncertainty())
+
+
+def _title(impact: Impact | MomentumSolution | Fit) -> str:
+    if isinstance(impact, Impact):
+        return plain(f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}")
+    return "Fit to evidence" if isinstance(impact, Fit) else "Planar momentum of A and B"
 
 
 def _readable(impact: Impact) -> Impact:

@@ -69,15 +69,15 @@ def _number(value: Any, unit: str, name: str) -> Any:
 
 def kept(options: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:
     """What a record keeps of plain options: those that are not the usual ones."""
-    return {name: _strict(value) for name, value in options.items() if name in UNITS and value != usual[name]}
+    return {name: strict(value) for name, value in options.items() if name in UNITS and value != usual[name]}
 
 
-def _strict(value: Any) -> Any:
+def strict(value: Any) -> Any:
     """Only what strict JSON knows; an infinity by name."""
     if isinstance(value, Mapping):
-        return {name: _strict(part) for name, part in value.items()}
+        return {name: strict(part) for name, part in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_strict(part) for part in value]
+        return [strict(part) for part in value]
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 

@@ -1,23 +1,26 @@
-"""The record at the end of a report, and the impact read back from it."""
+"""The record at the end of a report, and the answer read back from it."""
 
 from __future__ import annotations
 
 import json
 import math
+import warnings
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import fields
 from html.parser import HTMLParser
 from typing import Any
 
 from ..door import Door
-from ..errors import CollisionsError, InputError
+from ..errors import CollisionsError, CollisionsWarning, InputError
 from ..fields import unit_of
 from ..impact import Impact
+from ..reconstruct import Fit, MomentumSolution, momentum
 from ..uncertainty import Propagation
 from ..units import shown
 from ..vehicle import NAMES, Vehicle
 from .markdown import FENCE
-from .options import UNITS, given_again
+from .options import UNITS, given_again, strict
 from .told import unlike
 from .web import RECORD
 
@@ -32,18 +35,30 @@ _OFF = 1e-6
 _SENTENCES = ("choice.reason",)
 
 
-def record(impact: Impact, version: str, options: Mapping[str, Any], uncertainty: Propagation | None) -> str:
-    """The impact, how its vehicles were given, and the options of the report, as JSON."""
-    given = {label: dict(side.before._given or {}) for label, side in (("a", impact.a), ("b", impact.b))}
-    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": dict(options), "given": given}
+def record(
+    impact: Impact | MomentumSolution | Fit, version: str, options: Mapping[str, Any], uncertainty: Propagation | None
+) -> str:
+    """The answer, how its inputs were given, and the options of the report, as JSON."""
+    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": dict(options)}
     if uncertainty is not None:
         whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
-    whole["impact"] = impact.to_dict()
+    if isinstance(impact, Impact):
+        whole["given"] = {label: dict(side.before._given or {}) for label, side in (("a", impact.a), ("b", impact.b))}
+        whole["impact"] = impact.to_dict()
+    elif isinstance(impact, Fit):
+        whole["fit"] = impact.to_dict()
+    else:
+        whole["momentum"] = {"inputs": impact._given, "results": _results(impact)}
     return json.dumps(whole, indent=1, allow_nan=False)
 
 
-def replay(text: str) -> Impact:
-    """The impact of a report, solved again from the record at its end.
+def _results(solution: MomentumSolution) -> Any:
+    """Every number of planar momentum."""
+    return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "_given"})
+
+
+def replay(text: str) -> Impact | MomentumSolution:
+    """The answer of a report, solved again from the record at its end.
 
     The record holds every input with all its digits. ``report`` with the same options makes the same report of it, byte for
     byte; so whoever doubts a report reads it back, makes it again and compares.
@@ -55,13 +70,14 @@ def replay(text: str) -> Impact:
 
     Returns
     -------
-    Impact
-        Equal to the one reported, with the texts its vehicles were given as.
+    Impact or MomentumSolution
+        Equal to the one reported, with the texts its inputs were given as.
 
     Raises
     ------
     InputError
-        No report with a record, or a record that cannot be read, or whose texts and numbers differ.
+        No report with a record, or a record that cannot be read, or whose texts and numbers differ; or the report of a ``Fit``,
+        whose model is code.
 
     Examples
     --------
@@ -73,6 +89,15 @@ def replay(text: str) -> Impact:
     True
     """
     found = _whole(text)
+    if "fit" in found:
+        raise InputError(
+            "text is the report of a Fit, which cannot be made again from it: its model is code. Its numbers stand in the "
+            "record; to check them call reconstruct.fit with the model again",
+            code="no_record",
+            argument="text",
+        )
+    if "momentum" in found:
+        return _momentum(found["momentum"])
     if not isinstance(found.get("impact"), Mapping):
         raise _bad("it has no impact")
     try:
@@ -92,6 +117,22 @@ def replay(text: str) -> Impact:
     a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", asked.a), ("b", asked.b)))
     whole: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
     return whole
+
+
+def _momentum(whole: Any) -> MomentumSolution:
+    """Planar momentum again, by the arguments of a record."""
+    try:
+        inputs, told = dict(whole["inputs"]), whole["results"]
+        pairs = {name: tuple(value) for name, value in inputs.items() if isinstance(value, list)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", CollisionsWarning)  # given when it was solved
+            solution = momentum(**(inputs | pairs), on_failure="nan")
+    except (CollisionsError, LookupError, TypeError, ValueError) as error:
+        raise _bad(str(error)) from error
+    differing = next(_differences(told, json.loads(json.dumps(_results(solution)))), None)
+    if differing is not None:
+        raise _bad(f"its inputs do not give its {differing}")
+    return solution
 
 
 def options(text: str) -> dict[str, Any]:

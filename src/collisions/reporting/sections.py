@@ -9,6 +9,7 @@ from typing import Any
 
 from .. import reference
 from ..derivation import answers, origin
+from ..derivation import momentum as derivation
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import Findings, read_limits
 from ..door import Door
@@ -16,6 +17,7 @@ from ..errors import Status
 from ..idealisation import LeftOut, LeftOutSide
 from ..impact import Impact
 from ..plot.canvas import who
+from ..reconstruct import MomentumSolution
 from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import Input
 from ..vehicle import Vehicle
@@ -88,11 +90,11 @@ _RANGE = (
 )
 
 
-def gain(sheet: Sheet, impact: Impact) -> None:
+def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
     """An energy gain comes before anything else."""
     if impact.status == Status.ENERGY_GAIN:
         sheet.stress(
-            f"Energy gain of {sheet.system.answer(-impact.energy_loss, 'energy')}: {impact.status.sentence}, which no impact "
+            f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {impact.status.sentence}, which no impact "
             f"gives. The inputs do not go together; the numbers are shown as they are."
         )
 
@@ -124,11 +126,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         rows.append((of, quantity, value))
         if vehicle is not None and quantity == "mass":
             rows += [(of, what, told) for what, told in _speed(sheet, vehicle, texts)]
-    for name, (of, what, kind) in _EVIDENCE.items():
-        if evidence[name] is not None:
-            read = Door(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
-            given_as = evidence[name] if isinstance(evidence[name], str) else None
-            rows.append((of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)))
+    rows += _damage(sheet, evidence)
     sheet.table(_HEAD, rows)
     sheet.say(
         "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
@@ -140,6 +138,55 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         told = knowns(sheet, impact)
         if told:
             sheet.table(_HEAD, told)
+
+
+def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any]) -> None:
+    """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
+    given: dict[str, Any] = {}
+    for name, value in (solution._given or {}).items():
+        given |= {f"{name}[{at}]": part for at, part in enumerate(value)} if isinstance(value, list) else {name: value}
+    sheet.heading("Inputs")
+    rows = []
+    for of, what, name, number, kind in derivation.inputs(solution):
+        text = given.get(name)
+        rows.append((of, what, sheet.as_given(number, kind, text if isinstance(text, str) else None)))
+    sheet.table(_HEAD, [*rows, *_damage(sheet, evidence)])
+    sheet.heading("Assumptions")
+    together = " The vehicles leave together." if "together" in given else ""
+    sheet.say(
+        "The momentum of both vehicles together is the same before and after, along x and along y (1), (2), save for an "
+        f"impulse from outside that is stated. Nothing is assumed of restitution, friction or rotation.{together}"
+    )
+    sheet.heading("Results")
+    aside = sheet.aside()
+    derivation.momentum(aside, solution)
+    *_, found = (block for block in aside.blocks if isinstance(block, Table))
+    sheet.blocks.append(found)
+    system, of_speed = sheet.system, sheet.system.scale("speed")
+    rows = [("both", "condition, from the angle between the courses of the unknown speeds", f"{solution.condition:.3g}")]
+    for answer, row in solution.sensitivity.items():
+        for name, value in row.items():
+            kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
+            moved = f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {system.label(kind)}"
+            rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
+    sheet.table(_HEAD, rows)
+
+
+def _in_words(name: str) -> str:
+    """An argument of planar momentum."""
+    kind, label, *rest = name.split("_")
+    if kind == "outside":
+        return f"impulse from outside, along {rest[0]}"
+    return f"{kind} of {label.upper()}{'' if kind == 'mass' else ' after' if rest else ' before'}"
+
+
+def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    """What the damage shows."""
+    for name, (of, what, kind) in _EVIDENCE.items():
+        if evidence[name] is not None:
+            read = Door(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
+            given_as = evidence[name] if isinstance(evidence[name], str) else None
+            yield of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)
 
 
 def _numbers(impact: Impact, vehicle: Vehicle | None, name: str) -> tuple[Any, ...]:
@@ -262,8 +309,8 @@ def findings(sheet: Sheet, found: Findings) -> None:
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
 
-def sources(sheet: Sheet, found: Sequence[Finding], version: str) -> None:
-    """Where equations, limits and comparable values are published, and what worked this out."""
+def sources(sheet: Sheet, found: Sequence[Finding]) -> None:
+    """Where equations, limits and comparable values are published."""
     sheet.heading("References")
     lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; its equations are cited as (5).']
     for finding in found:
@@ -277,7 +324,6 @@ def sources(sheet: Sheet, found: Sequence[Finding], version: str) -> None:
     published = "; ".join(dict.fromkeys(factor.source for factor in factors))
     lines.append(f"To compare the drag with, locked wheels on dry asphalt: {low:.2f} to {high:.2f}; {published}.")
     sheet.listed(list(dict.fromkeys(lines)))
-    sheet.say(f"Worked out by collisions {version}.")
 
 
 def _rows(aside: Sheet) -> list[tuple[str, str, str]]:
