@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-import warnings
 import sys
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from html.parser import HTMLParser
