@@ -189,7 +189,10 @@ def look_at_impact(impact: col.Impact) -> None:
 
     def look(label: str, owner: Any, name: str) -> None:
         value = must_answer(label, lambda: getattr(owner, name))
-        must_answer(f"q.{label}", lambda: getattr(owner.q, name))
+        quantity = attempt(f"q.{label}", lambda: getattr(owner.q, name))
+        # What is None for want of a heading says so.
+        wanting = value is None and isinstance(quantity, col.MissingInputError)
+        assert wanting or not isinstance(quantity, col.CollisionsError), f"q.{label}: {quantity}"
         if isinstance(value, col.Vehicle):
             look_at_vehicle(value, made_by_hand=False)
             if name == "before" and not shape:
