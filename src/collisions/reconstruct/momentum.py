@@ -15,7 +15,7 @@ from ..errors import InputError, MissingInputError
 from ..fields import show
 from ..kernels import codes
 from ..kernels.crossing import Term
-from ..units import Input, Pair, shown
+from ..units import Input, Pair, is_quantity, magnitude, shown
 from .momentum_balance import Question, blur, solve
 from .momentum_solution import MomentumSolution
 from .outcome import Cases, exactly
@@ -145,11 +145,8 @@ def momentum(
         given = {name: door.texts.get(name, value) for name, value in read.items()} | ({"together": True} if together else {})
         if impulse is not None:
             given["outside_impulse"] = [door.texts.get(f"outside_impulse[{i}]", part) for i, part in enumerate(impulse)]
-        bare: Any = normal
-        if isinstance(bare, tuple):
-            given["normal"] = [door.texts.get(f"normal[{i}]") or float(part) for i, part in enumerate(bare)]
-        elif bare is not None:
-            given["normal"] = door.texts.get("normal") or float(bare)
+        if normal is not None:
+            given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
     with np.errstate(all="ignore"):
         unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
         terms = _terms(masses, known, angles, together)
@@ -157,6 +154,13 @@ def momentum(
         _need_courses(terms)
         found = solve(cases, Question(terms, masses, angles, headings, impulse, along, unlike, together), on_failure)
     return found if given is None else replace(found, _given=given)
+
+
+def _as_given(value: Any) -> str | float:
+    """A text or a number; a Quantity as a text with all its digits."""
+    if is_quantity(value):
+        return f"{float(magnitude(value))!r} {value.units}"
+    return value if isinstance(value, str) else float(value)
 
 
 def _share(given: dict[str, Any], kind: str) -> Any:
