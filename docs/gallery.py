@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 
 HERE = Path(__file__).resolve().parent
 FOLDER = HERE / "_static" / "gallery"
-WIDTH = 520  # pixels
+WIDTH = 1040  # pixels: twice what a card shows, so that small labels are sharp
 
 
 def draw(script: Path) -> None:
