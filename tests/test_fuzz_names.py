@@ -22,6 +22,8 @@ from collisions.diagnostics import LIMITS
 from fuzzing import FUZZED, Case, fuzzes, load_units, public
 from strategies import registries
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module", autouse=True)
 def _pint_loaded() -> None:
