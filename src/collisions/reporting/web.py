@@ -80,7 +80,7 @@ def _block(block: Block) -> Iterator[str]:
             yield f"<pre>{escape(text)}</pre>"
         case Record(text):
             yield "<details>"
-            yield "<summary>Record, to make this report again (not printed)</summary>"
+            yield "<summary>Record with all digits (not printed)</summary>"
             yield f'<pre id="{RECORD}">{escape(text)}</pre>'
             yield "</details>"
 
