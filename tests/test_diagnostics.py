@@ -1249,6 +1249,47 @@ def test_an_outline_needs_to_be_placed(name, code):
         diagnose(square(b={"x": None, "y": None, "mass": math.inf, "yaw_inertia": math.inf, "vy": 0.0}), outline_b=(1.0, 1.0))
 
 
+def test_outlines_do_not_depend_on_where_the_scene_is():
+    """Moved by 2**22 m, which rounds no place, the overlap is the same to the bit; a corner there would be off by 1e-9 m."""
+    turned = {"heading": 0.3}
+    here, there = (
+        of(
+            "outlines_overlap",
+            square(a={"x": far - 0.75, "y": far, **turned}, b={"x": far + 0.5, "y": far}, point=(far, far)),
+            **RECTANGLES,
+        )
+        for far in (0.0, 2.0**22)
+    )
+    assert [one.measured for one in here] == [one.measured for one in there] != []
+
+
+@pytest.mark.parametrize("far", [1e17, 1e60, 1e140])
+@pytest.mark.parametrize("what", ["place", "speed", "outline"])
+def test_outlines_far_from_everything_leak_no_warning(far, what):
+    """Warnings are errors here; 1e17 m away all corners were one place, whose edges have no direction."""
+    at, speed, size = (far if what == name else 1.0 for name in ("place", "speed", "outline"))
+    shift = at if what == "place" else 0.0
+    impact = square(
+        a={"x": shift - 2.2, "vx": 20.0 * speed, "vy": 8.0 * speed},
+        b={"x": shift + 2.2, "vy": 8.0 * speed},
+        point=(shift, 0.0),
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.SuspectUnitsWarning)
+        found = diagnose(impact, outline_a=(4.4 * size, 1.8 * size), outline_b=[(size, 0.0), (-size, size), (-size, -size)])
+    assert {"outlines_overlap", "outlines_gap", "point_outside"} <= found.measured
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-160, 1e160, 1e300])
+def test_an_outline_of_any_size_is_judged_by_its_shape(size):
+    """No square that underflows to no area, and none that overflows."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.SuspectUnitsWarning)
+        diagnose(square(), outline_a=[(size, 0.0), (-size, size), (-size, -size)])
+        with pytest.raises(col.InputError, match="has a dent"):
+            diagnose(square(), outline_a=[(size, size), (0.0, 0.1 * size), (-size, size), (-size, -size), (size, -size)])
+
+
 def test_no_warning_is_repeated():
     """What the solver said of an energy gain is not said again."""
     impact, _ = CASES["energy_gain"][0]()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -96,10 +96,8 @@ def _polygon(door: Door, corners: Any, argument: str) -> Any:
     elif not np.all(np.isfinite(corners)):
         problem = "has a corner that is not finite"
     else:
-        edges = np.roll(corners, -1, axis=0) - corners
-        turns = _cross(edges, np.roll(edges, -1, axis=0))
-        lengths = np.hypot(*edges.T)
-        sines = turns / np.maximum(lengths * np.roll(lengths, -1), np.finfo(float).tiny)
+        edges, lengths = _edges(corners)
+        sines = _cross(edges, np.roll(edges, -1, axis=0))
         if np.all(sines <= _STRAIGHT) and np.any(sines < -_STRAIGHT):
             return _polygon(door, corners[::-1], argument)
         angles = np.arctan2(edges[:, 1], edges[:, 0])
@@ -121,8 +119,16 @@ def _polygon(door: Door, corners: Any, argument: str) -> Any:
     return corners
 
 
-def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Any:
-    """The corners in the scene, where the vehicle is after so many seconds of its motion."""
+class Placed(NamedTuple):
+    """An outline in the scene: where its centre of mass is, and the corners from there, which no distance rounds."""
+
+    x: float
+    y: float
+    corners: Any
+
+
+def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
+    """The outline where the vehicle is after so many seconds of its motion."""
     x, y, heading = (vehicle._need(name, f"outline_{label}", label) for name in ("x", "y", "heading"))
     turn = vehicle.yaw_rate * after
     if vehicle.pivot is None:
@@ -132,29 +138,39 @@ def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> An
         c, s = from_radians(turn)
         x, y = px + c * (x - px) - s * (y - py), py + s * (x - px) + c * (y - py)
     c, s = from_radians(heading + turn)
-    return np.stack([x + c * outline[:, 0] - s * outline[:, 1], y + s * outline[:, 0] + c * outline[:, 1]], axis=1)
+    return Placed(x, y, np.stack([c * outline[:, 0] - s * outline[:, 1], s * outline[:, 0] + c * outline[:, 1]], axis=1))
 
 
-def distance_outside(corners: Any, point: tuple[float, float]) -> float:
+def distance_outside(outline: Placed, point: tuple[float, float]) -> float:
     """How far a point is from a convex polygon; 0 inside."""
-    edges = np.roll(corners, -1, axis=0) - corners
-    to_point = np.array(point) - corners
+    edges, lengths = _edges(outline.corners)
+    to_point = np.array([point[0] - outline.x, point[1] - outline.y]) - outline.corners
     if np.all(_cross(edges, to_point) >= 0.0):
         return 0.0
-    share = np.clip(np.sum(to_point * edges, axis=1) / np.sum(edges * edges, axis=1), 0.0, 1.0)
-    return float(np.min(np.hypot(*(to_point - share[:, np.newaxis] * edges).T)))
+    along = np.clip(np.sum(to_point * edges, axis=1), 0.0, lengths)
+    return float(np.min(np.hypot(*(to_point - along[:, np.newaxis] * edges).T)))
 
 
-def overlap(one: Any, other: Any) -> float:
+def overlap(one: Placed, other: Placed) -> float:
     """How deep two convex polygons overlap: the least way that would part them; below 0 with a gap."""
     least = math.inf
-    for corners in (one, other):
-        edges = np.roll(corners, -1, axis=0) - corners
-        for ex, ey in edges / np.hypot(*edges.T)[:, np.newaxis]:
+    apart = np.array([other.x - one.x, other.y - one.y])
+    for outline in (one, other):
+        for ex, ey in _edges(outline.corners)[0]:
             axis = np.array([ey, -ex])
-            first, second = one @ axis, other @ axis
-            least = min(least, float(first.max() - second.min()), float(second.max() - first.min()))
+            first, second, between = one.corners @ axis, other.corners @ axis, float(apart @ axis)
+            ahead, behind = float(first.max() - second.min()) - between, float(second.max() - first.min()) + between
+            least = min(least, ahead, behind)
     return least
+
+
+def _edges(corners: Any) -> tuple[Any, Any]:
+    """The directions of the edges, (0, 0) between equal corners, and their lengths."""
+    largest = float(np.max(np.abs(corners))) or 1.0
+    # Of numbers up to 1, whose differences stay in the range of floats.
+    edges = np.roll(corners / largest, -1, axis=0) - corners / largest
+    lengths = np.hypot(*edges.T)
+    return edges / np.where(lengths == 0.0, 1.0, lengths)[:, np.newaxis], lengths * largest
 
 
 def _cross(one: Any, other: Any) -> Any:

@@ -85,11 +85,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     def line(gid: str, along_n: float, along_t: float, total: float, text: str, **style: Any) -> None:
         """Where along_n Pn + along_t Pt is the total, within the picture."""
-        foot = total / (along_n * along_n + along_t * along_t)
         size = math.hypot(along_n, along_t)
-        reach = 2.0 * math.hypot(right, high - low) + abs(foot) * size
-        x, y = foot * along_n, foot * along_t
-        dx, dy = reach * along_t / size, -reach * along_n / size
+        ux, uy, foot = along_n / size, along_t / size, total / size
+        reach = 2.0 * math.hypot(right, high - low) + abs(foot)
+        x, y, dx, dy = foot * ux, foot * uy, reach * uy, -reach * ux
         axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text, **style)
 
     line("end of compression", k_nn, k_nt, closing, "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))

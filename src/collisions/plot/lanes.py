@@ -35,9 +35,10 @@ def beside(place: Place, direction: Place, far: float) -> Place:
 
 def off_line(place: Place, start: Place, vector: Place) -> float:
     """How far a place is from an arrow."""
-    gap = place[0] - start[0], place[1] - start[1]
-    share = (gap[0] * vector[0] + gap[1] * vector[1]) / (vector[0] ** 2 + vector[1] ** 2)
-    nearest = beside(start, vector, min(max(share, 0.0), 1.0))
+    length = math.hypot(*vector)
+    along = vector[0] / length, vector[1] / length
+    way = (place[0] - start[0]) * along[0] + (place[1] - start[1]) * along[1]
+    nearest = beside(start, along, min(max(way, 0.0), length))
     return math.hypot(place[0] - nearest[0], place[1] - nearest[1])
 
 

@@ -28,6 +28,8 @@ _TITLES = {
     "after": "After the impact, at the place of it",
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
+_RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
+_LARGEST = 1e100  # squares of larger places overflow
 _NOTHING = 1e-9  # of the impulse: what rounding leaves of none
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
@@ -116,8 +118,16 @@ def scene(
     known += [scaled(side.before.pivot) for side in sides if side.before.pivot is not None]
     known.append(scaled(contact))
     size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
+    farthest = max(abs(part) for place in known for part in place)
+    if max(size, 4.0 * length) < _RESOLVED * farthest or size > _LARGEST:
+        raise InputError(
+            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from the "
+            f"origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
+            code="out_of_range",
+            argument="impact",
+        )
     # Where all is in one place, or as good as, nothing tells the size of the bodies.
-    if sketched or size <= 1e-6 * max(abs(part) for place in known for part in place):
+    if sketched or size <= 1e-6 * farthest:
         size = max(size, 4.0 * length)
     drawing.include(*known)
 
@@ -215,7 +225,8 @@ def _corners(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Pla
     read = read_outline(door, outline, name)
     door.close()
     forward = read[:, 0] + np.roll(read[:, 0], -1)
-    return [(float(x), float(y)) for x, y in placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)]
+    x, y, corners = placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
+    return [(x + float(ahead), y + float(left)) for ahead, left in corners]
 
 
 def _scale(values: list[float], factor: float, reach: float) -> float:
