@@ -307,7 +307,9 @@ def test_answers_of_batches_compare_by_value():
             ),
         }
 
-    for (name, one), same, other in zip(found(vx).items(), found(vx).values(), found(vx + [0.0, 1.0]).values(), strict=True):
+    for (name, one), same, other in zip(
+        found(vx).items(), found(vx).values(), found(vx + np.array([0.0, 1.0])).values(), strict=True
+    ):
         assert type(one).__name__ == name
         assert one == same == pickle.loads(pickle.dumps(one))
         assert one != other

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -12,7 +11,7 @@ import numpy as np
 from .arguments import TANGENTIAL_DOMAINS, check_options
 from .door import FINITE, NOT_NEGATIVE, POSITIVE, UNIT_INTERVAL, broadcast
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, Status
-from .impact import Asked, Impact, build
+from .impact import Asked, Impact, build, unanswered
 from .kernels import checks, codes
 from .kernels.select import verdict
 from .progress import reporter
@@ -73,7 +72,7 @@ def answer(
                 from .refusals import refusal
 
                 raise refusal(question, raw)
-            raw = (raw[0], *(False if name == "sticks" else math.nan for name in codes.OUTPUTS[1:]))
+            raw = unanswered(raw[0])
         else:
             gain = -raw[codes.OUTPUTS.index("energy_loss")]
             _warn_of_gain(f"the impact gains {gain:.6g} J of energy", gain)
@@ -107,7 +106,7 @@ def concluded(asked: Asked, raw: Any, on_failure: Any, choice: ModelChoice | Non
     """The Impact of a batch, after what is to be said of its refused and its gaining cases."""
     impact, status = build(asked, raw), raw[0]
     if choice is not None:
-        impact._cache["choice"] = choice
+        impact._cache["choice"] = choice.where_answered(impact.refused)
     if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
             raise _first_refusal(impact)

@@ -217,7 +217,8 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
         )
     if value.ndim > _MOST_DIMENSIONS:
         raise ShapeError(
-            f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} at most; give {argument}.ravel()",
+            f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} at most; give it as "
+            f"{argument}.ravel()",
             code="bad_shape",
             argument=argument,
         )

@@ -59,7 +59,13 @@ class Asked(NamedTuple):
         # ``solve`` is also asked without a point, where none is needed.
         if self.point is not None or self.model == "solve":
             arguments["point"] = self.point
-        impact = SOLVERS[self.model](self.a, self.b, self.restitution, **arguments)
+        e = self.restitution
+        if type(e) is float and e != e:
+            # The restitution that a reverse solver looked for and did not find, which no solver takes.
+            impact = SOLVERS[self.model](self.a, self.b, 0.0, **arguments)
+            impact = build(impact._asked._replace(restitution=e), unanswered(codes.OUT_OF_RANGE))
+        else:
+            impact = SOLVERS[self.model](self.a, self.b, e, **arguments)
         if self.given is not None:
             _set_asked(impact, impact._asked._replace(given=self.given))
         return impact
@@ -70,6 +76,12 @@ class Impact:
 
     Made by the solvers, never by hand. Frozen. Attributes are floats, or arrays in a batch, all in SI; the same attributes of
     ``.q`` are Quantities. The impulse P acts on B, -P on A; n points from A into B and t is n turned by +90 degrees.
+
+    A refused case is NaN in every answer, its words are empty, and ``status`` says why. Only what was given for it stays as it
+    was: ``restitution``, ``friction``, ``normal``, ``normal_angle`` and ``point``; of the vehicles mass, yaw inertia, position,
+    heading and pivot, and for a forward solver all of ``before``. ``solve`` keeps the tolerance, and has the model by which it
+    would have answered. What a reverse solver was to find, such as velocities before, or a restitution that was not given, is
+    an answer.
     """
 
     __slots__ = ("_asked", "_cache", "_raw")
@@ -482,6 +494,11 @@ def build(asked: Asked, raw: tuple[Any, ...]) -> Impact:
     return impact
 
 
+def unanswered(status: int) -> tuple[Any, ...]:
+    """What a kernel would answer of a case that was refused."""
+    return status, *(False if name == "sticks" else math.nan for name in codes.OUTPUTS[1:])
+
+
 def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status: Any) -> Impact:
     """An Impact that a reverse solver found; where that gave no answer, its status says why."""
     code = raw[0]
@@ -490,7 +507,7 @@ def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status:
     elif code > codes.ENERGY_GAIN and status != codes.OK:
         code = int(status)
     impact = build(asked, (lock(code), *raw[1:]))
-    impact._cache["reconstruction"] = origin
+    impact._cache["reconstruction"] = origin.where_answered(code)
     return impact
 
 

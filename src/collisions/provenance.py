@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .fields import Shown, lock, same, same_fields, show
+from .kernels import codes
+from .kernels.select import select
 from .units import Value, to_quantity
 
 # From the least to the full one.
@@ -32,7 +34,8 @@ class Reconstruction:
         of friction, restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e
         where e was given, or the jump between both ways to slide over the slip where that is larger.
     answers : int or array of int
-        How many impacts fit what was given, of which this is one; infinite at the end of a range of them.
+        How many impacts fit what was given, of which this is one; infinite at the end of a range of them. Of a refused case
+        the number that fit if they are several, else 0.
     """
 
     method: str
@@ -42,6 +45,15 @@ class Reconstruction:
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
+
+    def where_answered(self, status: Any) -> Reconstruction:
+        """The same without what does not belong to a refused case: how well-posed it was, and how many fit but several."""
+        refused = status > codes.ENERGY_GAIN
+        if not np.any(refused):
+            return self
+        several = np.isin(status, (codes.AMBIGUOUS, codes.AMBIGUOUS_INVERSE))
+        condition, answers = select(refused, math.nan, self.condition), select(refused > several, 0, self.answers)
+        return replace(self, condition=lock(condition), answers=lock(answers))
 
     @property
     def _fitting(self) -> str:
@@ -112,6 +124,12 @@ class ModelChoice(Shown):
     tolerance: Value = field(metadata={"unit": "m/s"})
     # Which of MODELS, by number.
     _which: Any
+
+    def where_answered(self, refused: Any) -> ModelChoice:
+        """The same without the errors of cases that turned out to have no answer."""
+        if not np.any(refused):
+            return self
+        return replace(self, errors={name: select(refused, math.nan, error) for name, error in self.errors.items()})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "errors", ByModel(self.errors, "m/s"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -125,14 +126,21 @@ def central(
             )
         )
     sure = np.equal(status, codes.OK)
-    origin = Reconstruction(method="central", known=tuple(known), condition=cases.values(np.where(sure, condition, np.nan)))
+    origin = Reconstruction(
+        method="central",
+        known=tuple(known),
+        condition=cases.values(np.where(sure, condition, np.nan)),
+        answers=cases.whole(np.where(_differ(answers, eps), len(answers), 1)),
+    )
 
     def asked(answer: dict[str, Any], keep: Any) -> Asked:
+        # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
+        still: Any = 0.0 if np.all(keep) else cases.values(np.where(keep, 0.0, np.nan))
         a, b = (
-            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), 0.0, 0.0)._told(given_as)
+            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), still, still)._told(given_as)
             for mass, name, given_as in zip(masses, ("va", "vb"), written, strict=True)
         )
-        e = cases.values(np.where(keep, answer["e"], 0.0))
+        e = cases.values(np.where(keep, answer["e"], np.nan))
         return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None, told)
 
     def solution(which: int) -> Impact:
@@ -160,7 +168,7 @@ def central(
         given = {name: of_case[name] for name in known}
         return _error(code, {name: cases.one(value, index) for name, value in found.items()}, given)
 
-    return settle(asked(found, sure), status, origin, on_failure, error)
+    return settle(partial(asked, found), status, origin, on_failure, error)
 
 
 def _read(door: Door, value: Any, name: str) -> Any:

@@ -20,7 +20,7 @@ from ..errors import (
 from ..kernels import codes
 from ..quiet import warn
 from ..units import Input, Pair, Value
-from ..vehicle import Vehicle, not_a_vehicle
+from ..vehicle import DOMAINS, Vehicle, not_a_vehicle
 from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, plain_error, raise_or_warn
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
@@ -208,13 +208,8 @@ def _motions(
             sides[moment, label] = numbers
             everything |= {f"{label}_{moment}.{name}": value for name, value in zip(NUMBERS, numbers, strict=True)}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    kept = {
-        f"{label}.{name}": value
-        for label, body in named.items()
-        for name in _KEPT
-        if (value := getattr(body, name)) is not None
-    }
-    # A coordinate that no motion needs is 0 in one and what was given in the other.
+    # What no motion needs is 0 above and what was given here, where it is looked at as it is in a single vehicle.
+    kept = {f"{label}.{name}": value for label, body in named.items() for name, value in _as_given(body).items()}
     cases = Cases.of({**everything, **kept})
     found = []
     with np.errstate(all="ignore"):
@@ -229,7 +224,7 @@ def _motions(
                 turning = abs(array[4]) * (abs(inputs[4] - array[5]) + abs(inputs[5] - array[6]))
                 known["speeds"] = known["speeds"] + abs(array[2]) + abs(array[3]) + turning
             found.append(known)
-        return found[0], found[1], cases, [*input_faults({**everything, "e": e}), *_differences(kept, contact, cases)]
+        return found[0], found[1], cases, [*input_faults({**everything, **kept, "e": e}), *_differences(kept, contact, cases)]
 
 
 def _differences(kept: dict[str, Any], contact: Any, cases: Cases) -> list[tuple[Any, int]]:
@@ -275,6 +270,12 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
         kinds += [f"{counts['above']} above 1, up to {high:.4g}: {_PART_FASTER}"] if counts["above"] else []
         text = f"of {sum(counts.values())} of {np.size(answer)} cases is outside 0 to 1; {'; '.join(kinds)}"
     warn(OutOfRangeWarning(f"the observed restitution {text}", code="observed_restitution", value=worst, counts=counts))
+
+
+def _as_given(body: Vehicle) -> dict[str, Any]:
+    """Every number of a vehicle by its name."""
+    pivot = {f"pivot[{i}]": part for i, part in enumerate(body.pivot or ())}
+    return {name: value for name in DOMAINS if (value := getattr(body, name)) is not None} | pivot
 
 
 def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any, ...]:

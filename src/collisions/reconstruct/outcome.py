@@ -75,6 +75,10 @@ class Cases(NamedTuple):
         with np.errstate(over="ignore"):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
+    def whole(self, found: Any) -> Any:
+        """The same of what is counted."""
+        return int(found) if self.shape is None else lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
+
     def verdict(self, findings: Sequence[tuple[Any, int]]) -> Any:
         """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
         status = np.zeros(self.shape or (), dtype=np.uint8)
@@ -108,22 +112,34 @@ def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
 
 
 def settle(
-    asked: Asked, status: Any, origin: Reconstruction, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]
+    asked: Callable[[Any], Asked],
+    status: Any,
+    origin: Reconstruction,
+    on_failure: Any,
+    error: Callable[[tuple[int, ...]], CollisionsError],
 ) -> Impact:
-    """The forward solver's impact from the state that was found; ``error`` gives the refusal of the case at an index."""
+    """The forward solver's impact from the state that was found; ``error`` gives the refusal of the case at an index.
+
+    ``asked`` puts the question of the cases that it is told to keep; what was looked for is NaN in the others.
+    """
     check_options(on_failure)
-    if not isinstance(status, np.ndarray):
-        if status == codes.OK:
-            impact = asked.ask()
-        elif on_failure == "nan":
-            impact = asked.ask(on_failure="nan")
-        else:
-            raise error(())
-        return found_by(origin, impact._asked, impact._raw, status)
-    impact = asked.ask(on_failure="nan")
-    found = found_by(origin, impact._asked, impact._raw, status)
-    raise_or_warn(found._raw[0], on_failure, error)
+    single = not isinstance(status, np.ndarray)
+    if single and status != codes.OK and on_failure != "nan":
+        raise error(())
+    found = answered(asked, status, origin, on_failure if single else "nan")
+    if not single:
+        raise_or_warn(found._raw[0], on_failure, error)
     return found
+
+
+def answered(asked: Callable[[Any], Asked], status: Any, origin: Reconstruction, on_failure: Any) -> Impact:
+    """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
+    sure = np.equal(status, codes.OK)
+    impact = asked(sure).ask(on_failure=on_failure)
+    question = impact._asked
+    if np.any(sure & impact.refused):
+        question = asked(sure & ~impact.refused)
+    return found_by(origin, question, impact._raw, status)
 
 
 def raise_or_warn(

@@ -7,6 +7,7 @@ every origin of an end state is a candidate impulse taken off that state; the fo
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -16,7 +17,6 @@ from ..arguments import Law, OnFailure, read
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import CollisionsError, InputError
-from ..fields import lock
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
@@ -212,7 +212,7 @@ def _answer(
             body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(texts)
             for body, motion, texts in zip((a, b), found, kept, strict=True)
         ]
-        used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, 0.0))
+        used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, np.nan))
         return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
@@ -236,6 +236,5 @@ def _answer(
     ]
     restitution = np.choose(which, [one.restitution for one in origins]) if origins else np.nan
     warn(cases, end, sure & end.pressed, nearly, origins)
-    answers = 1 if cases.shape is None else lock(np.array(np.broadcast_to(count, cases.shape), dtype=np.int64))
-    origin = provenance(np.where(sure, condition, np.nan), answers)
-    return settle(asked(motions, restitution, sure), status, origin, on_failure, error)
+    origin = provenance(np.where(sure, condition, np.nan), cases.whole(count))
+    return settle(partial(asked, motions, restitution), status, origin, on_failure, error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,14 +15,13 @@ from ..directions import course
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
-from ..fields import lock
-from ..impact import Asked, Impact, found_by
+from ..impact import Asked, Impact
 from ..kernels import codes
 from ..provenance import Reconstruction
 from ..quiet import warn
 from ..units import Input, Pair
 from ..vehicle import Vehicle
-from .outcome import ASK_ALONE, NUMBERS, Cases, exactly, input_faults, parted
+from .outcome import ASK_ALONE, NUMBERS, Cases, answered, exactly, input_faults, parted
 from .self_consistent import RestitutionOf
 from .speeds_found import in_order, joint
 from .speeds_refusals import refusal
@@ -218,7 +218,6 @@ def _answers(
     contact: tuple[Any, ...],
     function: RestitutionOf | None,
 ) -> tuple[Impact, ...]:
-    n, rule, bound, law, point, e, told = contact
     faults = input_faults(scene.numbers)
     told_nothing = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
     faults += [(of_wall, codes.INFINITE_MASS) for of_wall in told_nothing]
@@ -226,28 +225,21 @@ def _answers(
     none = np.full((), np.nan)
     nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
-    answers = int(count) if cases.shape is None else lock(np.array(np.broadcast_to(count, cases.shape)))
     impacts: list[Impact] = []
     backward = 0.0
     for root, there in found or [nothing]:
         status = cases.verdict((*faults, (there, codes.OK), (True, codes.CONTRADICTORY)))
         if isinstance(status, int) and status != codes.OK:
             raise refusal(scene, status, function)
-        there = np.equal(status, codes.OK)
-        moved = []
-        for label, body, speed in (("a", a, root.speed_a), ("b", b, root.speed_b)):
-            speed = np.where(there, speed * scene.speed_unit, np.nan)
-            cx, cy = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
-            changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
-            moved.append(changed._told(parted(body, ("vx", "vy", "speed", "course"))[0]))
+        origin = Reconstruction(
+            method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.whole(count)
+        )
+        asked = partial(_asked, cases, scene, root, (a, b), contact, function is None)
+        impact = answered(asked, status, origin, None if cases.shape is None else "nan")
+        for speed in (root.speed_a, root.speed_b):
+            speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
-        used = e if function is None else cases.values(root.restitution)
-        asked = Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)
-        impact = asked.ask(on_failure=None if cases.shape is None else "nan")
-        answered = np.less_equal(impact._raw[0], codes.ENERGY_GAIN)
-        condition = cases.values(np.where(answered, root.condition, np.nan))
-        origin = Reconstruction(method="speeds", known=scene.kinds, condition=condition, answers=answers)
-        impacts.append(found_by(origin, impact._asked, impact._raw, status))
+        impacts.append(impact)
     if cases.shape is not None and np.any(impacts[0]._raw[0] > codes.ENERGY_GAIN):
         warn_of_refusals(impacts[0]._raw[0], ASK_ALONE)
     if backward < 0.0:
@@ -260,3 +252,18 @@ def _answers(
             )
         )
     return tuple(impacts)
+
+
+def _asked(
+    cases: Cases, scene: Scene, root: Root, bodies: tuple[Vehicle, Vehicle], contact: tuple[Any, ...], as_given: bool, keep: Any
+) -> Asked:
+    """The question of the speeds of a root where they are kept, with the restitution as it was given or found."""
+    n, rule, bound, law, point, e, told = contact
+    moved = []
+    for label, body, speed in zip("ab", bodies, root[:2], strict=True):
+        speed = np.where(keep, speed * scene.speed_unit, np.nan)
+        cx, cy = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
+        changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
+        moved.append(changed._told(parted(body, ("vx", "vy", "speed", "course"))[0]))
+    used = e if as_given else cases.values(root.restitution)
+    return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)

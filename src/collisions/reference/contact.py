@@ -232,8 +232,9 @@ def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     with np.errstate(all="ignore"):
         fitted = np.where(speed < slowest, 1.0, np.where(speed > fastest, -1.0, _fitted(np.log10(speed)) + _SCATTER))
         highest: Any = np.maximum(fitted, _HIGHEST)
-        highest = np.where(speed >= 0.0, highest, math.nan)
-        lowest: Any = np.where(speed >= 0.0, 0.0, math.nan)
+        usable = (speed >= 0.0) & (speed < math.inf)
+        highest = np.where(usable, highest, math.nan)
+        lowest: Any = np.where(usable, 0.0, math.nan)
     for array in (lowest, highest):
         array.setflags(write=False)
     return lowest, highest

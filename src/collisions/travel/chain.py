@@ -39,7 +39,9 @@ def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Seque
     for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
         length = plan * numeric(grade).hypot(1.0, grade)
         double = before + after
-        found.append(select(length == 0.0, 0.0, 2.0 * length / select(double == 0.0, math.nan, double)))
+        duration = 2.0 * length / select(double == 0.0, math.nan, double)
+        # A speed beyond floats would make it 0, which looks like an answer.
+        found.append(select(length == 0.0, 0.0, select(double == math.inf, math.inf, duration)))
     return found
 
 
