@@ -343,6 +343,15 @@ def test_no_finding_just_within_its_limit(row):
 # Where a finding is looked at, and what it says
 
 
+@pytest.mark.parametrize(("off", "found"), [(0.5e-9, False), (2e-9, True)])
+def test_a_ratio_passes_its_limit_by_more_than_a_billionth(off, found):
+    """Which rounding leaves of a quotient of answers."""
+    ratio = -(1.0 + off) * 16.0 / 20.0
+    sliding = silent(lambda: aslant(vy=-16.0, friction=None, impulse_ratio=ratio))
+    for code, impact in (("restitution", in_line(restitution=0.3 + off)), ("impulse_ratio", sliding)):
+        assert (code in {finding.code for finding in diagnose(impact)}) == found
+
+
 @pytest.mark.parametrize(
     ("more", "off"),
     [
@@ -472,6 +481,21 @@ def to_both_sides(near=2.5, between=0.0):
     return uncertainty.propagate(model, {"u": uncertainty.Uniform(0.0, 1.0)}, method="latin_hypercube", samples=8192)
 
 
+def without_an_answer(count):
+    """Of 64 cases in as many equal parts of the interval."""
+
+    def model(u):
+        return {"y": np.where(64.0 * u < 64.0 - count, u, math.nan)}
+
+    return uncertainty.propagate(model, {"u": uncertainty.Uniform(0.0, 1.0)}, method="latin_hypercube", samples=64)
+
+
+def read_as(angle, other):
+    """A number read as one thing, weighing all, and as another, weighing nothing."""
+    seen = {"p": uncertainty.Normal(angle, 1e-3), "q": uncertainty.Normal(other, 1e3)}
+    return reconstruct.fit(lambda x: {"p": x, "q": x}, {"x": uncertainty.Uniform(-4.0, 4.0)}, seen)
+
+
 def three_readings(chance):
     """Of one unknown, at -d, 0 and d with a standard deviation of 1: chi-squared is 2 d^2, and its chance exp(-d^2)."""
     d = math.sqrt(-math.log(chance))
@@ -563,7 +587,10 @@ WARNINGS = [
     Warned("shares between them", 0.16, RANGE, "may_wrap", lambda x: to_both_sides(between=x), below=True),
     Warned("local method", 0.1, RANGE, "not_local", a_bump_beside_the_middle),
     Warned("chance of a misfit", 0.01, col.CollisionsWarning, "contradictory", three_readings, below=True),
-    # Beyond these only rounding may be.
+    Warned("bare angles apart", math.pi, UNITS, "bare_angle", lambda x: read_as(0.5 * x, -0.5 * x)),
+    Warned("bare angles of half a turn", math.pi, UNITS, "bare_angle", lambda x: read_as(x, -0.5), below=True),
+    # Beyond these only rounding may be, or one case.
+    Warned("cases without an answer", 0.0, RANGE, "failed_cases", without_an_answer, step=1.0),
     Warned("speed by momentum", 0.0, RANGE, "negative_speed", lambda x: by_momentum(after_a=(2.0, 5.0), after_b=(-2.0 + x, 5.0)), below=True, step=1e-9),
     Warned("speed by speeds", 0.0, RANGE, "negative_speed", b_goes, below=True, step=1e-6),
     Warned("closing by momentum", 0.0, RANGE, "separating", lambda x: by_momentum(normal=math.pi, after_a=(2.0, 5.0), after_b=(-2.0 - x, 5.0)), below=True, step=1e-6, counts=True),
