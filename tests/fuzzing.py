@@ -1,7 +1,7 @@
 """Fuzz by seeds: cheap draws, calls that are counted by public name, and every name of the package listed to be compared.
 
 Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range (``50000:100000``), without it a few;
-``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, and what a call cost.
+``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, what a call cost, and what failed.
 A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -k TEST``.
 """
 
@@ -104,6 +104,7 @@ FUZZED: dict[str, str] = {}  # test by public name
 _cases: Counter[str] = Counter()
 _answered: Counter[str] = Counter()
 _seconds: defaultdict[str, float] = defaultdict(float)
+_failed: list[str] = []
 
 
 def fuzzes(*names: str, share: float = 1.0) -> Callable[[Callable[[Case], None]], Callable[[], None]]:
@@ -141,10 +142,11 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
                 failures.setdefault((type(error), place, case.last_name), [seed, told, 0])[2] += 1
                 if len(failures) == _MOST_FAILURES:
                     break
+    listed = [f"{body.__name__}, seed {seed} ({count} like it): {told}" for seed, told, count in failures.values()]
+    _failed.extend(listed)
     _write_counts()
-    listed = "\n".join(f"seed {seed} ({count} like it): {told}" for seed, told, count in failures.values())
     if failures:
-        pytest.fail(f"{body.__name__}:\n{listed}", pytrace=False)
+        pytest.fail("\n".join(listed), pytrace=False)
     silent = [name for name in names if _cases[name] == before[name]]
     if silent and len(chosen) >= _FEW:
         pytest.fail(f"{body.__name__} says that it fuzzes {silent}, and never called them", pytrace=False)
@@ -180,7 +182,7 @@ def _write_counts() -> None:
         for name in sorted(_cases, key=lambda name: -_seconds[name]):
             each = 1e6 * _seconds[name] / _cases[name]
             rows.append(f"{name:42}{_cases[name]:9}{_answered[name]:10}{each:11.0f}{_seconds[name]:9.1f}")
-        Path(path).write_text("\n".join(rows) + "\n", encoding="utf-8")
+        Path(path).write_text("\n".join([*rows, *_failed]) + "\n", encoding="utf-8", errors="replace")
 
 
 # --- one case --------------------------------------------------------------------------------------------------------------
