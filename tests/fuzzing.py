@@ -130,6 +130,8 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", col.CollisionsWarning)
+        # A font need not have every letter of a name.
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
         for seed in chosen:
             case = Case(f"{body.__name__} {seed}")
             try:

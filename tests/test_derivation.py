@@ -1136,3 +1136,9 @@ def test_a_number_too_large_for_the_unit_is_refused():
     with pytest.raises(col.InputError, match="too large to be written in ft") as refused:
         explain(impact, units="us")
     assert refused.value.code == "out_of_range"
+
+
+def test_a_momentum_beyond_floats_is_written_as_infinite():
+    """The impact is answered; a product on the way to its check is not, and the page says so."""
+    a, b = col.Vehicle(mass=1.7e308, vx=20.0), col.Vehicle(mass=1200.0)
+    assert "infinite" in explain(col.linear_central(a, b, 0.5))

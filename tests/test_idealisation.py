@@ -730,3 +730,20 @@ def test_the_script_writes_what_it_prints(script, measured, monkeypatch, capsys,
     printed = capsys.readouterr().out
     for scene in script.SCENES:
         assert scene.name in printed
+
+
+@pytest.mark.parametrize("restitution", [5e-324, 1e-320])
+def test_the_least_restitution_leaves_out_what_none_does(restitution):
+    """Restitution takes so long as compression: next to nothing, not a time over nothing."""
+    a, b = col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1200.0)
+    least, none = (col.left_out(col.linear_central(a, b, e)) for e in (restitution, 0.0))
+    assert (least.mutual_crush, least.a.tyre_delta_v) == pytest.approx((none.mutual_crush, none.a.tyre_delta_v), rel=1e-12)
+
+
+def test_what_a_refused_scene_without_a_point_leaves_out():
+    """Bodies that move apart are refused whatever else is missing; nothing was left out for them."""
+    gate = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=2.0, y=1.0, pivot=(2.0, 0.0))
+    away = col.Vehicle(mass=1500.0, vx=np.array([-20.0, -10.0]), yaw_inertia=2000.0, x=0.0, y=0.0)
+    for a in (away, away.replace(vx=np.array([]))):
+        impact = col.solve(a, gate, 0.1, normal=0.0, point=None, friction=0.3, on_failure="nan")
+        assert np.isnan(col.left_out(impact).b.tyre_delta_v).all()

@@ -1007,3 +1007,19 @@ def test_observations_whose_errors_leave_the_range_of_floats(value, error):
         except col.CollisionsError:
             return
     assert math.isfinite(found["x"].value)
+
+
+def test_errors_of_very_different_size():
+    """What one observation says 1e14 times more firmly than the other is found; at 1e18 the equations are singular, and refused."""
+    unknowns = {"x": Interval(0.0, 40.0), "y": Normal(4.0, 2.0)}
+
+    def fitted(error):
+        return reconstruct.fit(
+            lambda x, y: {"s": x + 2.0 * y, "d": x - y}, unknowns, {"s": (15.0, error), "d": (0.0, 1.0 / error)}
+        )
+
+    found = fitted(1e7)
+    assert (found["x"].value, found["y"].value) == pytest.approx((4.0, 4.0), abs=1e-6)
+    with pytest.raises(col.NoSolutionError) as refused:
+        fitted(1e9)
+    assert refused.value.code == "no_convergence"

@@ -790,3 +790,14 @@ def test_contributions_of_any_size(size):
     inputs = {"x": Normal(0.0, 1.0), "z": Normal(0.0, 2.0)}
     found = propagate(lambda x, z: {"y": size * x + size * z}, inputs, method="quasi_random", seed=1)["y"]
     assert found.contributions == pytest.approx({"z": 0.8, "x": 0.2}, abs=0.01)
+
+
+def test_the_ends_of_an_interval_share_no_variance():
+    """One place of an interval has nothing uncertain about it."""
+    ends = propagate(lambda x: {"y": 2.0 * x}, {"x": Interval(1.0, 2.0)}, method="interval")["y"].cases
+    assert [end.contribution_standard_errors for end in ends] == [{}, {}]
+
+
+def test_a_correlation_of_intervals_that_is_an_array():
+    with pytest.raises(col.InputError, match="knows no likelihood"):
+        propagate(lambda x: {"y": x}, {"x": Interval(1.0, 2.0)}, method="interval", correlation=np.eye(2))

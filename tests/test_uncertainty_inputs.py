@@ -807,3 +807,7 @@ def test_a_lognormal_with_a_deviation_far_smaller_than_its_mean():
     with pytest.raises(col.InputError) as refused:
         LogNormal(mean, sd, truncate=(mean, None))
     assert refused.value.code == "out_of_range"
+
+
+def test_a_score_whose_value_is_beyond_floats():
+    assert Normal(1.0, 1e10).scored(np.array([-1e300, 1e300])).tolist() == [-math.inf, math.inf]

@@ -106,7 +106,7 @@ def concluded(asked: Asked, raw: Any, on_failure: Any, choice: ModelChoice | Non
     """The Impact of a batch, after what is to be said of its refused and its gaining cases."""
     impact, status = build(asked, raw), raw[0]
     if choice is not None:
-        impact._cache["choice"] = choice.where_answered(impact.refused)
+        impact._cache["choice"] = choice._where_answered(impact.refused)
     if np.any(status > codes.ENERGY_GAIN):
         if on_failure == "raise":
             raise _first_refusal(impact)

@@ -56,7 +56,9 @@ class Kick(NamedTuple):
         square = arm_x * arm_x + arm_y * arm_y
         turning = before.mass / (before.yaw_inertia + before.mass * square)
         yaw = turning * (arm_x * y - arm_y * x)
-        at_point = turning_velocity(yaw, point[0], point[1], before.pivot[0], before.pivot[1])
+        # Without a point no case has an answer, nor a contact that could move.
+        place = before.pivot if point is None else point
+        at_point = turning_velocity(yaw, place[0], place[1], before.pivot[0], before.pivot[1])
         # Of wheels at the radius of gyration k from the centre, the mean distance from the pivot is hypot(arm, k) at most.
         return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * (turning * square) ** 0.5)
 

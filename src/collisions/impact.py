@@ -507,7 +507,7 @@ def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status:
     elif code > codes.ENERGY_GAIN and status != codes.OK:
         code = int(status)
     impact = build(asked, (lock(code), *raw[1:]))
-    impact._cache["reconstruction"] = origin.where_answered(code)
+    impact._cache["reconstruction"] = origin._where_answered(code)
     return impact
 
 

@@ -46,7 +46,7 @@ class Reconstruction:
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
 
-    def where_answered(self, status: Any) -> Reconstruction:
+    def _where_answered(self, status: Any) -> Reconstruction:
         """The same without what does not belong to a refused case: how well-posed it was, and how many fit but several."""
         refused = status > codes.ENERGY_GAIN
         if not np.any(refused):
@@ -125,7 +125,7 @@ class ModelChoice(Shown):
     # Which of MODELS, by number.
     _which: Any
 
-    def where_answered(self, refused: Any) -> ModelChoice:
+    def _where_answered(self, refused: Any) -> ModelChoice:
         """The same without the errors of cases that turned out to have no answer."""
         if not np.any(refused):
             return self

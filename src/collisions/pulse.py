@@ -31,7 +31,9 @@ def passed(e: Any, share: float) -> Any:
     xp = numeric(e)
     phase = share * (1.0 + e)
     compressing = 1.0 - xp.cos(_QUARTER * phase)
-    restoring = 1.0 + e * xp.sin(_QUARTER * ((phase - 1.0) / divisor(True, e)))
+    # Not before restitution: over the least restitution that would be infinite, which has no sine.
+    late = select(phase <= 1.0, 0.0, phase - 1.0)
+    restoring = 1.0 + e * xp.sin(_QUARTER * (late / divisor(True, e)))
     return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
 
 

@@ -146,7 +146,7 @@ def solve(
     else:
         model = _model(which, asked)
         impact = answer(*model, tuple(asked), question.plain, None, on_failure, threads, report)
-        impact._cache["choice"] = choice.where_answered(impact.refused)
+        impact._cache["choice"] = choice._where_answered(impact.refused)
     return impact
 
 

@@ -128,7 +128,9 @@ class Page:
 
     def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
         """Whether printed numbers that are worth so much are, rounded, the number printed for a value."""
-        printed = float(self.system.working(value, kind)) if math.isfinite(value) else value
+        if not math.isfinite(value):
+            return True  # "infinite" and "not known" promise no figures
+        printed = float(self.system.working(value, kind))
         # A little more than half a unit, for the rounding of what is just between two numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 

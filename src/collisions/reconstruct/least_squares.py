@@ -14,6 +14,7 @@ _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
+_LEAST_DAMPING = 1e-12  # that rounding leaves something of: where equations are singular without
 _BEND = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
 _LEAST_WEIGHT = 1e-6  # of the damping: an unknown that changes nothing is damped all the same
 FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not tell it
@@ -199,8 +200,15 @@ def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any,
     gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
     weight = np.einsum("kii->ki", curvature)
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
-    damped = curvature + (damping[:, np.newaxis] * weight)[..., np.newaxis] * np.eye(len(problem.scale))
-    move = np.linalg.solve(damped, -gradient[..., np.newaxis])[..., 0]
+
+    def move_by(damping: Any) -> Any:
+        damped = curvature + (damping[:, np.newaxis] * weight)[..., np.newaxis] * np.eye(len(problem.scale))
+        return np.linalg.solve(damped, -gradient[..., np.newaxis])[..., 0]
+
+    try:
+        move = move_by(damping)
+    except np.linalg.LinAlgError:
+        move = move_by(np.maximum(damping, _LEAST_DAMPING))
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)
     real = (trial - points) / problem.scale
     return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)

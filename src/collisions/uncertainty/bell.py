@@ -181,7 +181,8 @@ class Normal(Bell):
         return self.given_mean, self.given_sd, 0.0, 3.0, (-math.inf, math.inf)
 
     def _value(self, score: Any) -> Any:
-        return self.given_mean + self.given_sd * score
+        with np.errstate(over="ignore"):
+            return self.given_mean + self.given_sd * score
 
     def _between(self, start: float, end: float) -> float:
         return (end - start) / self.given_sd

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..fields import OWN, derived, returns
 from . import angles
-from .output import COVERAGE, Output
+from .output import COVERAGE, Output, Shares
 
 
 class Bounds(Output):
@@ -100,7 +100,7 @@ class Known(Output):
     """An output worked out once, with nothing uncertain about it: one place of an interval."""
 
     def __init__(self, name: str, unit: str | None, value: float) -> None:
-        super().__init__(name, unit, dict)
+        super().__init__(name, unit, lambda: {name: Shares({}, {}, {}, {})})
         self.value = value
 
     def _mean(self) -> Any:

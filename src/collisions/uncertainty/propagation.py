@@ -241,7 +241,7 @@ def _by_interval(
     intervals: Mapping[str, tuple[float, float]],
     correlation: Any,
 ) -> Propagation:
-    if correlation:
+    if correlation is not None and (not isinstance(correlation, Mapping) or correlation):
         raise InputError(
             "method='interval' knows no likelihood, so no correlation either; leave it out",
             code="bad_correlation",
