@@ -121,8 +121,8 @@ def scene(
     farthest = max(abs(part) for place in known for part in place)
     if max(size, 4.0 * length) < _RESOLVED * farthest or size > _LARGEST:
         raise InputError(
-            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from the "
-            f"origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
+            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from "
+            f"the origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
             code="out_of_range",
             argument="impact",
         )

@@ -16,14 +16,14 @@ from .output import COVERAGE, Output, Shares
 class Bounds(Output):
     """An output with an interval among its inputs: the range of every figure over what the interval allows."""
 
-    def __init__(self, name: str, unit: str | None, cases: list[Output]) -> None:
+    def __init__(self, name: str, unit: str | None, cases: list[Output], end: float | None = None) -> None:
         super().__init__(name, unit, dict)
         self.cases = cases
-        if unit == "rad":
-            # One turn for all, or their figures could not be compared.
-            where = angles.cut(np.concatenate([case._directions() for case in cases]))
-            for case in cases:
-                case._fold(where)
+        # One turn for the means of all directions, the one that ends there, or the figures could not be compared.
+        for case in cases if end is not None else []:
+            turns = round((float(angles.folded(case.mean, end)) - case.mean) / (2.0 * math.pi))
+            if turns:
+                case._turn(turns)
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:

@@ -79,11 +79,8 @@ class Local(Output):
         found = mean + std * z
         return found if np.ndim(found) else float(found)
 
-    def _directions(self) -> Any:
-        return np.array(self._figures[:1])
-
-    def _fold(self, where: float | None) -> None:
-        self._figures = float(angles.folded(self._figures[0], where)), self._figures[1]
+    def _turn(self, turns: float) -> None:
+        self._figures = self._figures[0] + 2.0 * math.pi * turns, self._figures[1]
         self._cache.clear()
 
 

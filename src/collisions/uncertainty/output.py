@@ -42,6 +42,11 @@ class Output:
     Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the model returned. With an
     ``Interval`` among the inputs every figure is a pair: the least and the most it may be, wherever in the interval the truth
     lies.
+
+    Directions, which are angles with their unit that all lie from -pi to pi, are counted round the circle from the point
+    opposite their mean, and so may pass pi. The mean is the direction to which the mean square of the way round is the least,
+    in (-pi, pi]; the standard deviation is the root of this mean square; quantiles and intervals are those of the directions
+    so counted. Of a normal error of a direction that is far less than half a turn these are its mean and standard deviation.
     """
 
     def __init__(self, name: str, unit: str | None, shares: Callable[[], Mapping[str, Shares]]) -> None:
@@ -167,12 +172,8 @@ class Output:
     def _quantile(self, p: Any) -> Any:
         raise NotImplementedError
 
-    def _directions(self) -> Any:
-        """The angles it was worked out from, as they were."""
-        return np.empty(0)
-
-    def _fold(self, where: float | None) -> None:
-        """Counts directions within the turn that ends there."""
+    def _turn(self, turns: float) -> None:
+        """Counts directions by so many turns more."""
 
 
 class _Told:

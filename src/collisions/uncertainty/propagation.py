@@ -59,7 +59,8 @@ def propagate(
         ``model(**inputs)`` returns a dict of named outputs: arrays of one number a case, or Quantities. Each case is worked out
         by itself: a few are asked again alone, and a model that then answers otherwise is refused. Refused cases are NaN,
         which solvers give with ``on_failure="nan"``. Booleans count as 0 and 1, so that a mean is a probability. Angles with
-        their unit that all lie from -pi to pi are directions, counted on across pi; return a rotation as a plain number.
+        their unit that all lie from -pi to pi are directions, counted round the circle about their mean, see ``Output``;
+        return a rotation as a plain number.
     inputs : dict
         By name ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval``, or a fixed value. Numbers
         reach the model in SI, without their unit.
@@ -163,7 +164,9 @@ def propagate(
                 raise
         _check_answered(runs)
         outputs = {
-            name: Bounds(name, one.unit, [run.outputs[name] for run in runs if name not in run.unanswered])
+            name: Bounds(
+                name, one.unit, [run.outputs[name] for run in runs if name not in run.unanswered], searched.cuts.get(name)
+            )
             for name, one in runs[0].outputs.items()
         }
     asked, failed = asked + sum(run.asked for run in runs), failed + sum(run.failed for run in runs)

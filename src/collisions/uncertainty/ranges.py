@@ -31,13 +31,14 @@ _LANES = 2**16
 
 
 class Extremes(NamedTuple):
-    """Least and greatest value by output, the places of all extremes, and what it took to find them."""
+    """Least and greatest value by output, the places of all extremes, what it took to find them, and where means were cut."""
 
     values: dict[str, tuple[float, float]]
     places: list[dict[str, float]]
     asked: int
     failed: int
     wrapped: tuple[str, ...]
+    cuts: dict[str, float | None]
 
 
 class _Places:
@@ -72,7 +73,21 @@ class _Places:
         found = self.model(values, count)
         self.asked += count
         self.failed += int(np.count_nonzero(np.any([np.isnan(one) for one in found.values()], axis=0)))
-        return {name: angles.folded(one, self.cuts.get(name)).reshape(len(at), -1) for name, one in found.items()}
+        return {name: self._counted(name, one.reshape(len(at), -1)) for name, one in found.items()}
+
+    def count_directions(self, first: Mapping[str, Any]) -> dict[str, Any]:
+        """The first answers, and from now on all others, with directions about their mean, and the means within one turn."""
+        for name, values in first.items():
+            if self.model.units[name] == "rad" and angles.are_directions(values):
+                self.cuts[name] = angles.cut(_means(angles.counted(values)))
+        return {name: self._counted(name, values) for name, values in first.items()}
+
+    def _counted(self, name: str, values: Any) -> Any:
+        if name not in self.cuts:
+            return values
+        about = angles.counted(values)
+        means = _means(about)
+        return about + 2.0 * np.pi * np.rint((angles.folded(means, self.cuts[name]) - means) / (2.0 * np.pi))[:, np.newaxis]
 
 
 def extremes(
@@ -98,8 +113,7 @@ def extremes(
     places = _Places(model, bounds, common)
     grid = _grid(len(bounds), _GRID[mixed], _FINEST[mixed])
     first = places.answers(grid)
-    places.cuts = {name: angles.cut(values.ravel()) for name, values in first.items() if model.units[name] == "rad"}
-    first = {name: angles.folded(values, places.cuts.get(name)) for name, values in first.items()}
+    first = places.count_directions(first)
     star = _star(len(bounds), _DIAGONAL[mixed])
     found: dict[str, tuple[float, float]] = {}
     spots = []
@@ -119,7 +133,7 @@ def extremes(
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(places.names, map(float, places.at(spot)), strict=True)) for spot in unique]
     wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
-    return Extremes(found, listed, places.asked, places.failed, wrapped)
+    return Extremes(found, listed, places.asked, places.failed, wrapped, places.cuts)
 
 
 def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, star: Any, rounds: int) -> tuple[Any, float]:
@@ -141,6 +155,13 @@ def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, st
 
 def _judged(places: _Places, name: str, figure: Callable[[Any], Any], shares: Any) -> Any:
     return figure(places.answers(shares)[name])
+
+
+def _means(values: Any) -> Any:
+    """Of the answers at each place, NaN where there is none."""
+    known = ~np.isnan(values)
+    with np.errstate(invalid="ignore"):
+        return np.sum(np.where(known, values, 0.0), axis=1) / np.count_nonzero(known, axis=1)
 
 
 def _only(values: Any) -> Any:

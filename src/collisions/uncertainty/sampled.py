@@ -24,8 +24,9 @@ class Sampled(Output):
 
     def __init__(self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]]) -> None:
         super().__init__(name, unit, shares)
-        self._as_returned = values
-        self._fold(angles.cut(values) if unit == "rad" else None)
+        self._directions = values if unit == "rad" and angles.are_directions(values) else None
+        self.values = values if self._directions is None else angles.counted(values)
+        self.values.setflags(write=False)
 
     @property
     def failed(self) -> int:
@@ -35,7 +36,7 @@ class Sampled(Output):
     def may_wrap(self) -> bool:
         """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
         found = self._answered()
-        if self.unit == "rad":
+        if self._directions is not None:
             return angles.point_everywhere(found)
         return self.unit is None and angles.jump(found)
 
@@ -99,14 +100,10 @@ class Sampled(Output):
             found = np.quantile(self._answered(), p)
         return found if found.ndim else float(found)
 
-    def _fold(self, where: float | None) -> None:
-        """Directions about the middle of the turn that ends there."""
-        self.values = angles.folded(self._as_returned, where)
+    def _turn(self, turns: float) -> None:
+        self.values = self.values + 2.0 * math.pi * turns
         self.values.setflags(write=False)
         self._cache.clear()
-
-    def _directions(self) -> Any:
-        return self._as_returned
 
     def _answered(self) -> Any:
         """The cases with an answer, sorted."""
@@ -128,9 +125,20 @@ class Sampled(Output):
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         """The standard error of a figure, from how it differs between the independent sequences of points."""
-        columns = [self.values[which::REPLICATES] for which in range(REPLICATES)]
-        found = [figure(column[~np.isnan(column)]) for column in columns if np.count_nonzero(~np.isnan(column)) > 1]
+        columns = [column[~np.isnan(column)] for column in self._sequences()]
+        found = [figure(column) for column in columns if column.size > 1]
         if len(found) < 2:
             return figure(np.zeros(2)) * math.nan
         error = np.std(found, axis=0, ddof=1) / math.sqrt(len(found))
         return error if np.ndim(error) else float(error)
+
+    def _sequences(self) -> list[Any]:
+        """The cases of each independent sequence; directions as each of them alone would count them."""
+        if self._directions is None:
+            return [self.values[which::REPLICATES] for which in range(REPLICATES)]
+        if "sequences" not in self._cache:
+            alone = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]
+            middle = average(self._answered())
+            turn = 2.0 * math.pi
+            self._cache["sequences"] = [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in alone]
+        return list(self._cache["sequences"])

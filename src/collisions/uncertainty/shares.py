@@ -43,7 +43,7 @@ def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], 
     for name, unit in model.units.items():
         values = np.array([answer[name] for answer in answers])
         if unit == "rad":
-            values = angles.folded(values, angles.cut(values.reshape(-1)))
+            values = angles.counted(values.reshape(-1)).reshape(values.shape)
         shares = [_shares(values[0], values[1], mixed) for mixed in values[2:]]
         found[name] = Shares(*(dict(zip(labels, figures, strict=True)) for figures in zip(*shares, strict=True)))
     return found

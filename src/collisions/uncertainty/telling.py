@@ -54,15 +54,18 @@ def tell(method: str, runs: Sequence[Run], places: int, local: bool, asked: int,
             CollisionsWarning(f"interrupted after {asked} cases; the figures are theirs{rest}", code="interrupted", done=asked)
         )
     wrapped = tuple(dict.fromkeys(name for run in runs for name in run.wrapped))
-    if wrapped:
-        told.append(
-            OutOfRangeWarning(
-                f"{', '.join(wrapped)} has values near pi and near -pi: if it is an angle, its mean means nothing. Return it "
-                f"with its unit (impact.a.q.pdof), so that it is known to be one; one that points to all sides has no mean",
-                code="may_wrap",
-                outputs=wrapped,
-            )
-        )
+    known = tuple(name for name in wrapped if any(run.outputs[name].unit for run in runs))
+    bare = tuple(name for name in wrapped if name not in known)
+    for names, text in (
+        (
+            bare,
+            "has values near pi and near -pi: if it is an angle, its mean means nothing. Return it with its unit "
+            "(impact.a.q.pdof), so that it is known to be one",
+        ),
+        (known, "is a direction without a preferred side, and what points to all sides has no mean: its figures tell little"),
+    ):
+        if names:
+            told.append(OutOfRangeWarning(f"{', '.join(names)} {text}", code="may_wrap", outputs=names))
     for warning in told:
         warn(warning)
 
