@@ -2,7 +2,7 @@
 
 Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range (``50000:100000``), without it a few;
 ``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, what a call cost, and what failed.
-A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -k TEST``.
+A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -m "" -k TEST``.
 """
 
 from __future__ import annotations

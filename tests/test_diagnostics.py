@@ -1393,3 +1393,11 @@ def test_every_other_law_is_asked(monkeypatch):
     monkeypatch.setattr(col.Impact, "_again", noted)
     of("law", impact)
     assert asked == ["one", *(law for law in LAWS if law != impact.law)]
+
+
+def test_an_outline_of_dates_is_refused():
+    """Two columns of what is no number: the error is that of the array, not of a float made of it."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0, x=0.0, y=0.0, heading=0.0), col.Vehicle(mass=1200.0), 0.1)
+    for kind in ("M8[s]", "m8[s]", "U3"):
+        with pytest.raises(col.InputError, match="outline_a is an array of"):
+            diagnose(impact, outline_a=np.zeros((2, 2), dtype=kind))

@@ -43,9 +43,11 @@ def read_outline(door: Door, given: Any, argument: str) -> Any:
 
 def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
     """The corners, with a warning if those numbers that have no unit make a vehicle that is too large."""
+    if corners is None:
+        return None
     for axis, limit, name in ((0, _LONGEST, "length"), (1, _WIDEST, "width")):
         bare = [float(part) for part in given[axis::2] if not has_unit(part)]
-        if corners is not None and bare:
+        if bare:
             warn_if_large(None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm")
     return corners
 
