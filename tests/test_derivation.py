@@ -1142,3 +1142,12 @@ def test_a_momentum_beyond_floats_is_written_as_infinite():
     """The impact is answered; a product on the way to its check is not, and the page says so."""
     a, b = col.Vehicle(mass=1.7e308, vx=20.0), col.Vehicle(mass=1200.0)
     assert "infinite" in explain(col.linear_central(a, b, 0.5))
+
+
+def test_a_fit_on_a_bound_where_the_model_turns_shares_no_variance_on_its_page():
+    """The slopes there are 0, so that no observation has a share; none is printed as nan."""
+    found = reconstruct.fit(lambda x: {"s": x * x}, {"x": uncertainty.Interval(0.0, 10.0)}, {"s": (0.0, 1.0)})
+    assert all(math.isnan(share) for share in found.contributions["x"].values())
+    for page in (explain(found), col.report(found, form="markdown").partition("```")[0]):
+        assert "estimate" in page
+        assert not re.search(r"\bnan\b", page)

@@ -810,7 +810,7 @@ def scaled(speed: Any, restitution: Any, mass: Any) -> dict[str, Any]:
     count = next((len(value) for value in (speed, restitution, mass) if isinstance(value, np.ndarray)), 1)
     x, _, y = (value if isinstance(value, float | np.ndarray) else 1.0 for value in (speed, restitution, mass))
     turned = np.broadcast_to(np.arctan2(x, y), count)
-    return {"delta_v": np.broadcast_to(x * x / y, count), "energy_loss": registries()[0].Quantity(turned, "rad")}
+    return {"delta_v": np.broadcast_to(np.divide(x * x, y), count), "energy_loss": registries()[0].Quantity(turned, "rad")}
 
 
 def propagation(case: Case) -> Any:

@@ -900,3 +900,20 @@ def test_the_ends_of_an_interval_share_no_variance():
 def test_a_correlation_of_intervals_that_is_an_array():
     with pytest.raises(col.InputError, match="knows no likelihood"):
         propagate(lambda x: {"y": x}, {"x": Interval(1.0, 2.0)}, method="interval", correlation=np.eye(2))
+
+
+@pytest.mark.parametrize("time", [np.timedelta64(70, "s"), np.timedelta64("NaT", "s")])
+def test_a_time_is_no_whole_number(time):
+    """Numpy counts it among its integers; as a seed, a count, a correlation or an index it is refused."""
+    inputs = {"x": Normal(1.0, 0.1), "z": Normal(1.0, 0.1)}
+    options = {"method": "monte_carlo", "samples": 64, "seed": 1}
+    for name in ("seed", "samples", "threads"):
+        with pytest.raises(col.InputError, match=f"{name} must be a whole number"):
+            propagate(lambda x, z: {"y": x + z}, inputs, **options | {name: time})
+    with pytest.raises(col.InputError, match="must be a number from -1 to 1"):
+        propagate(lambda x, z: {"y": x + z}, inputs, **options, correlation={("x", "z"): time})
+    with pytest.raises(col.InputError, match="bins must be"):
+        propagate(lambda x, z: {"y": x + z}, inputs, **options)["y"].histogram(time)
+    batch = col.linear_central(col.Vehicle(mass=1500.0, vx=np.full(80, 20.0)), col.Vehicle(mass=1200.0), 0.1)
+    with pytest.raises(col.InputError, match="index must be"):
+        batch.case(time)

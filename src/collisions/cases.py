@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .door import is_whole
 from .errors import InputError, ShapeError
 from .units import shown
 from .vehicle import NAMES, Vehicle
@@ -53,7 +54,7 @@ def place_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
             "impact is one case, and case() takes one of a batch; use it as it is", code="bad_shape", argument="index"
         )
     place = index if isinstance(index, tuple) else (index,)
-    whole = all(isinstance(at, (int, np.integer)) and not isinstance(at, bool) for at in place)
+    whole = all(map(is_whole, place))
     if not whole or len(place) != len(shape) or not all(-size <= at < size for at, size in zip(place, shape, strict=True)):
         wanted = f"a whole number below {shape[0]}" if len(shape) == 1 else f"{len(shape)} whole numbers in a tuple"
         raise InputError(

@@ -108,6 +108,11 @@ class Door:
         return self.number(quantity, "rad", argument), False
 
 
+def is_whole(value: Any) -> bool:
+    """Whether this is a whole number; a truth is none, nor is a time, which numpy counts among its integers."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+
+
 def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
     """The shape the arrays among these go together to; None without any. ShapeError names them all."""
     shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}

@@ -99,8 +99,11 @@ def _answer(page: Page, found: Fit, name: str) -> list[tuple[str, str, str]]:
         (of, "estimate", _number(page, one.value, one.unit, one.standard_error) + bound),
         (of, "95 percent interval", f"{low} to {high}{unit}"),
     ]
-    shares = found.contributions[name].items()
-    rows += [(of, f"share of the variance by {page.name(by)}", f"{100.0 * share:.0f} percent") for by, share in shares]
+    rows += [
+        (of, f"share of the variance by {page.name(by)}", f"{100.0 * share:.0f} percent")
+        for by, share in found.contributions[name].items()
+        if math.isfinite(share)  # where the model turns round on a bound, slopes share nothing
+    ]
     correlations = found.correlation_matrix[at, at + 1 :]
     others = zip(found.names[at + 1 :], correlations.tolist(), strict=True)
     return rows + [

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..door import FINITE, Door
+from ..door import FINITE, Door, is_whole
 from ..errors import InputError, ShapeError, UnitsError
 from ..units import has_unit, is_quantity, shown, si_unit
 from .standard_normal import both_tails
@@ -225,7 +225,7 @@ def read_alike(
 
 def _is_zero(value: Any) -> bool:
     """0 is the same in every unit."""
-    return isinstance(value, (int, float, np.integer)) and not isinstance(value, bool) and value == 0
+    return (isinstance(value, float) or is_whole(value)) and bool(value == 0)
 
 
 def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..door import is_whole
 from ..errors import InputError
 from ..units import shown
 from . import standard_normal
@@ -105,7 +106,7 @@ def _checked(inputs: Mapping[str, Distribution], correlation: Any) -> dict[froze
                 raise _bad(f"{name!r} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
             if getattr(inputs[name], "group", None) is not None:
                 raise _bad(f"{name!r} belongs to joint samples, which already say how it goes with the others")
-        if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)) or not -1.0 <= value <= 1.0:
+        if not (is_whole(value) or isinstance(value, (float, np.floating))) or not -1.0 <= value <= 1.0:
             raise _bad(f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got {shown(value)}")
         key = frozenset(pair)
         if key in found and found[key] != float(value):

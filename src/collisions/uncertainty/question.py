@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..door import Door
+from ..door import Door, is_whole
 from ..errors import InputError
 from ..units import shown
 from .inputs import Distribution, Interval, read_input
@@ -51,7 +49,7 @@ def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads:
         raise InputError(f"{argument} must be {allowed}, got {shown(given)}", code="bad_option", argument=argument)
 
     def whole(value: Any, least: int) -> bool:
-        return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and bool(value >= least)
+        return is_whole(value) and bool(value >= least)
 
     if not isinstance(method, str) or method not in METHODS:
         refuse("method", f"one of {', '.join(METHODS)}", method)

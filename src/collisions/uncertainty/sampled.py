@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..door import is_whole
 from ..errors import InputError
 from ..fields import OWN, derived, returns
 from ..units import shown
@@ -67,7 +68,7 @@ class Sampled(Output):
 
     def histogram(self, bins: int = 40) -> Histogram:
         """Edges, shares of the cases between them and their standard errors: for a chart."""
-        if isinstance(bins, bool) or not isinstance(bins, (int, np.integer)) or not 1 <= bins <= _MOST_BINS:
+        if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
                 f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
             )
