@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import pickle
+import re
 import signal
 import threading
 
@@ -12,6 +13,7 @@ import pint
 import pytest
 
 import collisions as col
+from collisions import travel
 from collisions.uncertainty import Interval, Normal, Samples, Uniform, angles, propagate, propagation, sampling
 from uncertain_scenes import SCENES
 
@@ -655,18 +657,57 @@ def test_another_answer_on_the_second_call(second, monkeypatch):
 @pytest.mark.parametrize(
     ("model", "error"),
     [
-        (lambda x: {"y": math.sin(x)}, TypeError),
+        (lambda x: {"y": math.sqrt(x)}, TypeError),
         (lambda x: {"y": x if x > 0.0 else -x}, ValueError),
+        (lambda x: {"y": x * ureg.Quantity(1.0, "m") + ureg.Quantity(1.0, "s")}, TypeError),
         (lambda x: {"y": x.speed}, AttributeError),
     ],
 )
-def test_models_that_cannot_take_arrays(model, error):
-    """Their own error, with a note of what a model is called with."""
-    with pytest.raises(error) as caught:
-        propagate(model, X, method="quasi_random")
-    (note,) = caught.value.__notes__
-    for words in ("arrays of 1024 cases for x", "numpy in place of math", "numpy.where in place of if", "on_failure='nan'"):
-        assert words in note
+@every_method
+def test_models_that_cannot_take_arrays(model, error, method):
+    """What Python or numpy says of it, what a model is called with, and what to write."""
+    found = refused(model, X, method=method)
+    assert type(found) is col.InputError
+    assert (found.code, found.fields["argument"]) == ("bad_model", "model")
+    assert isinstance(found.__cause__, error)
+    for words in (
+        f"model raised {type(found.__cause__).__name__}: ",
+        "numpy in place of math (numpy.sqrt)",
+        "on_failure='nan'",
+    ):
+        assert words in str(found)
+    assert re.search(r"It is called with arrays of \d+ cases for x, and must work case by case", str(found))
+    assert "numpy.where in place of if (numpy.where(x > 0, x, -x))" in str(found)
+    assert "Uniform" not in str(found)
+
+
+def test_a_model_between_bounds_that_cannot_take_arrays():
+    """The same of the method that draws nothing."""
+    found = refused(lambda x: {"y": math.sqrt(x)}, {"x": Interval(1.0, 2.0)}, method="interval")
+    assert "numpy in place of math (numpy.sqrt)" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("model", "code"),
+    [
+        (lambda x, drag: {"y": x * 0.5 * drag}, "bad_model"),
+        (lambda x, drag: {"y": x * np.sqrt(drag)}, "bad_model"),
+        (lambda x, drag: {"y": np.sqrt(drag)}, "bad_shape"),
+    ],
+)
+def test_a_pair_that_was_meant_as_a_range(model, code):
+    """A pair is a place, which is the same in every case; where the model fails with one, it is said what a range is written as."""
+    found = refused(model, {**X, "drag": (0.6, 0.8)})
+    assert isinstance(found, col.InputError)
+    assert found.code == code
+    assert "drag is the pair (0.6, 0.8) in every case; if a range was meant, write Uniform(0.6, 0.8) or Interval(0.6, 0.8)" in (
+        str(found)
+    )
+    for method in ("quasi_random", "interval"):
+        alone = refused(lambda drag: {"y": drag}, {"drag": (0.6, 0.8)}, method=method)
+        assert alone.code == "nothing_uncertain"
+        assert "write Uniform(0.6, 0.8) or Interval(0.6, 0.8)" in str(alone)
+    assert "Uniform" not in str(refused(lambda x, point: {"y": math.sqrt(x)}, {**X, "point": (2.0, -1.0)}))
 
 
 def test_a_refusal_of_a_solver_comes_with_the_note_too():
@@ -678,6 +719,9 @@ def test_a_refusal_of_a_solver_comes_with_the_note_too():
             method="monte_carlo",
         )
     assert "called with arrays" in caught.value.__notes__[0]
+    with pytest.raises(col.InputError, match="drag is a tuple") as caught:
+        propagate(lambda x, drag: {"y": travel.speed(x, drag=drag)}, {**X, "drag": (0.6, 0.8)}, method="quasi_random")
+    assert "write Uniform(0.6, 0.8)" in caught.value.__notes__[0]
 
 
 @pytest.mark.parametrize(

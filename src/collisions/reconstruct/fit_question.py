@@ -11,8 +11,8 @@ import numpy as np
 from ..door import Door
 from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..uncertainty.distribution import read_alike
-from ..uncertainty.inputs import Distribution, Interval, Normal, Uniform
-from ..uncertainty.model import Model
+from ..uncertainty.inputs import Distribution, Interval, Normal, Uniform, pair_hints
+from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
 
@@ -108,28 +108,15 @@ def read_question(model: Any, unknowns: Any, observed: Any) -> Question:
     question = Question(Model(model, {}), sought, measured, Problem(evaluate, low, low, low, high, scale))
     rows = [value for _, value, _ in question.stated]
     sigma = np.array([row.given_sd for row in rows])
-    _check_takes_arrays(question)
+    check_names(model, question.names, "unknowns", "bad_model")
+    # Two cases tell a model that takes arrays from one that takes numbers; one would not.
+    question.computed(np.array([[unknown.start for unknown in sought]] * 2))
     angles = [*question.angles(), *[False] * len(question.with_prior)]
     return question._replace(
         problem=question.problem._replace(
             target=np.array([row.given_mean for row in rows]) / sigma, period=np.where(angles, _TURN / sigma, np.nan)
         )
     )
-
-
-def _check_takes_arrays(question: Question) -> None:
-    try:
-        question.computed(np.array([[unknown.start for unknown in question.unknowns]] * 2))
-    except CollisionsError:
-        raise
-    except (TypeError, ValueError) as error:
-        call = ", ".join(f"{name}=..." for name in question.names)
-        raise InputError(
-            f"model cannot be called as model({call}) with an array of cases for each: {error}. It must take the unknowns "
-            f"by these names and work case by case on arrays (numpy in place of math, numpy.where in place of if)",
-            code="bad_model",
-            argument="model",
-        ) from error
 
 
 def refused_everywhere(question: Question, tried: int) -> NoSolutionError:
@@ -180,7 +167,8 @@ def _unknown(door: Door, name: str, given: Any) -> Unknown | None:
             InputError(
                 f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform "
                 f"or an Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is "
-                f"normally distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as well",
+                f"normally distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as "
+                f"well{pair_hints({label: given})}",
                 code="bad_prior",
                 argument=label,
             )

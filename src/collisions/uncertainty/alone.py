@@ -128,7 +128,8 @@ def _middle_half(answers: Any) -> float:
     return width if math.isfinite(width) else 0.0
 
 
-def _not_alone(case: Mapping[str, Any], error: Exception) -> InputError:
+def _not_alone(case: Mapping[str, Any], error: BaseException) -> InputError:
+    error = error.__cause__ or error
     return InputError(
         f"model answers a case ({_listed(case)}) among others, but not alone, as arrays of one number: "
         f"{type(error).__name__}: {str(error).rstrip('.')}. Every case must be worked out by itself, however many there are",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from numbers import Number
 from typing import Any
 
@@ -223,6 +224,17 @@ def read_input(name: str, value: Any) -> Any:
             f"{name} is NaN; give a number, or a distribution of what is not known", code="not_finite", argument=name
         )
     return number
+
+
+def pair_hints(fixed: Mapping[str, Any]) -> str:
+    """What to write for pairs of numbers in order, which as inputs are places in the scene, if they were meant as ranges."""
+    told = ""
+    for name, value in fixed.items():
+        pair = isinstance(value, tuple) and len(value) == 2 and all(type(part) in (int, float) for part in value)
+        if pair and value[0] < value[1]:
+            ends = f"({value[0]!r}, {value[1]!r})"
+            told += f". {name} is the pair {ends} in every case; if a range was meant, write Uniform{ends} or Interval{ends}"
+    return told
 
 
 def _chosen(lower: Any, rising: Any, falling: Any) -> Any:

@@ -9,10 +9,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..door import Door
-from ..errors import InputError, ShapeError
+from ..errors import CollisionsError, InputError, ShapeError
 from ..quiet import quietly
 from ..units import is_quantity, shown, si_unit
 from .alone import check_alone
+from .inputs import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -56,11 +57,17 @@ class Model:
             with quietly(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
         except Exception as error:
-            error.add_note(
-                f"The model was called with arrays of {count} cases for {', '.join(values) or 'nothing'}; it must work "
-                f"case by case on arrays (numpy in place of math, numpy.where in place of if), and refused cases must be NaN: "
-                f"on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by itself)."
+            called = (
+                f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and must work case by case: write "
+                f"numpy in place of math (numpy.sqrt), numpy.where in place of if (numpy.where(x > 0, x, -x)), and let refused "
+                f"cases be NaN: on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by itself)"
+                f"{pair_hints(self.fixed)}"
             )
+            # What Python and numpy raise where an array is used as a number, or a number as a Quantity.
+            if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(error, CollisionsError):
+                told = f"{type(error).__name__}: {str(error).rstrip('.')}"
+                raise InputError(f"model raised {told}. It is {called}", code="bad_model", argument="model") from error
+            error.add_note(f"The model is {called}.")
             raise
         if not isinstance(answered, Mapping) or not answered:
             raise InputError(
@@ -77,11 +84,30 @@ class Model:
                 argument="model",
             )
         self.units = units
-        return {name: _read(name, value, units[name], count) for name, value in answered.items()}
+        return {name: self._read(name, value, units[name], count) for name, value in answered.items()}
+
+    def _read(self, name: str, value: Any, unit: str | None, count: int) -> Any:
+        if not isinstance(name, str):
+            raise InputError(f"model must name its outputs by texts, got {shown(name)}", code="bad_model", argument="model")
+        if isinstance(value, np.ndarray) and value.dtype == np.bool_:
+            value = value.astype(np.float64)
+        door = Door(trusted=(name,))
+        read = door.number(value, unit or "", name)
+        door.close()
+        if np.shape(read) != (count,) and not np.size(read) == count == 1:
+            raise ShapeError(
+                f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by "
+                f"itself, so an array of shape ({count},){pair_hints(self.fixed)}",
+                code="bad_shape",
+                argument=name,
+            )
+        found = np.array(read, dtype=np.float64).reshape(count)
+        found[~np.isfinite(found)] = np.nan
+        return found
 
 
-def check_names(function: Any, names: Collection[str]) -> None:
-    """Refuses inputs that the model has no argument for, and arguments without an input."""
+def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:
+    """Refuses inputs, or unknowns, that the model has no argument for, and arguments without one."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
@@ -90,32 +116,12 @@ def check_names(function: Any, names: Collection[str]) -> None:
         signature.bind(**dict.fromkeys(names))
     except TypeError as error:
         raise InputError(
-            f"inputs are {', '.join(names) or 'none'}, but the model takes {signature}: {error}; name the inputs as the "
-            f"arguments of the model, and give one for each",
-            code="bad_inputs",
-            argument="inputs",
+            f"{argument} are {', '.join(names) or 'none'}, but the model takes {signature}: {error}; name the {argument} as "
+            f"the arguments of the model, and give one for each",
+            code=code,
+            argument=argument,
         ) from None
 
 
 def _listed(units: Mapping[str, str | None]) -> str:
     return ", ".join(f"{name} [{unit}]" if unit else name for name, unit in units.items())
-
-
-def _read(name: str, value: Any, unit: str | None, count: int) -> Any:
-    if not isinstance(name, str):
-        raise InputError(f"model must name its outputs by texts, got {shown(name)}", code="bad_model", argument="model")
-    if isinstance(value, np.ndarray) and value.dtype == np.bool_:
-        value = value.astype(np.float64)
-    door = Door(trusted=(name,))
-    read = door.number(value, unit or "", name)
-    door.close()
-    if np.shape(read) != (count,) and not np.size(read) == count == 1:
-        raise ShapeError(
-            f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by itself, "
-            f"so an array of shape ({count},)",
-            code="bad_shape",
-            argument=name,
-        )
-    found = np.array(read, dtype=np.float64).reshape(count)
-    found[~np.isfinite(found)] = np.nan
-    return found

@@ -13,7 +13,7 @@ from ..errors import InputError, NoSolutionError
 from ..progress import reporter
 from .bounds import Bounds, Known
 from .draw import Correlation, Joint
-from .inputs import Distribution
+from .inputs import Distribution, pair_hints
 from .local import differences, local_output, slopes
 from .model import Function, Model, check_names
 from .points import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
@@ -119,13 +119,13 @@ def propagate(
     check_options(method, samples, tolerance, seed, threads, progress)
     stated, drawn, intervals, fixed = read_inputs(inputs)
     whole = Model(model, fixed)
-    check_names(model, stated)
+    check_names(model, stated, "inputs", "bad_inputs")
     if method == "interval":
         return _by_interval(whole, stated, drawn, intervals, correlation)
     if not drawn:
         raise InputError(
             f"method={method!r} needs an input with a distribution, and there is none; of intervals alone take "
-            f"method='interval'",
+            f"method='interval'{pair_hints(fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -263,7 +263,7 @@ def _by_interval(
         bounds[name] = low, high
     if not bounds:
         raise InputError(
-            "method='interval' needs an input with bounds, such as Interval(low, high)",
+            f"method='interval' needs an input with bounds, such as Interval(low, high){pair_hints(model.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
