@@ -154,6 +154,32 @@ def test_one_observation_and_one_prior_by_hand():
     assert "contradicts itself" in found.statements[0]
 
 
+@pytest.mark.parametrize(
+    ("chance", "verdict", "told"),
+    [
+        (0.9, "agrees with itself:", "0.9"),
+        (0.0501, "agrees with itself:", "0.05"),
+        (0.0499, "agrees only weakly with itself, the model and the stated errors:", "just below 0.05"),
+        (0.017, "agrees only weakly with itself, the model and the stated errors:", "0.017"),
+        (0.0101, "agrees only weakly with itself, the model and the stated errors:", "0.01"),
+        (0.00999, "contradicts itself, the model or the stated errors:", "just below 0.01"),
+        (0.004, "contradicts itself, the model or the stated errors:", "0.004"),
+    ],
+)
+def test_a_chance_of_the_misfit_has_one_word_on_each_side_of_its_limits(chance, verdict, told):
+    """Two readings of one speed, so far apart that their misfit has this chance: chi-squared of one degree of freedom by mpmath."""
+    away = float(mpmath.sqrt(2) * mpmath.erfinv(1 - mpmath.mpf(chance))) * math.sqrt(2.0)
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        found = fit(lambda v: {"one": v, "two": v}, {"v": Interval(0, 50)}, {"one": (20.0, 1.0), "two": (20.0 + away, 1.0)})
+    assert found.p_value == pytest.approx(chance, rel=1e-6)
+    assert found.statements[0] == f"the evidence {verdict} a misfit this large or larger has a chance of {told}"
+    contradicts = verdict.startswith("contradicts")
+    assert [one.message.code for one in given] == ["contradictory"] * contradicts
+    assert found.consistent is not contradicts
+    assert all(f"has a chance of {told}, and 0.01 is the least that passes" in str(one.message) for one in given)
+
+
 def test_a_bound_that_holds():
     """Of x + y and x - y/2 with x held at 1, what is left is one unknown whose answer is a weighted mean.
 

@@ -272,8 +272,8 @@ def _say(question: Question, found: Fit) -> None:
         _warn(
             CollisionsWarning,
             f"the evidence contradicts itself, the model or the stated errors: a misfit this large (chi-squared "
-            f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found.p_value:.1g}, "
-            f"less than {CONTRADICTION}; the furthest off is {worst[0]}, by {abs(worst[1].over_sigma):.3g} sigma",
+            f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found._chance}, and "
+            f"{CONTRADICTION} is the least that passes; the furthest off is {worst[0]}, by {abs(worst[1].over_sigma):.3g} sigma",
             "contradictory",
         )
     for name, one in found.residuals.items():

@@ -15,7 +15,8 @@ from ..uncertainty.inputs import Normal
 from .fit_parts import Direction, Estimate, Residual, Values
 
 BENT = 0.2  # of the half-width of a 95 percent interval
-CONTRADICTION = 0.01  # chance below which evidence is said to contradict itself
+# Chances of the misfit below which evidence is said to agree with itself weakly, and to contradict itself.
+WEAK, CONTRADICTION = 0.05, 0.01
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -102,8 +103,17 @@ class Fit(Shown):
 
     @property
     def consistent(self) -> bool | None:
-        """Whether the evidence agrees with itself and the model; None where there is no more of it than unknowns."""
+        """Whether a misfit this large has a chance of 0.01 or more; None where there is no more evidence than unknowns."""
         return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
+
+    @property
+    def _chance(self) -> str:
+        """The chance of a misfit this large or larger, in two digits that round it past neither 0.05 nor 0.01."""
+        text = f"{self.p_value:.2g}"
+        for limit in (WEAK, CONTRADICTION):
+            if self.p_value < limit <= float(text):
+                return f"just below {limit:g}"
+        return text
 
     @property
     def told_by_bounds(self) -> tuple[str, ...]:
@@ -172,8 +182,12 @@ class Fit(Shown):
         if self.consistent is None:
             yield "there is no more evidence than unknowns, so that nothing checks it"
         else:
-            verdict = "agrees with itself" if self.consistent else "contradicts itself, the model or the stated errors"
-            yield f"the evidence {verdict}: a misfit this large or larger has a chance of {self.p_value:.2g}"
+            verdict = "agrees with itself"
+            if not self.consistent:
+                verdict = "contradicts itself, the model or the stated errors"
+            elif self.p_value < WEAK:
+                verdict = "agrees only weakly with itself, the model and the stated errors"
+            yield f"the evidence {verdict}: a misfit this large or larger has a chance of {self._chance}"
         for direction in self.undetermined:
             yield direction.sentence
         for name, side in self.at_bounds.items():
