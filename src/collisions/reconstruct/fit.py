@@ -273,7 +273,7 @@ def _say(question: Question, found: Fit) -> None:
             CollisionsWarning,
             f"the evidence contradicts itself, the model or the stated errors: a misfit this large (chi-squared "
             f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found._chance}, and "
-            f"{CONTRADICTION} is the least that passes; the furthest off is {worst[0]}, by {abs(worst[1].over_sigma):.3g} sigma",
+            f"{CONTRADICTION} would pass; the furthest off is {worst[0]}, by {abs(worst[1].over_sigma):.3g} sigma",
             "contradictory",
         )
     for name, one in found.residuals.items():
