@@ -469,7 +469,7 @@ def a_bump_beside_the_middle(share):
     def model(x):
         return {"y": x + a * ((abs(x) > 0.5) & (abs(x) < 1.0))}
 
-    return uncertainty.propagate(model, {"x": uncertainty.Normal(0.0, 1.0)}, method="first_order")
+    return uncertainty.propagate(model, {"x": uncertainty.Normal(0.0, 1.0)}, method="first_order", seed=1)
 
 
 def to_both_sides(near=2.5, between=0.0):
@@ -478,16 +478,21 @@ def to_both_sides(near=2.5, between=0.0):
     def model(u):
         return {"angle": np.where(u < between, 0.0, np.where(u < 0.5 + 0.5 * between, -near, near))}
 
-    return uncertainty.propagate(model, {"u": uncertainty.Uniform(0.0, 1.0)}, method="latin_hypercube", samples=8192)
+    return uncertainty.propagate(model, {"u": uncertainty.Uniform(0.0, 1.0)}, method="latin_hypercube", samples=8192, seed=1)
 
 
 def without_an_answer(count):
-    """Of 64 cases in as many equal parts of the interval."""
+    """None of 64 cases, or the largest alone."""
 
-    def model(u):
-        return {"y": np.where(64.0 * u < 64.0 - count, u, math.nan)}
+    def run(most):
+        inputs = {"u": uncertainty.Uniform(0.0, 1.0)}
+        return uncertainty.propagate(
+            lambda u: {"y": np.where(u < most, u, math.nan)}, inputs, method="monte_carlo", samples=64, seed=1
+        )
 
-    return uncertainty.propagate(model, {"u": uncertainty.Uniform(0.0, 1.0)}, method="latin_hypercube", samples=64)
+    everything = run(1.0)
+    found = everything if count <= 0.0 else run(max(everything["y"].values))
+    assert found.failed == max(count, 0.0)
 
 
 def read_as(angle, other):
@@ -537,11 +542,13 @@ WARNINGS = [
     Warned("heading backwards", TURN, UNITS, "suspect_units", lambda x: col.Vehicle(mass=1.0, heading=-x)),
     Warned("headings", TURN, UNITS, "suspect_units", lambda x: col.Vehicle(mass=1.0, heading=np.array([0.1, math.nan, x]))),
     Warned("normal", TURN, UNITS, "suspect_units", lambda x: aslant(normal=x)),
+    Warned("normal backwards", TURN, UNITS, "suspect_units", lambda x: aslant(normal=-x)),
     Warned("course", TURN, UNITS, "suspect_units", lambda x: reconstruct.momentum(
         1e3, 1e3, course_a=x, course_b=1.6, course_a_after=0.5, course_b_after=0.5, speed_a_after=9.0, speed_b_after=9.0)),
     Warned("heading of a path", TURN, UNITS, "suspect_units", lambda x: two_marks(headings=[x, x])),
     Warned("yaw rate", 20.0, UNITS, "suspect_units", lambda x: col.Vehicle(mass=1.0, yaw_rate=x)),
     Warned("yaw rate backwards", 20.0, UNITS, "suspect_units", lambda x: col.Vehicle(mass=1.0, yaw_rate=-x)),
+    Warned("yaw rates", 20.0, UNITS, "suspect_units", lambda x: col.Vehicle(mass=1.0, yaw_rate=np.array([0.1, math.nan, -x]))),
     Warned("drag of speed", 1.5, UNITS, "suspect_units", lambda x: travel.speed("20 m", drag=x)),
     Warned("drag of time", 1.5, UNITS, "suspect_units", lambda x: travel.time(9.0, drag=x)),
     Warned("drag of distance", 1.5, UNITS, "suspect_units", lambda x: travel.distance(9.0, drag=x)),
@@ -928,6 +935,6 @@ def test_a_local_method_is_compared_at_both_ends_of_95_percent(sign):
         return {"y": sign * (x + 0.2 * (x > 1.8))}
 
     with pytest.warns(RANGE, match="differs from cases drawn") as caught:
-        uncertainty.propagate(model, {"x": uncertainty.Normal(0.0, 1.0)}, method="first_order")
+        uncertainty.propagate(model, {"x": uncertainty.Normal(0.0, 1.0)}, method="first_order", seed=1)
     # The scale is the larger standard deviation, 1.017; 4096 points leave a quantile of density 0.058 open by 0.004.
     assert caught[0].message.fields["differences"]["y"] == pytest.approx(0.2 / 1.017, abs=0.01)
