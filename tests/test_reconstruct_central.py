@@ -708,3 +708,12 @@ def test_a_speed_beyond_float32_is_refused():
     )
     assert found.refused.all()
     assert np.isnan(found.energy_loss).all()
+
+
+@pytest.mark.filterwarnings("ignore::collisions.errors.CollisionsWarning")
+def test_the_largest_speed_of_all_beside_an_energy_is_refused_without_a_word_of_numpys():
+    """Neither of the two answers that an energy may have is a number."""
+    known = {"va": np.array([1.7976931348623157e308, 20.0]), "vb_after": 10.0, "energy_loss": 1e4}
+    impact = reconstruct.central(1256.0, 1441.0, **known, on_failure="nan")
+    assert np.isnan(impact.restitution[0])
+    assert impact.status[0] > col.Status.ENERGY_GAIN

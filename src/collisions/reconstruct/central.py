@@ -117,10 +117,11 @@ def central(
         found = {name: np.choose(which, [answer[name] for answer in answers]) for name in answers[0]}
         found |= _limits(numbers)
         condition = _condition(numbers, found, which, eps)
+        ambiguous = _differ(answers, eps)
         status = cases.verdict(
             (
                 *input_faults({**_named(masses), **known}),
-                (_differ(answers, eps), codes.AMBIGUOUS),
+                (ambiguous, codes.AMBIGUOUS),
                 (found["fits"], codes.OK),
                 *_faults(masses, known, found),
             )
@@ -130,7 +131,7 @@ def central(
         method="central",
         known=tuple(known),
         condition=cases.values(np.where(sure, condition, np.nan)),
-        answers=cases.whole(np.where(_differ(answers, eps), len(answers), 1)),
+        answers=cases.whole(np.where(ambiguous, len(answers), 1)),
     )
 
     def asked(answer: dict[str, Any], keep: Any) -> Asked:
