@@ -1,11 +1,14 @@
 """Planar impacts backwards: forward and back again over random scenes, and what is refused because it is lost."""
 
+import json
 import math
 import pickle
 import random
 import re
 import warnings
+from dataclasses import replace
 
+import mpmath
 import numpy as np
 import pint
 import pytest
@@ -13,7 +16,7 @@ import pytest
 import collisions as col
 from collisions.reconstruct import planar
 from reference import EPS
-from scenes import LAWS, RULES, cases, solved
+from scenes import LAWS, RULES, cases, draw, solved, solved_together
 
 KNOWN = ("restitution", "closing_speed", "energy_loss")
 PLACED = ("traffic", "barrier", "A pinned", "B pinned", "both pinned")
@@ -116,7 +119,9 @@ def test_there_and_back(family, law, rule):
                 near_singular = family == "both pinned" and code in ("not_separating", "contradictory")
                 assert code == "stick_inverse" or near_singular, (scene, refusal)
                 assert sticks, scene
-                assert law == "brach" or e < 1e-12, scene
+                # Nothing bounds the slip before where friction has no end, nor then what rounding leaves of two pinned bodies.
+                endless = family == "both pinned" and kind == "closing_speed" and value in (math.inf, 1.0)
+                assert law == "brach" or e < (1e-6 if endless else 1e-12), scene
                 continue
             else:
                 # A share of the critical ratio leaves this part of the slip, whose errors grow by as much.
@@ -193,7 +198,7 @@ def test_no_slip_under_brach_forgets_the_slip(kind):
     with pytest.raises(col.NoSolutionError) as caught:
         backwards(end, kind)
     assert caught.value.code == "stick_inverse"
-    for word in ("without slip", "'brach'", "regime='sliding'", "impulse_ratio=", "kudlich-slibar"):
+    for word in ("without slip", "'brach'", "impulse_ratio=", "between -0.8 and 0.8", "2 ends", "law='kudlich-slibar'"):
         assert word in str(caught.value)
     low, high = sorted(caught.value.solutions, key=lambda impact: impact.slip_before)
     assert low.slip_before < end.slip_before < high.slip_before
@@ -219,7 +224,7 @@ def test_a_contact_at_rest_forgets_the_slip_under_either_law(contact, kind):
         with pytest.raises(col.NoSolutionError, match=f"under '{law}' any slip") as caught:
             backwards(end, kind, **rule)
         assert caught.value.code == "stick_inverse"
-        assert ("law=" in str(caught.value)) == (law == "brach")
+        assert "law=" not in str(caught.value)
         assert all(ends_there(one, end) for one in caught.value.solutions)
         assert len(caught.value.solutions) == (2 if contact == {"friction": 2.0} else 0)
 
@@ -262,8 +267,10 @@ def test_two_origins_and_what_decides():
     for end, refusal in found:
         assert refusal.code == "ambiguous_inverse"
         regimes = [one.regime for one in refusal.solutions]
-        for word in ("regime=", "impulse_ratio= of either sign", ".solutions", *regimes):
+        for word in ("impulse_ratio=", ".solutions", *regimes):
             assert word in str(refusal)
+        for regime in regimes:
+            assert (f"regime={regime!r}" in str(refusal)) == (regimes.count(regime) == 1)
         assert min(distance(one, end) for one in refusal.solutions) < 1e-9
         for one in refusal.solutions:
             assert ends_there(one, end)
@@ -408,8 +415,9 @@ def test_two_origins_in_a_batch():
     with pytest.warns(col.CollisionsWarning, match="2 of 2 cases"):
         found = planar(end.a.after, end.b.after, **many)
     assert found.status.tolist() == [col.Status.AMBIGUOUS_INVERSE, col.Status.BAD_RESTITUTION]
-    with pytest.raises(col.AmbiguousSolutionError, match="case 0: several states"):
+    with pytest.raises(col.AmbiguousSolutionError, match=r"case 0: \d states before end so: ") as caught:
         planar(end.a.after, end.b.after, on_failure="raise", **many)
+    assert all(ends_there(one, end) for one in caught.value.solutions)
 
 
 # At the door, and what comes back
@@ -522,3 +530,154 @@ def test_solutions_say_what_found_them():
     for solution in caught.value.solutions:
         assert solution.reconstruction.method == "planar"
         assert solution.reconstruction.condition == pytest.approx(6.0, rel=1e-12)
+
+
+# Digits, and what rounding leaves
+
+
+def exact_origin(a, b, e, point, ratio, digits=60):
+    """In many digits, from the floats after, normal along x: closing speed, impulse, slip before and loss of a given ratio."""
+    mp = mpmath.mp.clone()
+    mp.dps = digits
+    masses, inertias = [mp.mpf(v.mass) for v in (a, b)], [mp.mpf(v.yaw_inertia) for v in (a, b)]
+    levers = [(mp.mpf(point[0]) - v.x, mp.mpf(point[1]) - v.y) for v in (a, b)]
+    after = [tuple(map(mp.mpf, (v.vx, v.vy, v.yaw_rate))) for v in (a, b)]
+
+    def apart(motions):
+        """Velocity of B relative to A at the contact."""
+        ux, uy = zip(*((vx - w * y, vy + w * x) for (vx, vy, w), (x, y) in zip(motions, levers, strict=True)), strict=True)
+        return ux[1] - ux[0], uy[1] - uy[0]
+
+    def changes(pn, pt):
+        """Of both motions, by the impulse on B."""
+        signs = zip((-1, 1), masses, inertias, levers, strict=True)
+        return [(s * pn / m, s * pt / m, s * (x * pt - y * pn) / i) for s, m, i, (x, y) in signs]
+
+    separation, slip_after = apart(after)
+    closing = separation / mp.mpf(e)
+    pn = (closing + separation) / apart(changes(mp.mpf(1), mp.mpf(ratio)))[0]
+    moved = changes(pn, ratio * pn)
+    before = [tuple(x - d for x, d in zip(*pair, strict=True)) for pair in zip(after, moved, strict=True)]
+    energy = [
+        sum(m * (vx**2 + vy**2) + i * w**2 for m, i, (vx, vy, w) in zip(masses, inertias, motions, strict=True)) / 2
+        for motions in (before, after)
+    ]
+    return closing, pn, slip_after - apart(moved)[1], slip_after, energy[0] - energy[1]
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+def test_impulse_and_energy_hold_all_digits_at_tiny_closing_speeds(kind):
+    """Two cars at 60 m/s that close by 1e-10 to 1e-3 m/s: what is found is that of the floats after, against 60 digits.
+
+    8 eps is what the forward solver promises of the impulse at these levers (condition about 1), twice that of the loss, a
+    product of two of them; from the rounded motions before alone it would be 1e6 times as much.
+    """
+    rng, seen = random.Random(11), 0
+    for _ in range(60):
+        size = 10.0 ** rng.uniform(-10, -3)
+        motion = [
+            {
+                "vx": 60.0 + way * size * (1 + rng.random()),
+                "vy": size * rng.uniform(-1, 1),
+                "yaw_rate": size * rng.uniform(-1, 1),
+            }
+            for way in (1, -1)
+        ]
+        place = [
+            {"mass": rng.uniform(800, 2000), "yaw_inertia": rng.uniform(1e3, 4e3), "x": x, "y": rng.uniform(-0.5, 0.5)}
+            for x in (-1.5, 1.5)
+        ]
+        a, b = (col.Vehicle(**m, **p) for m, p in zip(motion, place, strict=True))
+        e, ratio, contact = rng.uniform(0.2, 0.9), rng.choice((0.0, 0.2, -0.2)), {"normal": 0.0, "point": (0.0, 0.1)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.EnergyGainWarning)
+            end = col.eccentric(a, b, e, impulse_ratio=ratio, **contact)
+            closing, pn, slip, slip_after, loss = exact_origin(end.a.after, end.b.after, e, contact["point"], ratio)
+            if loss < 0.0:
+                continue
+            given = {"restitution": e, "closing_speed": float(closing), "energy_loss": float(loss)}[kind]
+            found = planar(end.a.after, end.b.after, impulse_ratio=ratio, **{kind: given}, **contact)
+            again = col.Impact.from_dict(json.loads(json.dumps(found.to_dict())))
+            many = planar(end.a.after, end.b.after, impulse_ratio=np.array([ratio]), **{kind: given}, **contact)
+        part = (1 - e) * closing * pn / 2 + abs(ratio * pn) * (abs(slip) + abs(slip_after)) / 2
+        for impact in (found, again, many.case(0)):
+            assert abs(impact.closing_speed - closing) <= 8 * EPS * (closing + abs(slip)), size
+            assert abs(impact.normal_impulse - pn) <= 8 * EPS * pn * (1 + abs(slip / closing)), size
+            assert abs(impact.slip_before - slip) <= 8 * EPS * (closing + abs(slip)), size
+            assert abs(impact.energy_loss - loss) <= 16 * EPS * part * (1 + abs(slip / closing)), size
+        assert again == found
+        assert many.energy_loss[0] == pytest.approx(found.energy_loss, rel=32 * EPS * float(part / loss))
+        # Motions that were changed in the record are taken as they stand.
+        record = found.to_dict()
+        record["inputs"]["a"]["vx"] += 1.0
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.EnergyGainWarning)
+            assert col.Impact.from_dict(record).closing_speed == pytest.approx(1.0 + float(closing), rel=1e-12)
+        seen += 1
+    assert seen > 40
+
+
+def test_a_contact_velocity_that_is_none_is_no_record():
+    """The pair of a record is as long as its cases."""
+    record = planar(**APART).to_dict()
+    for wrong in ([1.0], ["x", 1.0], [1.0, {"dtype": "float64", "shape": [2], "values": [1.0, 2.0]}], 3.0):
+        record["results"]["reconstruction"]["contact_velocity"] = wrong
+        with pytest.raises(col.InputError) as caught:
+            col.Impact.from_dict(record)
+        assert caught.value.code == "bad_record"
+
+
+@pytest.mark.parametrize("kind", ["closing_speed", "energy_loss"])
+@pytest.mark.parametrize("rule", ["friction", "critical_fraction"])
+@pytest.mark.parametrize("law", LAWS)
+def test_two_pins_at_rest_are_refused_and_not_answered_from_rounding(law, rule, kind):
+    """A plastic end of two pinned bodies that stuck is at rest but for rounding: no such end is answered, none that slid refused.
+
+    What is answered is right to 1e-7 of the motion: the condition is 1 or 2, and 1e8 roundings are left for arms near to parallel.
+    """
+    rng, drawn = random.Random(f"{law} {rule} {kind}"), []
+    while len(drawn) < 1500:
+        scene = draw("both pinned", law, rule, rng)
+        x, y = scene.normal if isinstance(scene.normal, tuple) else (math.cos(scene.normal), math.sin(scene.normal))
+        # An energy goes with none or all of the critical ratio.
+        value = float(scene.value > 0.5) if (rule, kind) == ("critical_fraction", "energy_loss") else scene.value
+        drawn.append(replace(scene, restitution=0.0, value=value, normal=math.atan2(y, x)))
+    values = np.array([scene.value for scene in drawn])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        end = solved_together("eccentric", drawn)
+        known = {kind: getattr(end, kind), rule: values}
+        found = planar(end.a.after, end.b.after, normal=end.normal, point=end.point, law=law, on_failure="nan", **known)
+    off, size = (np.zeros(len(drawn)) for _ in range(2))
+    for side in "ab":
+        wanted, got = (getattr(impact, side).before.yaw_rate for impact in (end, found))
+        off, size = np.fmax(off, abs(got - wanted)), np.fmax(size, abs(wanted))
+    stuck = end.ok & (end.slip_after == 0.0) & (values > 0.0)
+    answered = end.ok & (found.status <= col.Status.ENERGY_GAIN)
+    assert np.all(found.status[stuck] == col.Status.STICK_INVERSE)
+    assert np.all(off[answered] <= 1e-7 * size[answered])
+    assert np.all(found.reconstruction.condition[answered] >= 1.0)
+    # Arms that are parallel to 1e-3 magnify rounding a million times and more, and a small slip may be that.
+    arms = [
+        [complex(*scene.point) - complex(*body.pivot) for scene in drawn for body in [getattr(scene, side)]] for side in "ab"
+    ]
+    crossing = abs(np.sin(np.angle(np.divide(*arms)))) > 1e-3
+    assert not np.any(np.isin(found.status[end.ok & ~stuck & crossing], (col.Status.STICK_INVERSE, col.Status.CONTRADICTORY)))
+    assert min(np.count_nonzero(stuck), np.count_nonzero(answered)) > 100
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_no_friction_by_a_fraction_is_no_friction(law):
+    """critical_fraction=0 with an energy, after a plastic impact of bodies that do not turn, as friction=0."""
+    a = col.Vehicle(mass=1000.0, vx=10.0, yaw_inertia=math.inf, x=-1.0, y=0.0)
+    b = col.Vehicle(mass=1500.0, vy=3.0, yaw_inertia=math.inf, x=1.0, y=0.2)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "law": law}
+    for e in (0.0, 0.3):
+        end = col.eccentric(a, b, e, friction=0.0, **contact)
+        for kind in ("closing_speed", "energy_loss"):
+            one, other = (
+                planar(end.a.after, end.b.after, **{kind: getattr(end, kind)}, **rule, **contact)
+                for rule in ({"friction": 0.0}, {"critical_fraction": 0.0})
+            )
+            assert distance(one, other) == 0.0
+            assert distance(other, end) < 1e-13

@@ -10,10 +10,11 @@ import numpy as np
 from .answering import answer
 from .arguments import Law, OnFailure, read
 from .errors import InputError, MissingInputError
-from .impact import SOLVERS, Impact
+from .impact import SOLVERS, SOLVERS_FROM_CONTACT, Asked, Impact
 from .kernels.eccentric import eccentric as kernel
+from .kernels.eccentric import from_contact_velocity
 from .progress import Progress
-from .units import Input, Pair
+from .units import Input, Pair, Value
 from .vehicle import Vehicle, missing
 
 
@@ -150,4 +151,22 @@ def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
     return vehicle.mass, vehicle.yaw_inertia, vehicle.vx, vehicle.vy, vehicle.yaw_rate, x, y, pivot_x, pivot_y
 
 
+def _from_contact(asked: Asked, contact_velocity: tuple[Value, Value], on_failure: OnFailure | None = None) -> Impact:
+    """``eccentric`` with a closing speed and a slip before of more digits than the motions before hold."""
+    a, b, contact = asked.a, asked.b, asked.point
+    numbers = *body_numbers(a, contact), *body_numbers(b, contact)
+    return answer(
+        from_contact_velocity,
+        (*contact_velocity, asked.restitution, *asked.normal, asked.bound, *(contact or ()), *numbers),
+        (asked.rule, asked.law, a.pivot is not None, b.pivot is not None),
+        tuple(asked),
+        False,
+        None,
+        on_failure,
+        1,
+        None,
+    )
+
+
 SOLVERS["eccentric"] = eccentric
+SOLVERS_FROM_CONTACT["eccentric"] = _from_contact

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 # The solver of each model, entered by the module that defines it.
 SOLVERS: dict[str, Callable[..., Impact]] = {}
+# The same, for reverse solvers: with the closing speed and the slip before, of which rounded motions lose digits.
+SOLVERS_FROM_CONTACT: dict[str, Callable[..., Impact]] = {}
 
 
 class Asked(NamedTuple):
@@ -51,16 +53,19 @@ class Asked(NamedTuple):
         normal = None if self.given is None else self.given.get("normal")
         return None if isinstance(normal, str) else normal
 
-    def ask(self, **options: Any) -> Impact:
-        """Put the question to its solver again."""
+    def ask(self, contact_velocity: tuple[Value, Value] | None = None, **options: Any) -> Impact:
+        """Put the question to its solver again, where it is known with the closing speed and the slip before."""
+        e = self.restitution
+        unknown = type(e) is float and e != e
+        if contact_velocity is not None and self.model in SOLVERS_FROM_CONTACT and not unknown:
+            return SOLVERS_FROM_CONTACT[self.model](self, contact_velocity, **options)
         arguments: dict[str, Any] = {"normal": self.normal, **options}
         if self.law is not None:
             arguments |= {self.rule: self.bound, "law": self.law}
         # ``solve`` is also asked without a point, where none is needed.
         if self.point is not None or self.model == "solve":
             arguments["point"] = self.point
-        e = self.restitution
-        if type(e) is float and e != e:
+        if unknown:
             # The restitution that a reverse solver looked for and did not find, which no solver takes.
             impact = SOLVERS[self.model](self.a, self.b, 0.0, **arguments)
             impact = build(impact._asked._replace(restitution=e), unanswered(codes.OUT_OF_RANGE))
@@ -367,7 +372,7 @@ class Impact:
         """
         from .provenance import Again
 
-        options = {} if self.choice is None else {"tolerance": Again(self.choice)}
+        options: dict[str, Any] = {} if self.choice is None else {"tolerance": Again(self.choice)}
         with quietly():
             return self._asked._replace(**changes, given=None).ask(on_failure="nan", **options)
 
@@ -417,10 +422,12 @@ class Impact:
             from .provenance import Again
 
             options["tolerance"] = Again(part_of(self.choice, take))
-        impact: Impact = asked.ask(**options)
         if origin is None:
+            impact: Impact = asked.ask(**options)
             return impact
-        return found_by(part_of(origin, take), asked, impact._raw, take(self.status))
+        origin = part_of(origin, take)
+        impact = asked.ask(origin.contact_velocity, **options)
+        return found_by(origin, asked, impact._raw, take(self.status))
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
@@ -437,8 +444,11 @@ class Impact:
         if question["model"] not in SOLVERS:
             raise bad_record(f"its model is {shown(question['model'])}; known are {', '.join(SOLVERS)}")
         try:
-            impact = Asked(**question).ask(**options)
-            return impact if origin is None else found_by(origin, impact._asked, impact._raw, status)
+            asked = Asked(**question)
+            if origin is None:
+                return asked.ask(**options)
+            impact = asked.ask(origin.contact_velocity, **options)
+            return found_by(origin, impact._asked, impact._raw, status)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {question['model']}") from error
 

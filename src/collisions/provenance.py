@@ -36,12 +36,16 @@ class Reconstruction:
     answers : int or array of int
         How many impacts fit what was given, of which this is one; infinite at the end of a range of them. Of a refused case
         the number that fit if they are several, else 0.
+    contact_velocity : tuple of float or array [m/s], optional
+        Closing speed and slip before, as found. The motions before are rounded to their own size, and their small differences
+        would hold fewer digits.
     """
 
     method: str
     known: tuple[str, ...]
     condition: Value
     answers: Any = 1
+    contact_velocity: tuple[Value, Value] | None = None
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
@@ -53,7 +57,8 @@ class Reconstruction:
             return self
         several = np.isin(status, (codes.AMBIGUOUS, codes.AMBIGUOUS_INVERSE))
         condition, answers = select(refused, math.nan, self.condition), select(refused > several, 0, self.answers)
-        return replace(self, condition=lock(condition), answers=lock(answers))
+        velocity = self.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in self.contact_velocity))
+        return replace(self, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
 
     @property
     def _fitting(self) -> str:

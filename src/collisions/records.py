@@ -78,8 +78,14 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
         if origin is not None:
             known = tuple(str(name) for name in origin["known"])
             condition, answers = _number(origin["condition"]), _count(origin.get("answers", 1))
-            origin = Reconstruction(method=str(origin["method"]), known=known, condition=condition, answers=answers)
             status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
+            origin = Reconstruction(
+                method=str(origin["method"]),
+                known=known,
+                condition=condition,
+                answers=answers,
+                contact_velocity=_contact_velocity(origin.get("contact_velocity"), np.shape(status)),
+            )
         for side in "ab":
             state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
             question[side] = _vehicle({**_NOTHING, **state, "name": inputs[side]["name"]}, refused and origin is not None)
@@ -88,6 +94,16 @@ def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, An
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
     return question, options, origin, status
+
+
+def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
+    """Closing speed and slip before as a reverse solver found them, one each or one for every case."""
+    if pair is None:
+        return None
+    closing, slip = (_number(part) if isinstance(part, Mapping) else float(_number(part)) for part in pair)
+    if not np.shape(closing) == np.shape(slip) == shape:
+        raise bad_record("its contact_velocity is not that of its cases")
+    return closing, slip
 
 
 def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, lost: Any) -> dict[str, Any]:

@@ -184,4 +184,5 @@ _RECONSTRUCTION = {
     "known": {"type": "array", "items": {"type": "string"}},
     "condition": {"$ref": "#/$defs/value"},
     "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
+    "contact_velocity": {"anyOf": [{"$ref": "#/$defs/pair"}, {"type": "null"}]},
 }

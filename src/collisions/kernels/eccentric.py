@@ -83,8 +83,13 @@ def eccentric(
     pinned_b: bool,
     eps: float = EPS,
     impulse_only: bool = False,
+    *,
+    contact_velocity: tuple[Any, Any] | None = None,
 ) -> tuple[Any, ...]:
     """Answers in the order of ``codes.OUTPUTS``.
+
+    ``contact_velocity`` is the closing speed and the slip before, known to more digits than the motions hold. It is used where
+    it is that of the motions to their rounding.
 
     With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t, that without slip, and of A
     and B a and b, the torque, and the torque of the impulse without slip.
@@ -96,6 +101,12 @@ def eccentric(
     uy = (uy_a - uy_b) + (spin_a * rx_a - spin_b * rx_b)
     closing = nx * ux + ny * uy
     slip = ny * ux - nx * uy
+    if contact_velocity is not None:
+        exact_closing, exact_slip = contact_velocity
+        turning = abs(spin_a) * (abs(rx_a) + abs(ry_a)) + abs(spin_b) * (abs(rx_b) + abs(ry_b))
+        scale = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b) + turning + abs(exact_closing) + abs(exact_slip)
+        same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale
+        closing, slip = select(same, exact_closing, closing), select(same, exact_slip, slip)
     rn_a = nx * rx_a + ny * ry_a
     rt_a = nx * ry_a - ny * rx_a
     rn_b = nx * rx_b + ny * ry_b
@@ -190,3 +201,8 @@ def eccentric(
         sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss, impulse_x, impulse_y,
         dvx_a, dvy_a, spin_change_a, dvx_b, dvy_b, spin_change_b,
     )  # fmt: skip
+
+
+def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> tuple[Any, ...]:
+    """``eccentric`` with the closing speed and the slip before, which stand before its other inputs."""
+    return eccentric(*inputs, contact_velocity=(closing, slip))

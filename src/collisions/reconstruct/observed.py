@@ -84,13 +84,12 @@ def restitution(
     """
     before, after, cases, faults = _motions(a_before, b_before, a_after, b_after, normal, point, "restitution")
     with np.errstate(all="ignore"):
-        closing = before["closing_speed"]
+        closing, eps = before["closing_speed"], _eps(cases)
         found = (0.0 - after["closing_speed"]) / np.where(closing > 0.0, closing, np.nan)
         status = cases.verdict((*faults, *_closing_faults(closing), (~np.isfinite(found), codes.OUT_OF_RANGE)))
-        _raise_or_warn(cases, status, closing)
+        _raise_or_warn(cases, status, before)
         answer = np.where(np.equal(status, codes.OK), found, np.nan)
         # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
-        eps = codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
         rounding = 4.0 * eps * (before["speeds"] + after["speeds"]) / closing
         below, above = answer < -rounding, answer > 1.0 + rounding
     if np.any(below | above):
@@ -170,7 +169,7 @@ def friction(
                 (~np.isfinite(tangential_part / normal_part), codes.OUT_OF_RANGE),
             )
         )
-        _raise_or_warn(cases, status, before["closing_speed"])
+        _raise_or_warn(cases, status, before)
         sure = np.equal(status, codes.OK)
         both = np.isfinite(mass_a) & np.isfinite(mass_b) & sure
         on_a = [-mass_a * part for part in changes[0]]
@@ -298,7 +297,11 @@ def _closing_faults(closing: Any) -> list[tuple[Any, int]]:
     return [(closing < 0.0, codes.SEPARATING), (closing == 0.0, codes.NO_CLOSING)]
 
 
-def _raise_or_warn(cases: Cases, status: Any, closing: Any) -> None:
+def _eps(cases: Cases) -> float:
+    return codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
+
+
+def _raise_or_warn(cases: Cases, status: Any, before: dict[str, Any]) -> None:
     def error(index: tuple[int, ...]) -> CollisionsError:
         code = int(np.asarray(status)[index])
         if code == codes.NOT_SEPARATING:
@@ -308,10 +311,14 @@ def _raise_or_warn(cases: Cases, status: Any, closing: Any) -> None:
             )
         if code not in (codes.SEPARATING, codes.NO_CLOSING):
             return plain_error(code, f"{Status(code).sentence}: give motions that are known")
-        speed = cases.one(closing, index)
+        speed = cases.one(before["closing_speed"], index)
+        rounding = 4.0 * _eps(cases) * cases.one(before["speeds"], index)
+        what = f"closing speed {speed:.6g} m/s along the normal, which must point from A into B"
+        if 0.0 < abs(speed) <= rounding:
+            what = f"closing speed {speed:.3g} m/s, which cannot be told from rounding, up to {rounding:.3g} m/s"
         return NoImpactError(
-            f"the bodies did not approach before the impact: closing speed {speed:.6g} m/s along the normal, which must point "
-            f"from A into B; without closing there is nothing to compare the separation with",
+            f"the bodies did not approach before the impact: {what}; without closing there is nothing to compare the "
+            f"separation with",
             code="no_closing" if code == codes.NO_CLOSING else "separating",
             closing_speed=speed,
         )

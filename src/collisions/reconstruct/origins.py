@@ -14,17 +14,23 @@ from .outcome import NUMBERS, forward
 
 NEARLY_PLASTIC = 0.01  # of the closing speed: what measured motions may still approach after a plastic impact
 _SAME = 1e-6  # of the impulse: far above rounding, far below what separates two origins
+_ROUNDING = 64.0  # eps of the motions
+_LOST = 1e-6  # of the closing speed: a motion after that may be the rounding of a slip before which nothing bounds
 
 
 class Origin(NamedTuple):
-    """A candidate for the state before: how the contact ended, the impulse on B, what goes with it, and whether it fits."""
+    """A candidate for the state before: how the contact ended, the impulse on B, what goes with it, and whether it fits.
+
+    ``contact_velocity`` is the closing speed and the slip before; where friction ``jams`` there is none that ends so.
+    """
 
     regime: str
     normal: Any
     tangential: Any
     restitution: Any
     condition: Any
-    slip: Any
+    contact_velocity: tuple[Any, Any]
+    jams: Any
     motions: tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
     fits: Any
 
@@ -32,7 +38,9 @@ class Origin(NamedTuple):
 class End:
     """The state after, and what the kernel says of the contact there."""
 
-    def __init__(self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool]) -> None:
+    def __init__(
+        self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float = codes.EPS
+    ) -> None:
         self.numbers = numbers
         self.kind, self.rule, self.law, self.pinned = kind, rule, law, pinned
         self.known, self.bound = numbers[kind], numbers[rule]
@@ -44,14 +52,15 @@ class End:
         self.separation = 0.0 - here[codes.AT["closing_speed"]]
         self.k_nn = 1.0 / here[codes.AT["effective_mass"]]
         self.k_nt = here[codes.AT["coupling"]]
-        speeds = [np.hypot(body[2], body[3]) for body in self.bodies]
-        levers = [np.hypot(self.p[0] - body[5], self.p[1] - body[6]) for body in self.bodies]
-        scale = sum(speeds) + sum(abs(body[4]) * lever for body, lever in zip(self.bodies, levers, strict=True))
+        self._mobilities()
+        self.size = self._size(self.bodies)
         # The motion before leaves its rounding in the one after.
-        closing = np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
-        self.rounding = 64.0 * codes.EPS * (scale + np.where(closing > 0.0, closing, 0.0))
+        self.closing = np.sqrt(2.0 * self.known * self.k_nn) if kind == "energy_loss" else self._closing()
+        self.rounding = _ROUNDING * eps * (self.size + np.where(self.closing > 0.0, self.closing, 0.0))
         self.approach = 0.0 - self.separation
-        self.pressed = (self.approach > self.rounding) & (self.approach <= NEARLY_PLASTIC * closing) & (kind != "restitution")
+        self.pressed = (
+            (self.approach > self.rounding) & (self.approach <= NEARLY_PLASTIC * self.closing) & (kind != "restitution")
+        )
         if np.any(self.pressed):
             # The nearest end that is plastic: a small push along the normal takes off what still approaches.
             push = np.where(self.pressed, self.approach / self.k_nn, 0.0)
@@ -62,11 +71,56 @@ class End:
         self.slip = here[codes.AT["slip_before"]]
         # K^-1 times the contact velocity after.
         self.whole = 0.0 - here[codes.AT["no_slip_normal"]], 0.0 - here[codes.AT["no_slip_tangential"]]
-        self.at_rest = (abs(self.slip) <= self.rounding) & (abs(self.separation) <= self.rounding)
+        self.slides = self._slides()
+        self.noise = self._noise(eps)
+        self.at_rest = (abs(self.slip) <= self.noise) & (abs(self.separation) <= self.noise)
 
-    def _at_the_end(self) -> tuple[Any, ...]:
+    def _at_the_end(self) -> Any:
         """What the kernel says of the end state, as if it approached: the closing speed there is minus the separation speed."""
         return self._kernel(np.zeros(()), codes.FRICTION, np.zeros(()), self.bodies)
+
+    def _responses(self) -> list[tuple[Any, Any, Any, Any]]:
+        """Of A and B the response a and b, and the lever along n and t."""
+        (nx, ny), (px, py) = self.n, self.p
+        found = []
+        for (mass, inertia, vx, vy, _, cx, cy, ox, oy), pinned in zip(self.bodies, self.pinned, strict=True):
+            a, b, rx, ry, _, _ = response(mass, inertia, vx, vy, cx, cy, ox, oy, px, py, pinned)
+            found.append((a, b, nx * rx + ny * ry, nx * ry - ny * rx))
+        return found
+
+    def _mobilities(self) -> None:
+        """Whether K has an inverse, and by how much the rounding of a contact that sticks is magnified in the motion after."""
+        self.responses = self._responses()
+        (a_a, b_a, rn_a, rt_a), (a_b, b_b, rn_b, rt_b) = self.responses
+        a, cross = a_a + a_b, rn_a * rt_b - rt_a * rn_b
+        self.trace = a + b_a * (rn_a * rn_a + rt_a * rt_a) + b_b * (rn_b * rn_b + rt_b * rt_b)
+        determinant = (a + (b_a / self.trace) * cross * (b_b * cross)) / self.trace
+        self.singular = determinant <= (_ROUNDING * codes.EPS) ** 2
+        self.magnified = np.where(self.singular, 1.0, 1.0 / determinant)
+
+    def _size(self, bodies: Sequence[Sequence[Any]]) -> Any:
+        """The speeds of motions whose rounding matters at the contact."""
+        return sum(np.hypot(b[2], b[3]) + abs(b[4]) * np.hypot(self.p[0] - b[5], self.p[1] - b[6]) for b in bodies)
+
+    def _noise(self, eps: float) -> Any:
+        """What rounding may leave of the slip and of the separation speed when the contact is at rest after the impact.
+
+        The motion after may be next to nothing then, so it is the motion before that tells. A slip before that stuck lies
+        between those of a contact that slid either way, and the energy lost bounds it; where friction jams on one side or has
+        no end, and no energy is known, nothing does.
+        """
+        size = self.size + np.where(self.closing > 0.0, self.closing, 0.0)
+        for slide in self.slides:
+            moved = self._size([[*b[:2], *motion, *b[5:]] for b, motion in zip(self.bodies, slide.motions, strict=True)])
+            size = np.fmax(size, np.where(slide.jams, np.nan, self.size + moved))
+        if self.kind == "energy_loss":
+            size = size + np.sqrt(2.0 * self.known * 2.0 * self.trace)
+        endless = np.isinf(self.bound) if self.rule == codes.FRICTION else self.bound == 1.0
+        for slide in self.slides:
+            endless = endless | slide.jams
+        # Only two pins leave nothing of the motion.
+        lost = endless & (self.kind == "closing_speed") & (self.size < _LOST * self.closing)
+        return np.where(lost, np.inf, _ROUNDING * eps * self.magnified * size)
 
     def _struck(self, normal: Any, tangential: Any) -> list[tuple[Any, Any, Any]]:
         """The motions of A and B when an impulse with these parts on B, and its opposite on A, is added."""
@@ -80,30 +134,41 @@ class End:
             motions.append((vx + dvx, vy + dvy, yaw_rate + dw))
         return motions
 
-    def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None) -> tuple[Any, ...]:
+    def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None, **known: Any) -> Any:
         law = self.law if rule == self.rule else codes.BRACH
         inputs = (e, *(n or self.n), bound, *self.p, *bodies[0], *bodies[1])
-        return forward(*inputs, rule, law, *self.pinned)
+        return forward(*inputs, rule, law, *self.pinned, **known)
+
+    def _slides(self) -> list[Origin]:
+        """The origins of a contact that slid one way and the other to the end."""
+        if self.rule != codes.FRICTION:
+            return []
+        finite = np.where(np.isinf(self.bound) | (self.bound == 0.0), np.nan, self.bound)
+        return [self._along("sliding", sign * finite) for sign in (1.0, -1.0)]
 
     def candidates(self) -> list[Origin]:
         """Every origin the law allows, whether it fits or not."""
         if self.rule == codes.IMPULSE_RATIO:
             return [self._along("given", self.bound)]
+        frictionless = np.where(self.bound == 0.0, 0.0, np.nan)
         if self.rule == codes.FRICTION:
-            finite = np.where(np.isinf(self.bound), np.nan, self.bound)
-            return [
-                self._along("frictionless", np.where(self.bound == 0.0, 0.0, np.nan)),
-                *(self._along("sliding", np.where(self.bound > 0.0, sign * finite, np.nan)) for sign in (1.0, -1.0)),
-                self._sticking("sticking", self.bound > 0.0),
-            ]
-        # No part of the critical ratio is 0, also where a contact has none.
-        ratios = (np.where(self.bound == 0.0, 0.0, ratio) for ratio in self._shared_ratios())
-        shared = (np.where(self.bound < 1.0, ratio, np.nan) for ratio in ratios)
-        return [*(self._along("given", ratio) for ratio in shared), self._sticking("given", self.bound == 1.0)]
+            without = self._along("frictionless", frictionless)
+            return [without, *self.slides, self._sticking("sticking", self.bound > 0.0)]
+        shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
+        ratios = [frictionless, *shared]
+        return [*(self._along("given", ratio) for ratio in ratios), self._sticking("given", self.bound == 1.0)]
+
+    def resistance(self, ratio: Any) -> Any:
+        """What the contact resists along the normal to an impulse of this ratio: where it is not above 0, the bodies jam."""
+        return sum(a + b * rt * (rt - ratio * rn) for a, b, rn, rt in self.responses)
+
+    def _slip_change(self, normal: Any, tangential: Any) -> Any:
+        """What an impulse adds to the slip."""
+        return sum(a * tangential + b * rn * (rn * tangential - rt * normal) for a, b, rn, rt in self.responses)
 
     def _along(self, regime: str, ratio: Any) -> Origin:
         """The origin for a given impulse ratio."""
-        resistance = self.k_nn + ratio * self.k_nt
+        resistance = self.resistance(ratio)
         if self.kind == "energy_loss":
             # Along the impulse the contact is a one-dimensional one, with the effective mass of that direction.
             length = np.hypot(1.0, ratio)
@@ -114,15 +179,19 @@ class End:
             impulse = mass * np.where(parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting))
             normal = impulse / length
             closing = resistance * normal - self.separation
-            return self._origin(regime, normal, ratio * normal, self.separation / closing, 2.0, resistance > 0.0)
-        normal = (self._closing() + self.separation) / resistance
-        e = self.separation / self.known if self.kind == "closing_speed" else self.known
-        condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
+            e, condition = self.separation / closing, 2.0
+        else:
+            closing = self._closing()
+            normal = (closing + self.separation) / resistance
+            e = self.separation / self.known if self.kind == "closing_speed" else self.known
+            condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
         if self.rule == codes.CRITICAL_FRACTION:
             # The slip after is this part of the slip before.
             left = abs(1.0 - self.bound * (1.0 - sticking_slip(e, self.law)))
             condition = np.maximum(condition, 1.0 / left)
-        return self._origin(regime, normal, ratio * normal, e, condition, resistance > 0.0)
+        tangential = ratio * normal
+        velocity = closing, self.slip - self._slip_change(normal, tangential)
+        return self._origin(regime, normal, tangential, e, condition, velocity, resistance > 0.0)
 
     def _closing(self) -> Any:
         """The closing speed, where it or the restitution is known."""
@@ -132,7 +201,7 @@ class End:
         """The origin of a contact that does not slip under "kudlich-slibar", which sends all of the velocity back e-fold."""
         if self.law == codes.BRACH:
             nothing = np.full((), np.nan)
-            return self._origin(regime, nothing, nothing, nothing, nothing, False)
+            return self._origin(regime, nothing, nothing, nothing, nothing, (nothing, nothing), False)
         if self.kind == "energy_loss":
             stored = self.whole[0] * self.separation + self.whole[1] * self.slip
             inverse = np.sqrt(1.0 + 2.0 * self.known / stored)
@@ -141,8 +210,10 @@ class End:
         else:
             inverse = 1.0 / self.known
         factor = 1.0 + inverse
-        possible = possible & ~self.at_rest
-        return self._origin(regime, factor * self.whole[0], factor * self.whole[1], 1.0 / inverse, factor, possible)
+        closing = self.known if self.kind == "closing_speed" else self.separation * inverse
+        possible = possible & ~self.at_rest & (self.separation > self.rounding)
+        impulse = factor * self.whole[0], factor * self.whole[1]
+        return self._origin(regime, *impulse, 1.0 / inverse, factor, (closing, 0.0 - self.slip * inverse), possible)
 
     def _shared_ratios(self) -> tuple[Any, Any]:
         """Impulse ratios that are the given share of the critical one.
@@ -162,17 +233,19 @@ class End:
         half = -0.5 * (linear + np.copysign(np.sqrt(linear * linear - 4.0 * square * constant), linear))
         return half / square, constant / half
 
-    def _origin(self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, possible: Any) -> Origin:
+    def _origin(
+        self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, velocity: tuple[Any, Any], possible: Any
+    ) -> Origin:
         e = np.where((e < 0.0) & (abs(self.separation) <= self.rounding), 0.0, e)
         e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * codes.EPS + self.rounding / abs(self.separation)), 1.0, e)
         motions = self._struck(0.0 - normal, 0.0 - tangential)
         before = [[*body[:2], *motion, *body[5:]] for body, motion in zip(self.bodies, motions, strict=True)]
-        answer = self._kernel(e, self.rule, self.bound, before)
+        answer = self._kernel(e, self.rule, self.bound, before, contact_velocity=velocity)
         n_again, t_again = answer[codes.AT["normal_impulse"]], answer[codes.AT["tangential_impulse"]]
         again = abs(n_again - normal) + abs(t_again - tangential) <= _SAME * (abs(normal) + abs(tangential))
         fits = possible & again & (answer[0] <= codes.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
-        slip = answer[codes.AT["slip_before"]]
-        return Origin(regime, normal, tangential, e, condition, slip, (motions[0], motions[1]), fits)
+        jams = ~np.isnan(normal) & ~np.asarray(possible)
+        return Origin(regime, normal, tangential, e, condition, velocity, jams, (motions[0], motions[1]), fits)
 
     def origin(self, regime: str | None) -> tuple[list[Origin], Any]:
         """The candidates, and for each whether it fits and is none of those before it."""
@@ -186,19 +259,27 @@ class End:
             fits.append(new)
         return origins, fits
 
-    def always_sticks(self) -> bool:
-        """Whether no contact under this law can end with slip."""
-        sure = self.rule == codes.FRICTION and np.any(np.isposinf(self.bound))
-        return self.law == codes.BRACH and bool(sure or (self.rule == codes.CRITICAL_FRACTION and np.any(self.bound == 1.0)))
+    def elastic_loss(self, ratio: Any) -> Any:
+        """The energy that an impact of this ratio with e = 1 loses that ends so: the least of all."""
+        normal = 2.0 * self.separation / self.resistance(ratio)
+        return 0.0 - ratio * normal * (self.slip - 0.5 * self._slip_change(normal, ratio * normal))
 
-    def jump(self, origins: list[Origin]) -> Any:
-        """Distance of the slips before to which a contact that slid either way leads back; NaN where nothing jumps."""
-        slips = [origin.slip for origin in origins if origin.regime == "sliding"]
-        return abs(slips[0] - slips[1]) if self.law == codes.BRACH and len(slips) == 2 else np.full((), np.nan)
+    def always_sticks(self, law: str = codes.BRACH) -> Any:
+        """Whether the contact is under this law and cannot end but as one that sticks."""
+        if self.rule == codes.IMPULSE_RATIO or self.law != law:
+            return False
+        return np.isposinf(self.bound) if self.rule == codes.FRICTION else self.bound == 1.0
+
+    def range(self) -> tuple[Any, Any]:
+        """Between which slips before a contact that stuck under "brach" had its own; infinite where friction jams."""
+        if not self.slides or self.law != codes.BRACH:
+            return np.full((), np.nan), np.full((), np.nan)
+        slips = [np.where(one.jams, np.copysign(np.inf, self.k_nt), one.contact_velocity[1]) for one in self.slides]
+        return np.minimum(*slips), np.maximum(*slips)
 
     def forgets_slip(self) -> Any:
         """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
         if self.rule == codes.IMPULSE_RATIO:
             return False
         could_stick = self.bound > 0.0 if self.rule == codes.FRICTION else self.bound == 1.0
-        return could_stick & (self.at_rest if self.law == codes.KUDLICH_SLIBAR else abs(self.slip) <= self.rounding)
+        return could_stick & (self.at_rest if self.law == codes.KUDLICH_SLIBAR else abs(self.slip) <= self.noise)

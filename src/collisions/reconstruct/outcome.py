@@ -135,7 +135,7 @@ def settle(
 def answered(asked: Callable[[Any], Asked], status: Any, origin: Reconstruction, on_failure: Any) -> Impact:
     """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
     sure = np.equal(status, codes.OK)
-    impact = asked(sure).ask(on_failure=on_failure)
+    impact = asked(sure).ask(origin.contact_velocity, on_failure=on_failure)
     question = impact._asked
     if np.any(sure & impact.refused):
         question = asked(sure & ~impact.refused)

@@ -14,17 +14,19 @@ import numpy as np
 
 from ..amounts import amount
 from ..arguments import Law, OnFailure, read
+from ..cases import part_of
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import CollisionsError, InputError
 from ..impact import Asked, Impact, found_by
 from ..kernels import codes
 from ..provenance import Reconstruction
+from ..quiet import quietly
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
-from .origins import End
+from .origins import End, Origin
 from .outcome import NUMBERS, Cases, exactly, input_faults, parted, settle
-from .planar_refusals import refusal, warn
+from .planar_refusals import plain_refusal, refusal, warn
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
@@ -83,7 +85,9 @@ def planar(
     -------
     Impact
         The answer of ``eccentric`` for the states found; ``reconstruction.condition`` is (1+e)/e for a given restitution and
-        for a contact that sticks under "kudlich-slibar", else 1 for a closing speed, and at most 2 for an energy loss.
+        for a contact that sticks under "kudlich-slibar", else 1 for a closing speed, and at most 2 for an energy loss; where
+        a slip may be none, see below, the jump over it, or infinite. Impulse and energy have all digits also where the closing
+        speed is tiny: they are worked out from ``reconstruction.contact_velocity``, not from the rounded motions before.
 
     Raises
     ------
@@ -92,12 +96,14 @@ def planar(
     AmbiguousSolutionError
         More than one origin fits; all are in ``solutions``.
     NoSolutionError
-        The motions do not part, or nothing before ends so.
+        The motions do not part, or by no more than rounding; the contact stuck and says nothing of the slip before; or nothing
+        before ends so.
 
     Warns
     -----
     IllConditionedWarning
-        The slip after is so small that it may be none: under "brach" the answer then jumps with its sign.
+        The slip after is so small that it may be none: under "brach" the answer then jumps with its sign,
+        or is the one end of a range that is open where friction jams.
     OutOfRangeWarning
         With ``closing_speed`` or ``energy_loss``: the contact points still approach, by at most 1 percent of the closing speed,
         and were taken to stay together.
@@ -157,7 +163,7 @@ def planar(
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in everything.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = End(arrays, kind, rule, law, pinned)
+        end = End(arrays, kind, rule, law, pinned, codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps))
         told = {**door.texts, **(given_as or {})}
         return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact, told), regime, on_failure)
 
@@ -182,13 +188,14 @@ def _answer(
         told |= {f"{label}_after.{name}": text for name, text in ended.items()}
     origins, fits = end.origin(regime)
     count = sum(fit.astype(int) for fit in fits) if fits else np.zeros((), dtype=int)
-    blind = end.forgets_slip() & (regime != "sliding")
+    blind = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
     parts = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
     status = cases.verdict(
         (
             *input_faults(end.numbers),
             (end.status == codes.IMMOVABLE, codes.IMMOVABLE),
+            (end.singular & (end.bound > 0.0) & (end.rule != codes.IMPULSE_RATIO), codes.SINGULAR_CONTACT),
             (plastic, codes.INVERSE_E0),
             (~parts, codes.NOT_SEPARATING),
             (blind, codes.STICK_INVERSE),
@@ -200,12 +207,17 @@ def _answer(
     sure = np.equal(status, codes.OK)
     which = np.argmax(np.stack(np.broadcast_arrays(*fits)), axis=0) if fits else 0
     condition = np.choose(which, [one.condition for one in origins]) if origins else np.nan
-    jump = end.jump(origins)
-    nearly = sure & (abs(end.slip) < _NEARLY_STICKING * jump)
+    low, high = end.range()
+    jump = high - low
+    # Of a range that is open only the end that there is tells how far a slip of none is.
+    reach = np.where(np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump)
+    nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
     condition = np.where(nearly, np.maximum(condition, jump / abs(end.slip)), condition)
 
-    def provenance(found: Any, answers: Any) -> Reconstruction:
-        return Reconstruction(method="planar", known=(end.kind, rule), condition=cases.values(found), answers=answers)
+    def provenance(found: Any, answers: Any, velocity: Any) -> Reconstruction:
+        known, condition = (end.kind, rule), cases.values(found)
+        velocity = cases.values(velocity[0]), cases.values(velocity[1])
+        return Reconstruction(method="planar", known=known, condition=condition, answers=answers, contact_velocity=velocity)
 
     def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
         moved = [
@@ -215,26 +227,47 @@ def _answer(
         used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, np.nan))
         return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
 
+    def solution(one: Origin, answers: float) -> Impact:
+        found = provenance(one.condition, answers, one.contact_velocity)
+        impact = asked(list(one.motions), one.restitution, True).ask(found.contact_velocity)
+        return found_by(found, impact._asked, impact._raw, codes.OK)
+
     def error(index: tuple[int, ...]) -> CollisionsError:
-        solutions: tuple[Impact, ...] = ()
-        if cases.shape is None:
-            fitting = [one for one, fit in zip(origins, fits, strict=True) if fit]
-            if status in (codes.AMBIGUOUS_INVERSE, codes.STICK_INVERSE):
-                # The ends of a range are two of any number.
-                answers = math.inf if status == codes.STICK_INVERSE else len(fitting)
-                impacts = [(one, asked(list(one.motions), one.restitution, True).ask()) for one in fitting]
-                solutions = tuple(
-                    found_by(provenance(one.condition, answers), impact._asked, impact._raw, codes.OK)
-                    for one, impact in impacts
-                )
-        separation, slip = cases.one(end.separation, index), cases.one(end.slip, index)
-        return refusal(int(np.asarray(status)[index]), end, separation, slip, regime, solutions)
+        if isinstance(status, np.ndarray):
+            return _alone(int(status[index]), cases, end, a, b, index, regime)
+        stuck = status == codes.STICK_INVERSE
+        # Those of a range are its ends, however it was asked for.
+        candidates, fitting = end.origin(None if stuck else regime)
+        fitting = [one for one, fit in zip(candidates, fitting, strict=True) if fit]
+        answers = math.inf if stuck else len(fitting)
+        solutions = tuple(solution(one, answers) for one in fitting) if stuck or len(fitting) > 1 else ()
+        return refusal(status, end, regime, fitting, solutions)
 
     motions = [
         [np.choose(which, [one.motions[side][part] for one in origins]) if origins else np.nan for part in range(3)]
         for side in range(2)
     ]
     restitution = np.choose(which, [one.restitution for one in origins]) if origins else np.nan
-    warn(cases, end, sure & end.pressed, nearly, origins)
-    origin = provenance(np.where(sure, condition, np.nan), cases.whole(count))
+    velocity = [
+        np.where(sure, np.choose(which, [one.contact_velocity[part] for one in origins]), np.nan) if origins else np.nan
+        for part in range(2)
+    ]
+    warn(cases, end, sure & end.pressed, nearly)
+    origin = provenance(np.where(sure, condition, np.nan), cases.whole(count), velocity)
     return settle(partial(asked, motions, restitution), status, origin, on_failure, error)
+
+
+def _alone(status: int, cases: Cases, end: End, a: Vehicle, b: Vehicle, index: tuple[int, ...], regime: Any) -> CollisionsError:
+    """The refusal of one case of a batch, by asking for it alone."""
+
+    def take(array: Any) -> float:
+        return cases.one(array, index)
+
+    contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
+    contact |= {"law": end.law, "normal": (take(end.n[0]), take(end.n[1])), "point": (take(end.p[0]), take(end.p[1]))}
+    try:
+        with quietly():
+            planar(part_of(a, take), part_of(b, take), regime=regime, **contact)
+    except CollisionsError as problem:
+        return problem
+    return plain_refusal(status)
