@@ -811,3 +811,12 @@ def test_a_lognormal_with_a_deviation_far_smaller_than_its_mean():
 
 def test_a_score_whose_value_is_beyond_floats():
     assert Normal(1.0, 1e10).scored(np.array([-1e300, 1e300])).tolist() == [-math.inf, math.inf]
+
+
+@pytest.mark.parametrize("options", [{}, {"truncate": (5.0, 13.0)}])
+def test_a_lognormal_whose_deviation_is_nothing_beside_its_mean(options):
+    """Their ratio is 0 as a float, with which no quantile and no truncation can be worked out."""
+    with pytest.raises(col.InputError, match="nothing beside") as refused:
+        LogNormal(9.6049022777862, 5e-324, **options)
+    assert refused.value.code == "out_of_range"
+    assert Normal(9.6, 5e-324).quantile(0.9) == 9.6

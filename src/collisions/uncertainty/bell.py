@@ -257,6 +257,12 @@ class LogNormal(Bell):
         mean, sd = self.given_mean, self.given_sd
         _check_positive("mean", mean)
         relative = sd / mean
+        if relative == 0.0:
+            raise InputError(
+                f"sd = {sd:.6g} is nothing beside mean = {mean:.6g}; of a quantity that is known exactly give the number itself",
+                code="out_of_range",
+                argument="sd",
+            )
         growth = 1.0 + relative * relative
         scale = math.sqrt(math.log1p(relative * relative)) if relative > 1e-8 else relative
         self._set(_median=mean / math.sqrt(growth), _scale=scale)
