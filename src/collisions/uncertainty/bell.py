@@ -259,7 +259,7 @@ class LogNormal(Bell):
         relative = sd / mean
         if relative == 0.0:
             raise InputError(
-                f"sd = {sd:.6g} is nothing beside mean = {mean:.6g}; of a quantity that is known exactly give the number itself",
+                f"sd = {sd:.6g} is nothing beside a mean of {mean:.6g}; of what is known exactly give the number itself",
                 code="out_of_range",
                 argument="sd",
             )
