@@ -9,6 +9,7 @@ import pytest
 import collisions as col
 from collisions.kernels.batch import BLOCK
 from collisions.kernels.codes import OUTPUTS
+from test_refused_cases import outputs
 
 B = col.Vehicle(mass=950.0, vy=5.0, yaw_rate=0.2, yaw_inertia=1500.0, x=3.0, y=0.4)
 PLACE = {"normal": 0.1, "point": (1.7, 0.3)}
@@ -239,3 +240,88 @@ def test_dimensions_beyond_what_numpy_holds_everywhere():
         for dimensions in (25, 33, 64 if np.lib.NumpyVersion(np.__version__) >= "2.0.0" else 32):
             with pytest.raises(col.ShapeError, match=f"{name} is an array of {dimensions} dimensions"):
                 call(np.full((1,) * dimensions, 20.0))
+
+
+WIDE = np.array([1500.0, 1400.0, 1300.0])
+# Of which sums and products below are exact in float32 too.
+TURN = np.array([9.0, 14.0, -26.0], dtype=np.float32) / 128.0
+END = {"mass": WIDE, "vx": -4.0, "vy": 1.0, "yaw_inertia": 1800.0, "x": 0.0, "y": 0.0}
+FLOAT32 = {
+    "eccentric, normal": lambda angle: col.eccentric(striking(20.0).replace(mass=WIDE), B, 0.2, normal=angle, point=(1.7, 0.3), friction=0.3),
+    "eccentric, in degrees": lambda angle: solve_along(pint.Quantity(angle, "deg"), WIDE),
+    "eccentric, vector": lambda angle: solve_along((1.0 + angle, angle), WIDE),
+    "eccentric, float64 point": lambda angle: col.eccentric(striking(20.0), B, 0.2, normal=angle, point=(1.7, WIDE / 4e3), friction=0.3),
+    "eccentric, all of a vehicle": lambda angle: solve_along(0.1, WIDE, yaw_rate=angle, heading=angle, x=angle),
+    "oblique_central": lambda angle: col.oblique_central(
+        col.Vehicle(mass=WIDE, vx=20.0), col.Vehicle(mass=950.0, vy=5.0), 0.2, normal=angle, friction=0.3
+    ),
+    "solve": lambda angle: col.solve(
+        striking(20.0).replace(mass=WIDE), B, 0.2, normal=angle, point=(1.7, 0.3), friction=0.3, tolerance=0.5
+    ),
+    "from_speed, course": lambda angle: col.Vehicle.from_speed(mass=WIDE, speed=20.0, course=angle),
+    "from_speed, both": lambda angle: col.Vehicle.from_speed(mass=WIDE, speed=20.0 + angle, course=(1.0, angle)),
+    "point": lambda angle: {
+        "found": col.Vehicle(mass=1.0, x=WIDE, y=0.0, heading=angle).point(forward=1.0, left=angle),
+        "polar": col.Vehicle(mass=1.0, x=1.0, y=0.0, heading=angle).point(distance=WIDE, angle=angle),
+    },
+    "momentum": lambda angle: col.reconstruct.momentum(
+        WIDE, 1300.0, course_a=angle, course_b=1.0 + angle, course_a_after=0.9, course_b_after=0.5, speed_a_after=9.0,
+        speed_b_after=8.0, heading_a=angle, normal=angle,
+    ),
+    "planar": lambda angle: col.reconstruct.planar(
+        col.Vehicle(**END), B.replace(vx=5.0), restitution=0.2, normal=angle, point=(1.7, 0.3), friction=0.05
+    ),
+    "speeds": lambda angle: col.reconstruct.speeds(
+        striking(0.0), B, course_a=angle, course_b=1.9, speed_b=4.0, delta_v_a=WIDE / 250.0, restitution=0.1, normal=angle,
+        point=(1.7, 0.3), friction=0.3,
+    ),
+    "restitution": lambda angle: {"e": observed(col.reconstruct.restitution, angle)},
+    "friction": lambda angle: {"mu": observed(col.reconstruct.friction, angle)},
+    "crush_energy": lambda angle: {"J": col.reconstruct.crush_energy([0.5], [0.1, WIDE / 1e4], 4e4, 6e5, force_angle=angle)},
+    "path": lambda angle: col.travel.path(
+        [(0.0, 0.0), (WIDE / 100.0, angle)], [pint.Quantity(angle, "deg"), angle], friction=0.7, lock=0.4
+    ),
+    "speed": lambda angle: {"m/s": col.travel.speed(9.0 + angle, drag=1.0 + angle, grade=angle, end_speed=WIDE / 1e3)},
+    "left_out": lambda angle: col.left_out(solve_along(0.1, WIDE), duration=0.25 + angle, drag=1.0 + angle),
+}  # fmt: skip
+
+
+def solve_along(normal, mass, **fields):
+    """The scene with this normal, struck by cars of these masses."""
+    return col.eccentric(striking(20.0).replace(mass=mass, **fields), B, 0.2, normal=normal, point=(1.7, 0.3), friction=0.3)
+
+
+def observed(function, angle):
+    """What the motions of two cars show along this normal."""
+    start = col.Vehicle(**{**END, "vx": 20.0, "vy": 2.0})
+    return function(start, B, col.Vehicle(**END), B.replace(vx=19.0), normal=angle, point=(1.7, 0.3))
+
+
+@pytest.mark.parametrize("name", FLOAT32)
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_float32_beside_float64_is_read_exactly(name):
+    """Every float32 is a float64: beside float64 it gives the answer of that float64, to the bit, and in float64."""
+    given = {"normal", "normal_angle", "before", "after", "at_compression"}
+    narrow, wide = (dict(outputs(FLOAT32[name](angle))) for angle in (TURN, TURN.astype(np.float64)))
+    for output, value in wide.items():
+        if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+            assert np.array_equal(narrow[output], value, equal_nan=True), output
+            # What a vehicle was given stays as it was.
+            if not given & set(output.split(".")):
+                assert narrow[output].dtype == np.float64, output
+
+
+def test_float32_alone_stays_float32():
+    """Where no array is of another kind."""
+    narrow = {"vx": 20.0 + TURN, "heading": TURN}
+    impact = col.eccentric(striking(20.0).replace(**narrow), B, 0.2, normal=TURN, point=(1.7, 0.3), friction=0.3)
+    for value in (
+        impact.energy_loss,
+        impact.normal[0],
+        impact.a.delta_v_forward,
+        impact.relative_speed,
+        impact.common_velocity,
+    ):
+        assert value.dtype == np.float32
+    assert col.Vehicle.from_speed(mass=900.0, speed=20.0, course=TURN).vx.dtype == np.float32
+    assert col.travel.path([(0.0, 0.0), (9.0 + TURN, 1.0)], [TURN, TURN], friction=0.7, lock=0.4).speed.dtype == np.float32

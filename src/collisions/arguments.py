@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import chain
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -48,8 +49,12 @@ def read(
     critical_fraction: Any,
     law: Any,
     known: Sequence[InputError] = (),
+    beside: Iterable[Any] = (),
 ) -> Read:
-    """The shared arguments as numbers. What the door would hand on unchanged passes at once; the door names what is wrong."""
+    """The shared arguments as numbers. What the door would hand on unchanged passes at once; the door names what is wrong.
+
+    ``beside`` has the numbers of the question that are not among these arguments.
+    """
     if (
         type(a) is type(b) is Vehicle
         and type(restitution) is float
@@ -80,9 +85,10 @@ def read(
         if not isinstance(vehicle, Vehicle):
             door.refuse(not_a_vehicle(label, vehicle))
     e = door.number(restitution, "", "restitution", UNIT_INTERVAL)
-    unit = direction(door, normal, "normal")
     contact = None if point is None else door.pair(point, "m", "point")
     rule, bound = _tangential(door, (friction, impulse_ratio, critical_fraction))
+    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in vehicle._numbers())
+    unit = direction(door, normal, "normal", chain((e, bound, *(contact or ())), vehicles, beside))
     if not isinstance(law, str) or law not in codes.LAWS:
         door.refuse(
             InputError(

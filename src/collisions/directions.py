@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .door import Door, broadcast
+from .door import Door, broadcast, widened
 from .errors import InputError, ShapeError
 from .kernels.select import select
 from .units import Value
@@ -18,6 +19,10 @@ class Angle(NamedTuple):
 
     value: Any
     in_degrees: bool
+
+    def beside(self, values: Iterable[Any]) -> Angle:
+        """The same angle in the precision in which it and these values are worked out."""
+        return self._replace(value=widened((self.value,), values)[0])
 
     @property
     def radians(self) -> Any:
@@ -34,8 +39,11 @@ class Angle(NamedTuple):
 _UNIT_LENGTH = 2.0**-52
 
 
-def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
-    """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components."""
+def direction(door: Door, value: Any, argument: str, beside: Iterable[Any] = ()) -> tuple[Any, Any]:
+    """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components.
+
+    It is as precise as the question that the values beside it belong to: of a float32 beside float64 it is made in float64.
+    """
     if isinstance(value, tuple):
         if len(value) != 2:
             door.refuse(
@@ -48,7 +56,10 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
             broadcast({f"{argument}[0]": vx, f"{argument}[1]": vy})
         except ShapeError as problem:
             door.refuse(problem)
-        return normalised(door, vx, vy, argument) if len(door.problems) == count else (math.nan, math.nan)
+        if len(door.problems) > count:
+            return math.nan, math.nan
+        vx, vy = widened((vx, vy), beside)
+        return normalised(door, vx, vy, argument)
     if isinstance(value, list):
         door.refuse(
             ShapeError(
@@ -59,7 +70,7 @@ def direction(door: Door, value: Any, argument: str) -> tuple[Any, Any]:
             )
         )
         return math.nan, math.nan
-    return Angle(*door.angle(value, argument)).direction
+    return Angle(*door.angle(value, argument)).beside(beside).direction
 
 
 def course(door: Door, value: Any, argument: str) -> Angle:

@@ -6,7 +6,7 @@ Nothing behind it ever sees a unit.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -123,6 +123,20 @@ def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise ShapeError(f"these arrays do not broadcast together: {listed}", code="bad_shape") from None
+
+
+def widened(parts: Collection[Any], beside: Iterable[Any] = ()) -> Any:
+    """The parts, arrays of float32 among them in float64 if the question that all the numbers belong to is answered in it."""
+    for part in parts:
+        if isinstance(part, np.ndarray) and part.dtype == np.float32:
+            break
+    else:
+        return parts
+    # Adds a twentieth to the import of the package, and hardly anybody comes here.
+    from .kernels.batch import precision
+
+    kind = precision([*parts, *beside])
+    return [part.astype(kind, copy=False) if isinstance(part, np.ndarray) else part for part in parts]
 
 
 def largest(value: Any) -> float:

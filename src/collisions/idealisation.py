@@ -10,7 +10,7 @@ import numpy as np
 
 from . import pulse
 from .amounts import at_least_zero
-from .door import Door, broadcast, warn_if_large
+from .door import Door, broadcast, warn_if_large, widened
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
 from .fields import Shown, lock, numeric
@@ -21,6 +21,7 @@ from .quiet import quietly, warn_of_cases
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag
 from .units import Input, Value
+from .vehicle import Vehicle
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
@@ -195,7 +196,11 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     door.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())
-    unusable = _unusable({"duration": time, "drag": pull})
+    time, pull = widened((time, pull), given.values())
+    beyond = np.isinf(_extent(impact, time, pull)) & np.logical_not(impact.refused)
+    if shape is None and beyond:
+        raise out_of_range()
+    unusable = _unusable({"duration": time, "drag": pull}, beyond)
     if shape is None:
         return _assembled(_estimated(impact, time, pull, unusable))
     size = math.prod(shape)
@@ -229,10 +234,6 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
     point = impact.point
     with np.errstate(all="ignore"):
         most = pull * GRAVITY * time
-        states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
-        reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
-        if isinstance(most + reach, float) and math.isinf(most + reach):
-            raise out_of_range()
         kicks = (Kick.of(impact.a, impact.restitution, point, most), Kick.of(impact.b, impact.restitution, point, most))
         tyres = [math.nan] * 2 if lost else with_tyres(impact, kicks)
         moved = with_motion(impact, point, time)
@@ -241,7 +242,7 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         for label, kick, by_tyres, by_motion in zip("ab", kicks, tyres, moved, strict=True):
             side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
-            mass = select(numeric(before.mass).isfinite(before.mass), before.mass, 0.0)
+            mass = _finite_mass(before)
             of_side = {
                 "tyre_impulse_bound": mass * most,
                 "tyre_delta_v_bound": kick.most,
@@ -260,6 +261,21 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         return {name: None if value is None else select(refused, math.nan, value) for name, value in found.items()}
 
 
+def _extent(impact: Impact, time: Any, pull: Any) -> Any:
+    """What no impulse of tyres, no way and no turn is larger than; infinite where one may be beyond floats."""
+    states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
+    with np.errstate(all="ignore"):
+        most = pull * GRAVITY * time
+        reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
+        contact = time * (abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after))
+        return most + reach + contact + most * _finite_mass(impact.a.before) + most * _finite_mass(impact.b.before)
+
+
+def _finite_mass(body: Vehicle) -> Any:
+    """Its mass, 0 of a fixed body, which tyres do not move."""
+    return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
+
+
 def _assembled(found: dict[str, Any]) -> LeftOut:
     """The result of what was found by name."""
     a, b = (
@@ -276,8 +292,8 @@ def _read_duration(door: Door, duration: Any) -> Any:
     return read
 
 
-def _unusable(values: dict[str, Any]) -> Any:
-    """The cases whose duration or drag is what the door refuses of a single number; counted in one warning."""
+def _unusable(values: dict[str, Any], beyond: Any) -> Any:
+    """The cases whose duration or drag is refused of a single number too, or leads beyond floats; counted in one warning."""
     lanes: Any = False
     counts: dict[str, int] = {}
     for name, value in values.items():
@@ -286,6 +302,9 @@ def _unusable(values: dict[str, Any]) -> Any:
                 lanes = lanes | wrong
                 if wrong.any():
                     counts[code] = counts.get(code, 0) + int(np.count_nonzero(wrong))
+    if np.any(beyond & ~np.asarray(lanes)):
+        counts["out_of_range"] = int(np.count_nonzero(beyond & ~np.asarray(lanes)))
+        lanes = lanes | beyond
     if counts:
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
         warn_of_cases(

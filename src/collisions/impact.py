@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from .directions import angle_of
-from .door import UNIT_INTERVAL, Door, broadcast
+from .door import UNIT_INTERVAL, Door, broadcast, widened
 from .errors import InputError, NoSolutionError, Status
 from .fields import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .kernels import codes
@@ -169,8 +169,8 @@ class Impact:
     def relative_speed(self) -> Value:
         """Magnitude of the relative velocity of the centres of mass before contact [m/s]: not the closing speed."""
         a, b = self.a.before, self.b.before
-        dx, dy = a.vx - b.vx, a.vy - b.vy
-        return self._answered(hypot(dx, dy))
+        vx_a, vy_a, vx_b, vy_b = widened((a.vx, a.vy, b.vx, b.vy), (self.closing_speed,))
+        return self._answered(hypot(vx_a - vx_b, vy_a - vy_b))
 
     @derived("m/s")
     def separation_speed(self) -> Value:

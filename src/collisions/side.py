@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .directions import angle_of, from_radians
-from .door import Door, broadcast
+from .directions import Angle, angle_of
+from .door import Door, broadcast, widened
 from .errors import MissingInputError
 from .fields import Quantities, attributes, derived, hypot, returns, show, table
 from .kernels import codes
@@ -162,8 +162,9 @@ class Side:
         px, py = door.pair(point, "m", "point")
         door.close()
         broadcast({"point[0]": px, "point[1]": py, "delta_vx": self.delta_vx})
+        px, py, x, y = widened((px, py, self.before.x, self.before.y), (self.delta_vx,))
         with np.errstate(all="ignore"):
-            turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at")
+            turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at", x, y)
             return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
@@ -178,14 +179,18 @@ class Side:
         turns = True if self._choice is None else self._choice.model == "eccentric"
         if place is None or not np.any(turns):
             return motion
-        there = *before.velocity_at(place), *self.delta_v_at(place)
+        own = before.vx, before.vy, before.yaw_rate, before.x, before.y
+        ux, uy, yaw_rate, x, y, px, py = widened((*own, *place), (self.delta_vx,))
+        with np.errstate(all="ignore"):
+            turn_x, turn_y = before._turn_at(yaw_rate, px, py, "velocity_at", x, y)
+            there = ux + turn_x, uy + turn_y, *self.delta_v_at(place)
         vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
         return vx, vy, dvx, dvy
 
     def _own_axes(self, x: Value, y: Value) -> tuple[Value | None, Value | None]:
         if self.before.heading is None:
             return None, None
-        c, s = from_radians(self.before.heading)
+        c, s = Angle(self.before.heading, False).beside((x, y)).direction
         return c * x + s * y, c * y - s * x
 
     def _missing(self, name: str) -> MissingInputError:

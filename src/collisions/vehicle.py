@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import FrozenInstanceError, dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
-from .directions import angle_of, direction, from_radians
-from .door import FINITE, POSITIVE, Door, broadcast
+from .directions import Angle, angle_of, direction
+from .door import FINITE, POSITIVE, Door, broadcast, widened
 from .errors import InputError, MissingInputError
 from .fields import Quantities, derived, hypot, lock, returns, same, show, table
 from .kernels.select import select
@@ -159,12 +160,18 @@ class Vehicle(_Written):
                     argument="speed",
                 )
             )
-        cx, cy = direction(door, course, "course")
+        cx, cy = direction(door, course, "course", (magnitude,))
         door.close()
         broadcast({"speed": magnitude, "course": cx})
         with np.errstate(all="ignore"):
             vx, vy = magnitude * cx + 0.0, magnitude * cy + 0.0
         vehicle = cls(**{**rest, "vx": vx, "vy": vy})
+        if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
+            # Where other fields are float64, so is the velocity.
+            cx, cy = direction(Door(("course",)), course, "course", vehicle._numbers())
+            with np.errstate(all="ignore"):
+                _set_vx(vehicle, lock(magnitude * cx + 0.0))
+                _set_vy(vehicle, lock(magnitude * cy + 0.0))
         if door.texts:
             _set_given(vehicle, {**(vehicle._given or {}), **door.texts})
         return vehicle
@@ -258,11 +265,12 @@ class Vehicle(_Written):
         MissingInputError
             The body turns and its yaw inertia was not given.
         """
-        energy = _product(self.mass, 0.5 * (self.vx * self.vx + self.vy * self.vy))
+        vx, vy, yaw_rate = widened((self.vx, self.vy, self.yaw_rate), self._numbers())
+        energy = _product(self.mass, 0.5 * (vx * vx + vy * vy))
         if self._rests(self.yaw_rate):
             return energy
         inertia = self._need("yaw_inertia", "kinetic_energy of a turning body")
-        return energy + _product(inertia, 0.5 * (self.yaw_rate * self.yaw_rate))
+        return energy + _product(inertia, 0.5 * (yaw_rate * yaw_rate))
 
     @returns("m")
     def point(
@@ -299,7 +307,7 @@ class Vehicle(_Written):
         x, y, heading = (self._need(name, "point") for name in ("x", "y", "heading"))
         if all(polar):
             length = door.number(distance, "m", "distance")
-            c, s = direction(door, angle, "angle")
+            c, s = direction(door, angle, "angle", (length, x, y, heading))
             broadcast({"distance": length, "angle": c})
             with np.errstate(all="ignore"):
                 ahead, aside = length * c, length * s
@@ -308,7 +316,7 @@ class Vehicle(_Written):
             aside = 0.0 if left is _ABSENT else door.number(left, "m", "left")
         door.close()
         broadcast({"x": x, "y": y, "heading": heading, "forward": ahead, "left": aside})
-        hx, hy = from_radians(heading)
+        hx, hy = Angle(heading, False).beside((x, y, ahead, aside)).direction
         with np.errstate(all="ignore"):
             return x + (ahead * hx - aside * hy), y + (ahead * hy + aside * hx)
 
@@ -348,6 +356,13 @@ class Vehicle(_Written):
             return yaw_rate, yaw_rate
         x, y = (self._need(name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
         return turning_velocity(yaw_rate, px, py, x, y)
+
+    def _numbers(self) -> Iterator[Value]:
+        """Every number that it has, the coordinates of a pivot too."""
+        for name in DOMAINS:
+            if (value := getattr(self, name)) is not None:
+                yield value
+        yield from self.pivot or ()
 
     @staticmethod
     def _rests(yaw_rate: Any) -> bool:

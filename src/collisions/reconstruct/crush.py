@@ -124,6 +124,7 @@ def crush_energy(
     numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
     numbers["stiffness_a"] = a
     cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
+    cosine = angle.beside((*numbers.values(), b)).direction[0]
     # What the door has looked at in single numbers; nothing is left of a cosine of 90 degrees.
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _NO_WORK)
     if np.any(oblique):
@@ -135,16 +136,15 @@ def crush_energy(
             )
         )
     with np.errstate(all="ignore"):
-        values = [np.asarray(value, dtype=np.float64) for value in crush]
-        pairs = zip(gaps, values, values[1:], strict=False)
-        energy = sum(_gap_energy(gap, one, two, np.asarray(a), b) for gap, one, two in pairs) / (cosine * cosine)
+        widths, depths, (a, b) = ([np.asarray(x, dtype=np.float64) for x in values] for values in (gaps, crush, (a, b)))
+        energy = sum(_gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)) / (cosine * cosine)
         status = cases.verdict(
             (
                 *input_faults({**numbers, "stiffness_b": b, "force_angle": angle.value}),
                 *((np.less(value, 0.0), codes.CONTRADICTORY) for value in numbers.values()),
                 (np.less_equal(b, 0.0), codes.NOT_POSITIVE),
                 (np.less_equal(cosine, _NO_WORK), codes.CONTRADICTORY),
-                (~np.isfinite(energy), codes.OUT_OF_RANGE),
+                (cases.beyond(energy), codes.OUT_OF_RANGE),
             )
         )
     if cases.shape is not None:

@@ -128,7 +128,7 @@ def inline_closing_speed(
 
 
 def _speed(kind: str, numbers: dict[str, Any]) -> Any:
-    values = {name: np.asarray(value) for name, value in numbers.items()}
+    values = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
         if kind == "energy_loss":
@@ -146,7 +146,7 @@ def _closing(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
             (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), codes.IMMOVABLE),
             (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), codes.INFINITE_MASS),
             *((np.less(value, 0.0), codes.CONTRADICTORY) for name, value in numbers.items() if name.startswith(_SPEEDS)),
-            (np.isfinite(speed), codes.OK),
+            (~cases.beyond(speed), codes.OK),
             (True, codes.UNDETERMINED if kind == "energy_loss" else codes.CONTRADICTORY),
         )
     )

@@ -127,18 +127,22 @@ def momentum(
         if value is not None
     }
     impulse = None if outside_impulse is None else door.pair(outside_impulse, "N*s", "outside_impulse")
-    along = None if normal is None else direction(door, normal, "normal")
+    numbers = {
+        **masses,
+        **known,
+        **{name: angle.value for name, angle in (*angles.items(), *headings.items())},
+        **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
+    }
+    along = None if normal is None else direction(door, normal, "normal", numbers.values())
     door.close()
-    cases = Cases.of(
-        {
-            **masses,
-            **known,
-            **{name: angle.value for name, angle in angles.items()},
-            **{name: heading.value for name, heading in headings.items()},
-            **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
-            **{f"normal[{i}]": part for i, part in enumerate(along or ())},
-        }
+    cases = Cases.of({**numbers, **{f"normal[{i}]": part for i, part in enumerate(along or ())}})
+    numbers = cases.alike(numbers)
+    masses, known = ({name: numbers[name] for name in names} for names in (masses, known))
+    angles, headings = (
+        {name: angle._replace(value=numbers[name]) for name, angle in known_angles.items()}
+        for known_angles in (angles, headings)
     )
+    impulse = None if impulse is None else (numbers["outside_impulse[0]"], numbers["outside_impulse[1]"])
     given: dict[str, Any] | None = None
     if cases.shape is None:
         read = masses | known | {name: angle.value for name, angle in (angles | headings).items()}

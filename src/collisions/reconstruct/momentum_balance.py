@@ -60,7 +60,7 @@ def solve(cases: Cases, question: Question, on_failure: Any) -> MomentumSolution
         (
             *_faults(question),
             (abs(sine) <= blur(one.course, other.course, eps), codes.PARALLEL_HEADINGS),
-            (~np.isfinite(full[first] + full[second] + loss), codes.OUT_OF_RANGE),
+            (cases.beyond(full[first] + full[second] + loss), codes.OUT_OF_RANGE),
             (gains & (impulse is None), codes.ENERGY_GAIN),
         )
     )

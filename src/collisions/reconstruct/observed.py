@@ -86,7 +86,7 @@ def restitution(
     with np.errstate(all="ignore"):
         closing, eps = before["closing_speed"], _eps(cases)
         found = (0.0 - after["closing_speed"]) / np.where(closing > 0.0, closing, np.nan)
-        status = cases.verdict((*faults, *_closing_faults(closing), (~np.isfinite(found), codes.OUT_OF_RANGE)))
+        status = cases.verdict((*faults, *_closing_faults(closing), (cases.beyond(found), codes.OUT_OF_RANGE)))
         _raise_or_warn(cases, status, before)
         answer = np.where(np.equal(status, codes.OK), found, np.nan)
         # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
@@ -166,7 +166,7 @@ def friction(
                 *faults,
                 *_closing_faults(before["closing_speed"]),
                 (normal_part <= 0.0, codes.NOT_SEPARATING),
-                (~np.isfinite(tangential_part / normal_part), codes.OUT_OF_RANGE),
+                (cases.beyond(tangential_part / normal_part), codes.OUT_OF_RANGE),
             )
         )
         _raise_or_warn(cases, status, before)
@@ -198,7 +198,8 @@ def _motions(
     """What the kernel says of the contact before and after."""
     named = {"a_before": a_before, "b_before": b_before, "a_after": a_after, "b_after": b_after}
     wrong = [not_a_vehicle(label, body) for label, body in named.items() if not isinstance(body, Vehicle)]
-    e, n, _, _, contact, *_ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong)
+    motions = (number for body in named.values() if isinstance(body, Vehicle) for number in body._numbers())
+    e, n, _, _, contact, *_ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong, motions)
     everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
     sides = {}
     for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):

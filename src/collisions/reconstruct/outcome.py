@@ -75,6 +75,15 @@ class Cases(NamedTuple):
         with np.errstate(over="ignore"):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
+    def alike(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """The values by name, their arrays in the precision of the batch."""
+        return {name: value.astype(self.dtype) if isinstance(value, np.ndarray) else value for name, value in values.items()}
+
+    def beyond(self, found: Any) -> Any:
+        """Where an answer is not finite, or would not be in the precision of the batch."""
+        with np.errstate(over="ignore"):
+            return ~np.isfinite(np.asarray(found).astype(self.dtype))
+
     def whole(self, found: Any) -> Any:
         """The same of what is counted."""
         return int(found) if self.shape is None else lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))

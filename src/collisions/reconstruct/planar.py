@@ -142,6 +142,7 @@ def planar(
         critical_fraction,
         law,
         [*door.problems, *missing_numbers(a_after, b_after, point)],
+        (known,),
     )
     bodies = body_numbers(a_after, contact), body_numbers(b_after, contact)
     known = e if kind == "restitution" else known

@@ -11,7 +11,7 @@ import numpy as np
 from ..amounts import amount
 from ..answering import warn_of_refusals
 from ..arguments import Law, read
-from ..directions import course
+from ..directions import Angle, course
 from ..door import Door
 from ..eccentric import body_numbers, missing_numbers
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
@@ -138,7 +138,7 @@ def speeds(
     courses = {}
     for label, angle in (("a", course_a), ("b", course_b)):
         if angle is not None:
-            courses[label] = course(door, angle, f"course_{label}").direction
+            courses[label] = course(door, angle, f"course_{label}")
         elif np.any(np.not_equal(known.get(f"speed_{label}", np.nan), 0.0)):
             door.refuse(
                 MissingInputError(
@@ -149,7 +149,7 @@ def speeds(
                 )
             )
         else:
-            courses[label] = (1.0, 0.0)
+            courses[label] = Angle(0.0, False)
     function = RestitutionOf(restitution) if callable(restitution) else None
     for label, body in (("a", a), ("b", b)):
         if isinstance(body, Vehicle) and body.pivot is not None:
@@ -171,6 +171,7 @@ def speeds(
         critical_fraction,
         law,
         [*door.problems, *missing_numbers(a, b, point)],
+        (*known.values(), *(angle.value for angle in courses.values())),
     )
     everything: dict[str, Any] = {**known, "restitution": e, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
@@ -179,9 +180,12 @@ def speeds(
         everything |= {
             f"{label}.{name}": value for name, value in zip(NUMBERS, numbers, strict=True) if name not in ("vx", "vy")
         }
-        everything |= {f"course_{label}[{i}]": part for i, part in enumerate(courses[label])}
         if body.heading is not None:
             everything[f"{label}.heading"] = body.heading
+    # A course is as precise as everything else, the other one too.
+    beside = (*everything.values(), *(angle.value for angle in courses.values()))
+    for label, angle in courses.items():
+        everything |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
     cases = Cases.of(everything)
     with np.errstate(all="ignore"):
         _refuse_pairs(given, known, a, b)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..door import POSITIVE, Door, broadcast
+from ..door import POSITIVE, Door, broadcast, widened
 from ..errors import InputError
 from ..units import Input, Value
 from .published import Fit, Outside, check_outside, settle
@@ -103,7 +103,7 @@ def yaw_inertia(
     check_outside(door, outside)
     door.close()
     shape = broadcast(numbers)
-    weight, over_all, second = numbers["mass"], numbers["length"], numbers[other]
+    weight, over_all, second = widened([numbers[name] for name in ("mass", "length", other)])
     with np.errstate(all="ignore"):
         if other == "wheelbase":
             fit, found_inertia = YAW_INERTIA_WHEELBASE, 0.1269 * weight * second * over_all

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..directions import Angle
 from ..door import Door
 from ..errors import InputError, ShapeError
 from ..units import is_quantity, shown
@@ -72,7 +73,7 @@ def _is_pair(value: Any) -> bool:
     return isinstance(whole, (list, tuple)) and len(whole) == 2
 
 
-def read_headings(door: Door, headings: Any, count: int | None) -> list[Any]:
+def read_headings(door: Door, headings: Any, count: int | None) -> list[Angle]:
     """One heading for each point; ``count`` is None if the points could not be read."""
     # Counted on through turns, headings grow beyond the size at which the door suspects degrees; it looks at the first alone.
     door.trusted = ("headings",)
@@ -81,9 +82,10 @@ def read_headings(door: Door, headings: Any, count: int | None) -> list[Any]:
         return []
     door.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
     wrong = len(door.problems)
-    turned = [_read_heading(door, part, f"headings[{i}]") for i, part in enumerate(parts)]
+    angles = [_read_heading(door, part, f"headings[{i}]") for i, part in enumerate(parts)]
     if len(door.problems) > wrong:
         return []
+    turned = [in_radians(angle) for angle in angles]
     if count is not None and len(turned) != count:
         text = f"headings holds {len(turned)} and points holds {count}; give one heading for each point"
         door.refuse(ShapeError(text, code="bad_shape", argument="headings"))
@@ -105,7 +107,7 @@ def read_headings(door: Door, headings: Any, count: int | None) -> list[Any]:
                 )
             )
             break
-    return turned
+    return angles
 
 
 def turns_too_far(turn: Any) -> Any:
@@ -113,8 +115,12 @@ def turns_too_far(turn: Any) -> Any:
     return abs(turn) > _HALF_TURN
 
 
-def _read_heading(door: Door, value: Any, name: str) -> Any:
+def in_radians(heading: Angle) -> Any:
+    """A float stays one."""
+    return heading.value * (math.pi / 180.0) if heading.in_degrees else heading.value
+
+
+def _read_heading(door: Door, value: Any, name: str) -> Angle:
     if isinstance(value, (list, tuple)):
-        return one_value(door, value, "rad", name)
-    angle, in_degrees = door.angle(value, name)
-    return angle * (math.pi / 180.0) if in_degrees else angle
+        return Angle(one_value(door, value, "rad", name), False)
+    return Angle(*door.angle(value, name))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..amounts import at_least_zero
 from ..directions import angle_of
-from ..door import UNIT_INTERVAL, Door, broadcast, warn_if_large
+from ..door import UNIT_INTERVAL, Door, broadcast, warn_if_large, widened
 from ..errors import InputError, OutOfRangeWarning
 from ..fields import Shown, derived, hypot, numeric
 from ..fields import lock as write_locked
@@ -21,7 +21,7 @@ from ..quiet import warn
 from ..units import Input, Pair, Value, shown
 from .chain import durations_along, out_of_range, speeds_along
 from .lanes import settle
-from .places import read_headings, read_points, turns_too_far
+from .places import in_radians, read_headings, read_points, turns_too_far
 from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
 
 # For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
@@ -171,7 +171,7 @@ def path(
     """
     door = Door()
     places = read_points(door, points)
-    turned = read_headings(door, headings, None if places is None else len(places))
+    angles = read_headings(door, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
     frictions = for_each(door, friction, "friction", legs, _read_friction)
     locks = for_each(door, lock, "lock", legs, _read_lock)
@@ -180,10 +180,18 @@ def path(
     door.close()
     places = places or []
     named = {f"points[{i}][{axis}]": part for i, point in enumerate(places) for axis, part in enumerate(point)}
-    for name, parts in (("headings", turned), ("friction", frictions), ("lock", locks), ("grade", grades)):
+    of_segments = {"friction": frictions, "lock": locks, "grade": grades}
+    for name, parts in (("headings", [angle.value for angle in angles]), *of_segments.items()):
         named |= {f"{name}[{i}]": part for i, part in enumerate(parts)}
     named["end_speed"] = end
     shape = broadcast(named)
+    if shape is not None:
+        named = dict(zip(named, widened(named.values()), strict=True))
+        places = [(named[f"points[{i}][0]"], named[f"points[{i}][1]"]) for i in range(len(places))]
+        angles = [angle._replace(value=named[f"headings[{i}]"]) for i, angle in enumerate(angles)]
+        frictions, locks, grades = ([named[f"{name}[{i}]"] for i in range(len(parts))] for name, parts in of_segments.items())
+        end = named["end_speed"]
+    turned = [in_radians(angle) for angle in angles]
     with np.errstate(all="ignore"):
         run = _run_out(places, turned, frictions, locks, grades, end)
         gaps = durations_along([_length(step) for step in _steps(places)], grades, run.speeds)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door, broadcast
+from ..door import Door, broadcast, widened
 from ..errors import NoSolutionError, ShapeError
 from ..kernels.select import select
 from ..units import Input, Value
@@ -131,6 +131,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     door.close()
     named = {"speed": start, "drag": slowing, "grade": slope, "end_speed": end}
     broadcast(named)
+    start, slowing, slope, end = widened(named.values())
     with np.errstate(all="ignore"):
         drop = slowing + slope
         change = start - end
@@ -208,6 +209,8 @@ class _Run:
         for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", self.grades, grade)):
             self.named |= {f"{name}[{i}]" if isinstance(given, (list, tuple)) else name: part for i, part in enumerate(values)}
         broadcast(self.named)
+        *self.lengths, self.end = widened((*self.lengths, self.end), self.named.values())
+        drags, self.grades = (widened(values, self.named.values()) for values in (drags, self.grades))
         with np.errstate(all="ignore"):
             self.drops = [slowing + slope for slowing, slope in zip(drags, self.grades, strict=True)]
 
