@@ -184,6 +184,7 @@ def test_every_picture_of_every_impact_has_its_units_on_its_axes(picture, case):
         assert f"[{unit}]" in axes.get_ylabel()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("picture", DRAWN)
 @pytest.mark.parametrize("case", IMPACTS)
 def test_every_letter_of_a_picture_can_be_read(picture, case):

@@ -569,7 +569,16 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
     return answered, refused
 
 
-every_question = pytest.mark.parametrize("name", QUESTIONS)
+# Of the many ways to ask `speeds` and `planar`, those by friction are for every run.
+every_question = pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(
+            name, marks=pytest.mark.slow if name.startswith(("speeds, ", "planar, ")) and "friction" not in name else ()
+        )
+        for name in QUESTIONS
+    ],
+)
 
 
 @every_question
@@ -597,6 +606,7 @@ def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:
     check(name, chosen, together(QUESTIONS[name], some, varied, shape=shape), shape)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 @every_question
 def test_many_cases_and_float32(name: str, kind: Any) -> None:

@@ -436,6 +436,7 @@ def test_figures_show_this_impact(impacts):
     assert "The figures are in the HTML form" in report(impacts["wall"], form="markdown")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in IMPACTS if name != "evil"])
 def test_every_letter_of_a_figure_can_be_read(name, impacts):
     """Math text would stand on the page as its source: formulas are off there, as names are none."""
