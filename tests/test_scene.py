@@ -726,3 +726,13 @@ def test_a_batch_may_have_no_array_that_its_model_looks_at(threads):
     assert (col.solve(a, b, 0.5, **scene, tolerance=np.ones(cases)).b.delta_v == 0.75).all()
     turned = col.Vehicle(mass=1000.0, vx=1.0, heading=np.zeros(cases))
     assert (col.linear_central(turned, col.Vehicle(mass=1000.0), 0.5, threads=threads).b.delta_v == 0.75).all()
+
+
+@pytest.mark.parametrize("tolerance", [1e300, np.array([1e300, 0.0])])
+def test_a_tolerance_beyond_float32_accepts_everything(tolerance):
+    """Beside float32 arrays it is the largest float32; numpy has nothing to say of it."""
+    a = col.Vehicle(mass=1500.0, vx=np.array([20.0, 15.0], dtype=np.float32), yaw_inertia=2400.0, x=-2.0, y=0.4)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
+    choice = col.required_model(a, b, 0.2, normal=0.0, point=(0.0, 0.4), friction=0.0, tolerance=tolerance)
+    assert choice.model[0] == "linear_central"
+    assert choice.model[1] == ("eccentric" if isinstance(tolerance, np.ndarray) else "linear_central")

@@ -274,7 +274,11 @@ def _predicted(question: _Question, shape: tuple[int, ...] | None, threads: int,
     dtype = _precision(question)
     eps = float(np.finfo(dtype).eps)
     settings = asked.rule, asked.law, known, eps
-    return least_models(settings, inputs, value_checks(asked, eps), shape, dtype, threads, progress)
+    # What is beyond float32 accepts every error that a float32 can have.
+    most = float(np.finfo(dtype).max)
+    tolerance = question.tolerance
+    tolerance = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
+    return least_models(settings, (*inputs[:-1], tolerance), value_checks(asked, eps), shape, dtype, threads, progress)
 
 
 def _precision(question: _Question) -> Any:
