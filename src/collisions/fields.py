@@ -150,6 +150,11 @@ def hypot(x: Value, y: Value) -> Value:
     return length
 
 
+def in_words(value: float) -> str:
+    """What is said in place of a number that is NaN or infinite."""
+    return "not defined" if math.isnan(value) else "infinite"
+
+
 def show(value: Any, unit: str | None = None) -> str:
     """A value for people: six digits and the unit; an array by its shape and range."""
     suffix = f" {unit}" if unit else ""
@@ -160,7 +165,7 @@ def show(value: Any, unit: str | None = None) -> str:
             return f"array{value.shape} {np.nanmin(value):.6g} to {np.nanmax(value):.6g}{suffix}"
         return f"array{value.shape}{suffix}"
     if isinstance(value, float):
-        return f"{value:.6g}{suffix}"
+        return in_words(value) if math.isnan(value) else f"{value:.6g}{suffix}"
     if isinstance(value, Status):
         return value.sentence
     return str(value)

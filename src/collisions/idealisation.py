@@ -53,7 +53,8 @@ class LeftOutSide(Shown):
     geometry_delta_v, geometry_share : float or array [m/s], [-]
         Estimate of how far delta-V moves, as a vector, because positions and normal change during the contact, if those of the
         impact are the ones at first contact; None for the central models, which have no geometry, and for any impact without a
-        point. In a batch of ``solve`` with a point NaN where a central model answered.
+        point. In a batch of ``solve`` with a point NaN where a central model answered; NaN too where the geometry of later in
+        the contact has no answer, mostly because the bodies part in it.
     """
 
     _title = "Left out for one vehicle"

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
 from ..errors import InputError
+from ..fields import in_words
 from ..unit_systems import decimals_of, scale_of, unit_of
 
 # Labels of units with their powers.
@@ -109,7 +110,7 @@ class System:
     def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
         """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
         if not math.isfinite(value):
-            return str(value)
+            return in_words(value)
         shown = self.shown(value, kind)
         unit = self.unit(kind, False)
         if deviation is not None and math.isfinite(deviation) and deviation > _DUST * abs(value):

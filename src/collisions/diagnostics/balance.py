@@ -70,7 +70,7 @@ def ill_conditioned(case: Balance) -> Iterator[Finding]:
     yield from case.above(
         "ill_conditioned",
         solution.condition,
-        f"reconstruct.momentum has a condition of {solution.condition:.3g}: {'; '.join(told)}",
+        f"reconstruct.momentum has a condition of {case.words.plain(solution.condition)}: {'; '.join(told)}",
     )
 
 
@@ -95,7 +95,7 @@ def tyre_impulse(case: Balance) -> Iterator[Finding]:
             "tyre_impulse",
             part,
             f"tyres of {who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give up to "
-            f"{case.words.speed(most)}, {part:.0%} of its delta-V of {case.words.speed(delta_v)}",
+            f"{case.words.speed(most)}, {case.words.percent(part)} of its delta-V of {case.words.speed(delta_v)}",
             label,
         )
 

@@ -100,8 +100,8 @@ def friction_gain(case: Case) -> Iterator[Finding]:
     yield from case.above(
         "friction_gain",
         part,
-        f"the tangential impulse adds {case.words.energy(gain)}, {part:.1%} of the energy absorbed, where friction can only "
-        f"take it: the slip turns round during the contact, which one impulse ratio does not tell",
+        f"the tangential impulse adds {case.words.energy(gain)}, {case.words.percent(part, 1)} of the energy absorbed, where "
+        f"friction can only take it: the slip turns round during the contact, which one impulse ratio does not tell",
     )
 
 
@@ -269,7 +269,7 @@ def tyre_impulse(case: Case) -> Iterator[Finding]:
             "tyre_impulse",
             left.tyre_share_bound,
             f"tyres of {named(label, side)} that slide for {found.duration:.3g} s with a drag of {found.drag:.2g} give {how} "
-            f"{case.words.speed(left.tyre_delta_v_bound)}, {left.tyre_share_bound:.0%} of its delta-V of "
+            f"{case.words.speed(left.tyre_delta_v_bound)}, {case.words.percent(left.tyre_share_bound)} of its delta-V of "
             f"{case.words.speed(side.delta_v)}",
             label,
         )
@@ -302,7 +302,7 @@ def ill_conditioned(case: Case) -> Iterator[Finding]:
             "ill_conditioned",
             origin.condition,
             f"reconstruct.{origin.method}: one percent in what was given ({', '.join(origin.known)}) may become "
-            f"{origin.condition:.3g} percent of the closing speed in the speeds before",
+            f"{case.words.plain(origin.condition)} percent of the closing speed in the speeds before",
         )
 
 

@@ -103,8 +103,9 @@ def _told(case: Case, code: str, answers: list[tuple[str, Impact]]) -> Iterator[
         yield from case.above(
             code,
             moved,
-            f"{how} delta-V of {named(label, old)} moves by {moved:.0%} of itself, from {case.words.speed(old.delta_v)} to "
-            f"{case.words.speed(new.delta_v)}, and its direction by {case.words.angle(_turn(old, new))}",
+            f"{how} delta-V of {named(label, old)} moves by {case.words.percent(moved)} of itself, from "
+            f"{case.words.speed(old.delta_v)} to {case.words.speed(new.delta_v)}, and its direction by "
+            f"{case.words.angle(_turn(old, new))}",
             label,
         )
     if moves:

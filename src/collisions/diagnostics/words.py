@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..door import Door
+from ..fields import in_words
 from ..unit_systems import bad_system, decimals_of, scale_of, unit_of
 
 _FIGURES = 4  # of what has no decimals of its own: an energy
@@ -19,12 +21,23 @@ class Words:
     def number(self, value: float, kind: str, more: int = 0) -> str:
         """The number alone, with so many decimals more than an answer has; an energy to four figures."""
         told = value * scale_of(kind, self._system)
+        if not math.isfinite(told):
+            return in_words(told)
         decimals = decimals_of(kind, self._system)
         text = f"{float(f'{told:.{_FIGURES}g}'):.12g}" if decimals is None else f"{told:.{decimals + more}f}"
         return text.lstrip("-") if float(text) == 0.0 else text
 
     def _told(self, value: float, kind: str, more: int = 0) -> str:
-        return f"{self.number(value, kind, more)} {unit_of(kind, self._system).replace('deg', 'degrees').replace('*', ' ')}"
+        unit = unit_of(kind, self._system).replace("deg", "degrees").replace("*", " ")
+        return f"{self.number(value, kind, more)} {unit}" if math.isfinite(value) else in_words(value)
+
+    def plain(self, value: float) -> str:
+        """A number without a unit, to three figures."""
+        return f"{value:.3g}" if math.isfinite(value) else in_words(value)
+
+    def percent(self, share: float, decimals: int = 0) -> str:
+        """A share; of nothing everything is an infinite one."""
+        return f"{share:.{decimals}%}" if math.isfinite(share) else f"a share that is {in_words(share)}"
 
     def speed(self, value: float) -> str:
         """A speed [m/s]."""

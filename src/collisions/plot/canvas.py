@@ -7,6 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
+from ..fields import in_words
 from ..impact import Impact
 from ..one_case import need_one_case
 from ..unit_systems import KIND_OF, SI_UNITS, bad_system, decimals_of, scale_of, unit_of
@@ -55,6 +56,8 @@ class Units:
         kind, name = _kind(unit), self.name(unit)
         decimals = None if kind is None else decimals_of(kind, self._system)
         told = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
+        if not math.isfinite(value):
+            return told
         return f"{told}{'' if name[:1] in ('°', '') else ' '}{name}"
 
 
@@ -65,8 +68,8 @@ def _kind(unit: str) -> str | None:
 def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     """Four digits, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
     size = abs(value)
-    if value != value or math.isinf(value):
-        return str(value)
+    if not math.isfinite(value):
+        return in_words(value)
     if size != 0.0 and not 1e-4 <= size < 1e9:
         text = f"{value:.3e}"
     else:

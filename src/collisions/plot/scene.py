@@ -15,7 +15,7 @@ from ..side import Side
 from ..unit_systems import UnitSystem
 from ..units import shown
 from ..vehicle import Vehicle, missing
-from .canvas import COLOURS, FORCE, GREY, INK, SIDES, THIN, Units, answered, begin, tidy, who
+from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, answered, begin, tidy, who
 from .drawing import Drawing, Place
 from .lanes import APART, Lanes, beside
 
@@ -29,7 +29,6 @@ _TITLES = {
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
 _RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
-_LARGEST = 1e100  # squares of larger places overflow
 _NOTHING = 1e-9  # of the impulse: what rounding leaves of none
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
@@ -119,7 +118,7 @@ def scene(
     known.append(scaled(contact))
     size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
     farthest = max(abs(part) for place in known for part in place)
-    if max(size, 4.0 * length) < _RESOLVED * farthest or size > _LARGEST:
+    if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
         raise InputError(
             f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from "
             f"the origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",

@@ -85,6 +85,8 @@ class Known:
         found = []
         if method == "interval":
             return [("range, wherever in the intervals the truth is", f"{number(low)} to {number(high)}")]
+        if len(mean) == 1 and math.isnan(std[0]):
+            return [("in the one case that has an answer, so no spread is known", number(mean[0]))]
         if len(mean) == 1 and not varies(output, kind):
             return [("the same in every case", number(mean[0]))]
         if len(mean) == 1:

@@ -259,13 +259,16 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
     yield "way during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
-    for what, change, share in (
-        (f"delta-V by its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound),
-        ("delta-V moved by the tyres of both", side.tyre_delta_v, side.tyre_share),
-        ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share),
+    lost = "the model has no answer with the"
+    moved = f"{lost} places and the normal of later in the contact, in which the bodies part as a rule"
+    for what, change, share, why in (
+        (f"delta-V by its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound, ""),
+        ("delta-V moved by the tyres of both", side.tyre_delta_v, side.tyre_share, f"{lost} speeds that the tyres leave"),
+        ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share, moved),
     ):
         if change is not None and share is not None:
             part = "" if math.isnan(float(share)) else f" ({100.0 * float(share):.0f} percent)"
+            part = f": {why}" if math.isnan(float(change)) else part
             yield what, sheet.system.answer(float(change), "speed") + part
 
 

@@ -144,6 +144,8 @@ class Output:
         """Name and figures as a text."""
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
+        if math.isnan(self.std):
+            return self.name, f"{show(self.mean)}{unit} in the one case that has an answer, so no spread is known"
         return self.name, f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
 
     def record(self) -> dict[str, Any]:
