@@ -147,7 +147,7 @@ def answered(asked: Callable[[Any], Asked], status: Any, origin: Reconstruction,
     impact = asked(sure).ask(origin.contact_velocity, on_failure=on_failure)
     question = impact._asked
     if np.any(sure & impact.refused):
-        question = asked(sure & ~impact.refused)
+        question = asked(sure & np.logical_not(impact.refused))
     return found_by(origin, question, impact._raw, status)
 
 
