@@ -428,6 +428,7 @@ def test_fewer_observations_than_unknowns():
     assert found["z"].standard_error == pytest.approx(0.1, rel=1e-8)
     assert [sorted(one.unknowns) for one in found.undetermined] == [["x", "y"]]
     assert math.isnan(found.p_value)
+    assert "p_value=not defined, errors given" in repr(found)
     assert found.consistent is None
     assert found.degrees_of_freedom == 0
     assert "nothing checks it" in found.statements[0]

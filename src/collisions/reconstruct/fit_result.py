@@ -163,7 +163,7 @@ class Fit(Shown):
         estimates = ", ".join(f"{name}={_with_error(self[name])}" for name in self.names)
         return (
             f"Fit({estimates}, chi_squared={self.chi_squared:.4g}, degrees_of_freedom={self.degrees_of_freedom}, "
-            f"p_value={self.p_value:.3g}, errors given the stated errors)"
+            f"p_value={'not defined' if math.isnan(self.p_value) else f'{self.p_value:.3g}'}, errors given the stated errors)"
         )
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
