@@ -362,6 +362,10 @@ def questions() -> Iterator[tuple[str, Question]]:
     for name in ("restitution", "friction"):
         yield name, Question(observed(name), {**seen, **at}, ({f"{side}_before.vx": 0.0 for side in "ab"},))
         yield f"{name}, unturned", Question(observed(name), {**unturned, "normal": 0.1})
+    pins = {f"b_{moment}.{name}": 0.0 for moment in ("before", "after") for name in ("vx", "vy")}
+    pins |= {f"b_{moment}.pivot[{i}]": part for moment in ("before", "after") for i, part in enumerate((2.5, 1.5))}
+    others = ({"b_before.vx": 3.0}, {"b_after.vy": 3.0}, {"b_before.yaw_inertia": INF, "b_after.yaw_inertia": INF})
+    yield "restitution, pinned", Question(observed("restitution"), {**seen, **at, **pins}, others)
     for kind in ({"delta_v_a": 6.0}, {"delta_v_b": 6.0}, {"energy_loss": 5e4}, {"ees_a": 6.0, "ees_b": 5.0}):
         numbers = {"mass_a": 1500.0, "mass_b": 1300.0, "restitution": 0.2, **kind}
         yield (

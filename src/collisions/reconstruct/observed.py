@@ -17,7 +17,7 @@ from ..errors import (
     OutOfRangeWarning,
     Status,
 )
-from ..kernels import codes
+from ..kernels import checks, codes
 from ..quiet import warn
 from ..units import Input, Pair, Value
 from ..vehicle import DOMAINS, Vehicle, not_a_vehicle
@@ -224,7 +224,19 @@ def _motions(
                 turning = abs(array[4]) * (abs(inputs[4] - array[5]) + abs(inputs[5] - array[6]))
                 known["speeds"] = known["speeds"] + abs(array[2]) + abs(array[3]) + turning
             found.append(known)
-        return found[0], found[1], cases, [*input_faults({**everything, **kept, "e": e}), *_differences(kept, contact, cases)]
+        faults = [*input_faults({**everything, **kept, "e": e}), *_pivot_faults(kept, named, cases)]
+        return found[0], found[1], cases, [*faults, *_differences(kept, contact, cases)]
+
+
+def _pivot_faults(kept: dict[str, Any], named: dict[str, Any], cases: Cases) -> list[tuple[Any, int]]:
+    """What a pinned vehicle checks of single numbers, of arrays."""
+    faults = []
+    for label in (label for label, body in named.items() if body.pivot is not None):
+        mass, inertia = (kept.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
+        motion = [kept[f"{label}.{name}"] for name in ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")]
+        faults.append((checks.either_infinite(mass, inertia), codes.PINNED_INFINITE))
+        faults.append((checks.not_about_pivot(*motion, _eps(cases)), codes.PINNED_VELOCITY))
+    return faults
 
 
 def _differences(kept: dict[str, Any], contact: Any, cases: Cases) -> list[tuple[Any, int]]:
