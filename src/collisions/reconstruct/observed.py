@@ -25,6 +25,7 @@ from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, plain_err
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 _KEPT = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # what no impulse changes
+_PINNED = ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")  # what a body that turns about its pivot moves by
 _SAME = 1e-9  # relative
 _ANY = Vehicle(mass=1.0)  # in place of bodies that were looked at before
 _STILL_APPROACH = "the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
@@ -233,9 +234,9 @@ def _pivot_faults(kept: dict[str, Any], named: dict[str, Any], cases: Cases) -> 
     faults = []
     for label in (label for label, body in named.items() if body.pivot is not None):
         mass, inertia = (kept.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
-        motion = [kept[f"{label}.{name}"] for name in ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")]
+        vx, vy, yaw_rate, x, y, *pin = (kept[f"{label}.{name}"] for name in _PINNED)
         faults.append((checks.either_infinite(mass, inertia), codes.PINNED_INFINITE))
-        faults.append((checks.not_about_pivot(*motion, _eps(cases)), codes.PINNED_VELOCITY))
+        faults.append((checks.not_about_pivot(vx, vy, yaw_rate, x, y, pin[0], pin[1], _eps(cases)), codes.PINNED_VELOCITY))
     return faults
 
 
