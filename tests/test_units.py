@@ -383,6 +383,7 @@ def test_an_angle_is_no_proportion():
         ("yaw_inertia", "1800 N*m*s**2/rad", "radian"),
         ("x", "3 m/turn", "turn"),
         ("heading", "90 deg*deg", "degree"),
+        ("heading", "3 rad*rad/deg", "radian"),
         ("heading", "1 deg**-1", "degree"),
         ("heading", "1 sr", "steradian"),
         ("yaw_rate", "30 deg**2/s", "degree"),

@@ -173,7 +173,9 @@ def value_checks(asked: Asked, eps: float) -> list[Check]:
             add(None, (vehicle.mass, *inertia), (codes.PINNED_INFINITE, checks.either_infinite))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
             if vehicle.x is not None and vehicle.y is not None:
-                add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=eps)))
+                # In float64, too, a velocity in float32 is no closer.
+                own = checks.rounding(eps, vehicle.vx, vehicle.vy)
+                add(None, motion, (codes.PINNED_VELOCITY, partial(checks.not_about_pivot, eps=own)))
     if isinstance(asked.restitution, np.ndarray):
         add(checks.all_in_unit_interval, (asked.restitution,), (codes.BAD_RESTITUTION, checks.outside_unit_interval))
     if any(isinstance(part, np.ndarray) for part in asked.normal):

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .door import widened
 from .errors import InputError, MissingInputError
 from .fields import lock
 from .kernels.checks import not_about_pivot
@@ -32,7 +33,8 @@ def pinned_velocity(
                 argument=label,
             )
     with np.errstate(all="ignore"):
-        wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, *pin)
+        arrays = (value for value in (mass, yaw_inertia, vx, vy) if isinstance(value, np.ndarray))
+        wanted_x, wanted_y = turning_velocity(*widened((yaw_rate, x, y, *pin), arrays))
         if all(isinstance(value, float) for value in (vx, vy, wanted_x, wanted_y)):
             if not math.isfinite(wanted_x + wanted_y):
                 raise InputError(

@@ -169,6 +169,7 @@ class Vehicle(_Written):
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
             cx, cy = direction(Door(("course",)), course, "course", vehicle._numbers())
+            (magnitude,) = widened((magnitude,), vehicle._numbers())
             with np.errstate(all="ignore"):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
                 _set_vy(vehicle, lock(magnitude * cy + 0.0))

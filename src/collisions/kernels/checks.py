@@ -51,6 +51,11 @@ def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: An
     return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))
 
 
+def rounding(eps: float, *values: Any) -> float:
+    """The coarser of ``eps`` and the rounding of the arrays among the values."""
+    return max(eps, *(float(np.finfo(value.dtype).eps) if isinstance(value, np.ndarray) else EPS for value in values))
+
+
 def all_finite(values: Any) -> bool:
     """Whether an array holds finite numbers only, whose sum is finite too: a single reading."""
     return isfinite(np.add.reduce(values))

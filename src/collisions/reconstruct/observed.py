@@ -234,9 +234,11 @@ def _pivot_faults(kept: dict[str, Any], named: dict[str, Any], cases: Cases) -> 
     faults = []
     for label in (label for label, body in named.items() if body.pivot is not None):
         mass, inertia = (kept.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
-        vx, vy, yaw_rate, x, y, *pin = (kept[f"{label}.{name}"] for name in _PINNED)
+        motion = [kept[f"{label}.{name}"] for name in _PINNED]
+        eps = checks.rounding(_eps(cases), *motion[:2])
+        vx, vy, yaw_rate, x, y, pin_x, pin_y = (np.asarray(value, dtype=np.float64) for value in motion)
         faults.append((checks.either_infinite(mass, inertia), codes.PINNED_INFINITE))
-        faults.append((checks.not_about_pivot(vx, vy, yaw_rate, x, y, pin[0], pin[1], _eps(cases)), codes.PINNED_VELOCITY))
+        faults.append((checks.not_about_pivot(vx, vy, yaw_rate, x, y, pin_x, pin_y, eps), codes.PINNED_VELOCITY))
     return faults
 
 
