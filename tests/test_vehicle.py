@@ -250,3 +250,20 @@ def test_a_distance_and_an_angle_that_do_not_go_together():
     vehicle = col.Vehicle(mass=1100.0, x=10.0, y=5.0, heading=0.0)
     with pytest.raises(col.ShapeError, match=r"distance.*angle"):
         vehicle.point(distance=np.array([1.0, 2.0, 3.0]), angle=np.array([0.1, 0.2]))
+
+
+@pytest.mark.parametrize("cases", [None, 3])
+def test_the_velocity_of_a_pinned_body_agrees_to_1e_9(cases):
+    """Alone and in a batch: half of that beside the velocity about the pivot is as good, twice is another motion."""
+    gate = {"mass": 400.0, "yaw_inertia": 300.0, "x": 0.0, "y": 2.0, "pivot": (0.0, 0.0), "yaw_rate": -5.0}
+    car = col.Vehicle(mass=1000.0, vx=20.0, x=-2.0, y=2.0, yaw_inertia=1500.0)
+
+    def struck(error):
+        vx = 10.0 * (1.0 + error) if cases is None else np.full(cases, 10.0 * (1.0 + error))
+        body = col.Vehicle(**gate, vx=vx)
+        return col.eccentric(car, body, 0.1, normal=0.0, point=(0.0, 2.0), friction=0.1, on_failure="raise")
+
+    assert np.all(struck(0.5e-9).ok)
+    with pytest.raises(col.InputError) as caught:
+        struck(2e-9)
+    assert caught.value.code == "pinned_velocity"
