@@ -42,10 +42,9 @@ import speed_rivals
 import time_resolved
 
 import collisions as col
-from collisions import arguments, reconstruct
+from collisions import models, reconstruct
 from collisions.kernels.eccentric import eccentric as eccentric_kernel
 from collisions.kernels.linear import linear_central as linear_kernel
-from collisions.provenance import MODELS, Again
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -262,18 +261,19 @@ def batch_works(effort: Effort) -> dict[str, Work]:
     works = {RENAMED[old][0]: Work(RENAMED[old][1], call, count) for old, call in batch_speed.works(count).items()}
     scene = speed_errors.traffic(count)
     mixed = batch_speed.states(scene)
-    choice = col.required_model(**mixed, tolerance=speed_errors.TOLERANCE)
+    first = col.solve(**mixed, tolerance=speed_errors.TOLERANCE, on_failure="nan")
+    inputs, choice = first.inputs, first.choice
 
     def by(which: Any) -> Any:
         """``solve`` where the model of every case is known before."""
-        known = Again(replace(choice, _which=which))
-        return lambda: nine(col.solve(**mixed, tolerance=known, on_failure="nan"))
+        known = replace(choice, _which=which)
+        return lambda: nine(col.Impact._solved(inputs, on_failure="nan", choice=known))
 
     alone = {
         f"solve_all_{model}": Work(
             f"`solve`, `{model}` for all, without the prediction", by(np.full_like(choice._which, at)), count
         )
-        for at, model in enumerate(MODELS)
+        for at, model in enumerate(model.name for model in models.MODELS)
     }
     few = max(1, count // 50)
     floats = [tuple(map(float, case)) for case in np.array(speed_rivals.numbers(batch_speed.scenes(few))).T]
@@ -367,7 +367,7 @@ def parts(effort: Effort) -> dict[str, Any]:
     line = [col.Vehicle(mass=1500.0, vx=13.9), col.Vehicle(mass=1200.0, vx=2.0)]
     bodies = [number for car in (a, b) for number in (*(getattr(car, name) for name in batch_speed.BODY), 0.0, 0.0)]
     eccentric = 0.1, math.cos(0.1), math.sin(0.1), 0.5, 0.0, 0.0, *bodies, "friction", "brach", False, False
-    linear = 0.1, 1.0, 0.0, *(number for car in line for number in (car.mass, car.vx, car.vy))
+    linear = 0.1, 1.0, 0.0, *(number for car in line for number in (car.mass, car.vx, car.vy, car.yaw_rate))
     works = {
         "eccentric": Work("", lambda: col.eccentric(a, b, 0.1, normal=0.1, point=(0.0, 0.0), friction=0.5)),
         "eccentric_formulas": Work("", lambda: eccentric_kernel(*eccentric)),
@@ -376,12 +376,12 @@ def parts(effort: Effort) -> dict[str, Any]:
     }
     single = timed(works, effort.rounds, effort.seconds)
     scene = batch_speed.states(batch_speed.scenes(effort.cases))
-    asked = (*scene.values(), None, None, "brach")
+    *asked, friction = scene.values()
     batch = timed(
         {
             "whole": Work("", lambda: batch_speed.library(**scene)),
             "solved": Work("", lambda: col.eccentric(**scene, on_failure="nan")),
-            "arguments": Work("", lambda: arguments.read(*asked)),
+            "arguments": Work("", lambda: models.read("eccentric", *asked, (friction, None, None), "brach")),
         },
         effort.batch_rounds,
         0.0,

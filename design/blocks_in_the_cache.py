@@ -19,14 +19,14 @@ import numpy as np
 from measuring import QUICK, batch_speed, compare
 
 from collisions.kernels.batch import Straight, aligned
-from collisions.kernels.codes import EPS, OUTPUTS
 from collisions.kernels.eccentric import eccentric
 from collisions.kernels.replay import Replay, record
+from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000
 SETTINGS = ("friction", "brach", False, False, EPS)
 TYPES = {"status": np.dtype(np.uint8), "sticks": np.dtype(bool)}
-KINDS = tuple(TYPES.get(name, np.dtype(float)) for name in OUTPUTS)
+KINDS = tuple(TYPES.get(name, np.dtype(float)) for name in Answer._fields)
 
 
 def inputs():

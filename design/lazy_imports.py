@@ -21,7 +21,6 @@ BASE = "import numpy"
 ADDED = {
     "collisions": "import collisions",
     "... and a batch": "import collisions.kernels.batch",
-    "... and solve": "import collisions.scene",
     "... and reconstruct": "import collisions.reconstruct",
     "... and uncertainty": "import collisions.uncertainty",
     "... and diagnose, explain": "import collisions.diagnostics, collisions.derivation",

@@ -15,7 +15,8 @@ from typing import Any
 
 from measuring import col, compare, speed
 
-from collisions.impact import Asked, build
+from collisions.impact import build
+from collisions.inputs import Inputs
 from collisions.kernels.eccentric import eccentric
 
 NUMBERS = (0.1, 1.0, 0.0, 0.5, 0.0, 0.0)
@@ -71,7 +72,7 @@ def body(numbers: dict[str, float]) -> tuple[float, ...]:
 
 INPUTS = (*NUMBERS, *body(speed.BODIES[0]), *body(speed.BODIES[1]), *SETTINGS)
 A, B = (col.Vehicle(**numbers) for numbers in speed.BODIES)
-ASKED = Asked("eccentric", A, B, 0.1, (1.0, 0.0), "friction", 0.5, "brach", (0.0, 0.0))
+QUESTION = Inputs("eccentric", A, B, 0.1, (1.0, 0.0), "friction", 0.5, "brach", (0.0, 0.0))
 
 
 def kernel() -> tuple[Any, ...]:
@@ -81,7 +82,7 @@ def kernel() -> tuple[Any, ...]:
 
 def one_object() -> Any:
     """With the question kept beside it."""
-    return build(ASKED, eccentric(*INPUTS))
+    return build(QUESTION, eccentric(*INPUTS))
 
 
 def half(numbers: dict[str, float], ix: float, iy: float, dvx: float, dvy: float, turn: float) -> Half:

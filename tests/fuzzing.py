@@ -35,7 +35,8 @@ from collisions.derivation import explain
 from collisions.diagnostics.finding import Findings
 from collisions.fields import Quantities
 from collisions.idealisation import LeftOut, LeftOutSide
-from collisions.provenance import ByModel
+from collisions.inputs import Inputs
+from collisions.model_choice import ByModel
 from collisions.reconstruct.fit_parts import Direction, Estimate, Residual, Values
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.side import Side
@@ -61,7 +62,7 @@ def seeds() -> range:
 
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
-GIVEN_BACK = (Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel)
+GIVEN_BACK = (Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs)
 
 
 @cache

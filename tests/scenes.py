@@ -282,6 +282,7 @@ def impacts(
         scene = replace(scene, normal=angle - math.copysign(math.pi, angle))
     if rule == "impulse_ratio" and value is None and draw(st.booleans()):
         limit = jamming_ratio(scene)
-        if math.isfinite(limit):
+        # Beyond, products with a ratio leave the range of floats, and the answer is refused for that.
+        if abs(limit) < 1e6:
             return replace(scene, value=limit * (1.0 - 10.0 ** -draw(st.floats(0.0, 9.0))))
     return scene

@@ -42,7 +42,7 @@ def test_the_picture_sees_imports(picture):
     """Absolute, inside a function and of a whole module; what only type checkers import is left out."""
     found = picture.imports()
     assert found["units"] == {"errors"}  # its other imports are of numpy and pint
-    assert "kernels" in found["errors"]  # from .kernels import codes
+    assert "kernels" in found["errors"]  # from .kernels.status import Status
     assert "records" in found["impact"]  # inside its methods
     assert found["kernels"] == set()
 

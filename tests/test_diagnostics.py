@@ -1414,7 +1414,7 @@ def test_every_other_law_is_asked(monkeypatch):
         asked.append(changes["law"])
         return self
 
-    monkeypatch.setattr(robustness.codes, "LAWS", ("one", *LAWS))
+    monkeypatch.setattr(robustness, "LAWS", ("one", *LAWS))
     monkeypatch.setattr(col.Impact, "_again", noted)
     of("law", impact)
     assert asked == ["one", *(law for law in LAWS if law != impact.law)]

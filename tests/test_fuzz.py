@@ -185,7 +185,7 @@ def look_at_impact(impact: col.Impact) -> None:
     shape, refused = status.shape, status > col.Status.ENERGY_GAIN
     assert np.array_equal(np.asarray(impact.refused), refused)
     assert np.array_equal(np.asarray(impact.ok), status == col.Status.OK)
-    tame = modest(impact.a.before, impact.b.before, impact.point, impact.normal, impact._asked.bound)
+    tame = modest(impact.a.before, impact.b.before, impact.point, impact.normal, impact.inputs.rule_value)
 
     def look(label: str, owner: Any, name: str) -> None:
         value = must_answer(label, lambda: getattr(owner, name))

@@ -184,7 +184,7 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Side", "Impact.case", "Impact.ees", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.case", "Impact.ees", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read back."""

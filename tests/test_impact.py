@@ -6,13 +6,13 @@ import json
 import math
 import pickle
 import weakref
+from dataclasses import FrozenInstanceError, is_dataclass
 
 import numpy as np
 import pytest
 
 import collisions as col
 from collisions.fields import attributes
-from collisions.provenance import Again
 from collisions.reporting import replay
 from collisions.side import Side
 
@@ -83,7 +83,7 @@ def test_columns_are_flat_and_of_one_length():
         assert {len(column) for column in columns.values()} == {np.size(impact.status)}
         assert all(type(v) in (float, int, str, bool) for column in columns.values() for v in column)
         assert columns["status"] == ["ok"] * np.size(impact.status)
-        assert impact._asked.rule in columns
+        assert impact.inputs.rule in columns
         np.testing.assert_array_equal(
             columns["a.after.vx"], np.ravel(np.broadcast_to(impact.a.after.vx, np.shape(impact.status)))
         )
@@ -353,7 +353,8 @@ def test_a_case_of_solve_is_answered_by_its_own_model():
     a, b = A.replace(vx=np.array([20.0, 9.0]), x=-1.0), B.replace(x=2.0)
     contact = {"normal": 0.1, "point": (1.0, 0.3), "friction": 0.2}
     choice = col.required_model(a, b, 0.1, tolerance=np.array([99.0, 0.0]), **contact)
-    many = col.solve(a.replace(vy=5.0), b, 0.1, tolerance=Again(choice), **contact)
+    inputs = col.solve(a, b, 0.1, tolerance=99.0, **contact).inputs._changed(a=a.replace(vy=5.0))
+    many = col.Impact._solved(inputs, choice=choice)
     assert list(many.model) == ["linear_central", "eccentric"]
     for place in (0, 1, -1):
         one = many.case(place)
@@ -457,3 +458,33 @@ def test_only_what_moves_across_is_named():
     with pytest.raises(col.InputError, match="a moves at 3 m/s across it; use") as caught:
         col.linear_central(col.Vehicle(mass=1500, vx=10, vy=3), col.Vehicle(mass=1500), 0.1)
     assert "b moves" not in str(caught.value)
+
+
+def test_inputs_are_what_was_asked():
+    """The question in SI numbers and the texts it was given as, frozen, and equal whatever the texts were."""
+    a, b = A.replace(x=-1.0), B.replace(x=2.0)
+    contact = {"normal": "10 deg", "point": (1.0, "30 cm"), "friction": 0.2}
+    impact = col.eccentric(a, b, "10 %", **contact)
+    inputs = impact.inputs
+    assert is_dataclass(inputs)
+    assert (inputs.model, inputs.a, inputs.b, inputs.restitution) == ("eccentric", a, b, 0.1)
+    assert (inputs.rule, inputs.rule_value, inputs.law, inputs.point) == ("friction", 0.2, "brach", (1.0, 0.3))
+    assert inputs.normal == impact.normal
+    assert inputs.given == {"restitution": "10 %", "normal": "10 deg", "point[1]": "30 cm"}
+    with pytest.raises(FrozenInstanceError):
+        inputs.restitution = 0.2
+    same_numbers = col.eccentric(a, b, 0.1, normal=impact.normal, point=(1.0, 0.3), friction=0.2).inputs
+    assert same_numbers == inputs
+    assert same_numbers != inputs._changed(restitution=0.2)
+    assert pickle.loads(pickle.dumps(inputs)) == inputs
+    with pytest.raises(TypeError):
+        hash(inputs)
+
+
+def test_inputs_of_the_other_solvers():
+    """The linear model has no law and no point, ``solve`` the tolerance that it was given."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0, x=-2.0, y=0.0), col.Vehicle(mass=1200.0, x=2.0, y=0.0)
+    linear = col.linear_central(a, b, 0.2).inputs
+    assert (linear.model, linear.law, linear.point, linear.tolerance) == ("linear_central", None, None, None)
+    least = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="0.36 km/h").inputs
+    assert (least.model, least.tolerance, least.given) == ("solve", 0.1, None)

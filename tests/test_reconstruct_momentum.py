@@ -20,7 +20,7 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct
-from collisions.kernels.codes import EPS
+from collisions.kernels.status import EPS
 
 mp = mpmath.MPContext()
 mp.dps = 50

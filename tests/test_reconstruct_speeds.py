@@ -12,7 +12,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.kernels.roots import PLACES, parabola_roots, quartic_roots
+from collisions.kernels.reverse import PLACES, parabola_roots, quartic_roots
 from collisions.reconstruct import momentum, speeds
 from scenes import LAWS, RULES
 

@@ -8,7 +8,6 @@ the door. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``ec
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .eccentric import eccentric
 from .errors import (
     AmbiguousSolutionError,
     CollisionsError,
@@ -25,9 +24,8 @@ from .errors import (
     SuspectUnitsWarning,
     UnitsError,
 )
-from .impact import SOLVERS, Impact
-from .linear import linear_central
-from .oblique import oblique_central
+from .impact import Impact
+from .solvers import eccentric, linear_central, oblique_central, required_model, solve
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -35,9 +33,8 @@ if TYPE_CHECKING:
     from .derivation import explain
     from .diagnostics import diagnose
     from .idealisation import left_out
-    from .provenance import ModelChoice
+    from .model_choice import ModelChoice
     from .reporting import report
-    from .scene import required_model, solve
     from .schema import impact_schema
 
 __version__ = "0.1.0"
@@ -80,14 +77,12 @@ __all__ = [
 
 # Where to find what not every caller needs, by name.
 _LATER = {
-    "ModelChoice": "provenance",
+    "ModelChoice": "model_choice",
     "diagnose": "diagnostics",
     "explain": "derivation",
     "impact_schema": "schema",
     "left_out": "idealisation",
     "report": "reporting",
-    "required_model": "scene",
-    "solve": "scene",
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
@@ -100,15 +95,6 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = globals()[name] = getattr(import_module(f".{_LATER[name]}", __name__), name)
     return found
-
-
-def _solve(*args: Any, **options: Any) -> Impact:
-    """For a record of ``solve`` that is read before ``solve`` has been imported; that import puts it in this place."""
-    impact: Impact = __getattr__("solve")(*args, **options)
-    return impact
-
-
-SOLVERS["solve"] = _solve
 
 
 def __dir__() -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from .door import Door, broadcast, widened
 from .errors import InputError, ShapeError
-from .kernels.select import select
+from .kernels.elementwise import select
 from .units import Value
 
 

@@ -12,13 +12,9 @@ from typing import Any
 import numpy as np
 
 from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
+from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
 from .quiet import warn
 from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
-
-POSITIVE = "positive"
-FINITE = "finite"
-UNIT_INTERVAL = "unit interval"
-NOT_NEGATIVE = "not negative"
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
@@ -54,7 +50,7 @@ class Door:
             problems=tuple(self.problems),
         )
 
-    def number(self, value: Any, unit: str, argument: str, domain: str = FINITE) -> Any:
+    def number(self, value: Any, unit: str, argument: str, domain: Domain = FINITE) -> Any:
         """A float or a locked float array in the given SI unit; scalars are checked against the domain."""
         try:
             read, text = _read(value, unit, argument)
@@ -285,25 +281,25 @@ def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
     )
 
 
-def _outside(value: float, domain: str, argument: str, given: Any) -> InputError | None:
+def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputError | None:
     """The refusal of a scalar outside its domain, if it is."""
-    if math.isnan(value) and domain in (POSITIVE, FINITE):
+    if math.isnan(value) and (domain is POSITIVE or domain is FINITE):
         return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
-    if domain == POSITIVE and not value > 0.0:
+    if domain is POSITIVE and not value > 0.0:
         return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
-    if domain == UNIT_INTERVAL and not 0.0 <= value <= 1.0:
-        code = "bad_restitution" if argument == "restitution" else "bad_fraction"
+    if (domain is UNIT_INTERVAL or domain is RESTITUTION) and not 0.0 <= value <= 1.0:
+        code = domain.faults[0][1].label
         text = f"{argument} must be from 0 to 1, got {shown(given)}"
         if 1.1 <= value <= 100.0:
             text += f"; if percent were meant, write '{value:g} %'"
         return InputError(text, code=code, argument=argument)
-    if domain == NOT_NEGATIVE and not value >= 0.0:
+    if domain is NOT_NEGATIVE and not value >= 0.0:
         return InputError(
             f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",
             code="bad_friction",
             argument=argument,
         )
-    if domain == FINITE and math.isinf(value):
+    if domain is FINITE and math.isinf(value):
         return InputError(
             f"{argument} must be finite, got {shown(given)}; only mass, yaw_inertia and friction may be inf",
             code="not_finite",

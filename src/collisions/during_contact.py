@@ -11,10 +11,9 @@ from . import pulse
 from .directions import from_radians
 from .fields import hypot, numeric
 from .impact import Impact
-from .kernels import codes
-from .kernels.select import select
-from .kernels.turning import turning_velocity
-from .provenance import MODELS
+from .kernels.contact_laws import BRACH
+from .kernels.elementwise import select, turning_velocity
+from .models import ECCENTRIC, MODELS
 from .side import Side
 
 # Moments that weigh the same in time, as shares of the duration.
@@ -73,7 +72,7 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
     part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
     faster = closing + part * nearer
     # The pull need not be along the normal, which the linear model would refuse; without friction the oblique one is the same.
-    carrying = {"model": "oblique_central", "law": codes.BRACH} if impact._asked.model == "linear_central" else {}
+    carrying = {"model": "oblique_central", "law": BRACH} if impact.inputs.model == "linear_central" else {}
     moved_a, moved_b = (
         side.before._moved(
             side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
@@ -91,7 +90,7 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
     """How far delta-V of each vehicle moves when the geometry is the one of later in the contact; None without a geometry."""
     if point is None:
         return [None] * 2
-    placed = True if impact.choice is None else impact.choice._which == MODELS.index("eccentric")
+    placed = True if impact.choice is None else impact.choice._which == MODELS.index(ECCENTRIC)
     if placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):

@@ -15,7 +15,6 @@ from .units import Value, to_quantity
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
-_ARRAYS = (None,)
 # Declares that the unit is the ``unit`` of the object itself, known only when it is made.
 OWN = "own"
 
@@ -39,7 +38,7 @@ class Derived(Generic[T]):
         cache = getattr(owner, "_cache", None)
         if cache is not None and self.name in cache:
             return cache[self.name]
-        if type(getattr(owner, "_raw", _ARRAYS)[0]) is int:
+        if type(getattr(getattr(owner, "_raw", None), "status", None)) is Status:
             value = self.work_out(owner)
         else:
             # Refused cases are NaN or infinite, and numpy need not say so again.

@@ -16,7 +16,7 @@ from .errors import CollisionsWarning, InputError
 from .fields import Shown, lock, numeric
 from .impact import Impact
 from .kernels.batch import flat, precision
-from .kernels.select import select
+from .kernels.elementwise import select
 from .quiet import quietly, warn_of_cases
 from .travel.chain import GRAVITY, out_of_range
 from .travel.reading import one_value, read_drag

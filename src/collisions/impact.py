@@ -5,75 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .directions import angle_of
-from .door import UNIT_INTERVAL, Door, broadcast, widened
+from .door import Door, broadcast, widened
 from .errors import InputError, NoSolutionError, Status
 from .fields import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
-from .kernels import codes
-from .kernels.checks import outside_unit_interval
-from .kernels.select import select
+from .inputs import Inputs, OnFailure, index_of, part_of
+from .kernels.contact_laws import FRICTION
+from .kernels.elementwise import UNIT_INTERVAL, select
+from .model_choice import ModelChoice, solve_least
+from .models import checked
+from .provenance import Reconstruction
 from .quiet import quietly
 from .side import Side
-from .units import Input, Value, shown
+from .solving import solve
+from .units import Input, Value
 from .vehicle import Vehicle
-
-if TYPE_CHECKING:
-    from .provenance import ModelChoice, Reconstruction
-
-# The solver of each model, entered by the module that defines it.
-SOLVERS: dict[str, Callable[..., Impact]] = {}
-# The same, for reverse solvers: with the closing speed and the slip before, of which rounded motions lose digits.
-SOLVERS_FROM_CONTACT: dict[str, Callable[..., Impact]] = {}
-
-
-class Asked(NamedTuple):
-    """What a solver was asked, in numbers: enough to ask it again.
-
-    ``given`` has the texts of what was given with a unit, by argument, and an angle of more than a turn that had none.
-    """
-
-    model: str
-    a: Vehicle
-    b: Vehicle
-    restitution: Value
-    normal: tuple[Value, Value]
-    rule: str
-    bound: Value
-    law: str | None
-    point: tuple[Value, Value] | None
-    given: Mapping[str, Any] | None = None
-
-    @property
-    def bare_normal(self) -> Any:
-        """The normal as an angle of more than a turn that was given without a unit; None for any other."""
-        normal = None if self.given is None else self.given.get("normal")
-        return None if isinstance(normal, str) else normal
-
-    def ask(self, contact_velocity: tuple[Value, Value] | None = None, **options: Any) -> Impact:
-        """Put the question to its solver again, where it is known with the closing speed and the slip before."""
-        e = self.restitution
-        unknown = type(e) is float and e != e
-        if contact_velocity is not None and self.model in SOLVERS_FROM_CONTACT and not unknown:
-            return SOLVERS_FROM_CONTACT[self.model](self, contact_velocity, **options)
-        arguments: dict[str, Any] = {"normal": self.normal, **options}
-        if self.law is not None:
-            arguments |= {self.rule: self.bound, "law": self.law}
-        # ``solve`` is also asked without a point, where none is needed.
-        if self.point is not None or self.model == "solve":
-            arguments["point"] = self.point
-        if unknown:
-            # The restitution that a reverse solver looked for and did not find, which no solver takes.
-            impact = SOLVERS[self.model](self.a, self.b, 0.0, **arguments)
-            impact = build(impact._asked._replace(restitution=e), unanswered(codes.OUT_OF_RANGE))
-        else:
-            impact = SOLVERS[self.model](self.a, self.b, e, **arguments)
-        if self.given is not None:
-            _set_asked(impact, impact._asked._replace(given=self.given))
-        return impact
 
 
 class Impact:
@@ -89,11 +39,13 @@ class Impact:
     an answer.
     """
 
-    __slots__ = ("_asked", "_cache", "_raw")
+    __slots__ = ("_cache", "_raw", "inputs")
+
+    inputs: Inputs
+    """What was asked: the vehicles, restitution, normal, point, what was said of the tangent, and how each was given."""
 
     _cache: dict[str, Any]
-    _asked: Asked
-    _raw: tuple[Any, ...]
+    _raw: Any
 
     def __init__(self) -> None:
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
@@ -106,39 +58,39 @@ class Impact:
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self._asked, self._raw, 0, self._cache.get("choice"))
+        return Side(self.inputs, self._raw, 0, self._cache.get("choice"))
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self._asked, self._raw, 1, self._cache.get("choice"))
+        return Side(self.inputs, self._raw, 1, self._cache.get("choice"))
 
     @derived()
     def model(self) -> Any:
         """The solver used: "linear_central", "oblique_central" or "eccentric"; an array of them in a batch of ``solve``."""
-        return self._asked.model if self.choice is None else self.choice.model
+        return self.inputs.model if self.choice is None else self.choice.model
 
     @derived()
     def law(self) -> str | None:
         """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model, of ``solve`` as
         asked.
         """
-        return self._asked.law
+        return self.inputs.law
 
     @derived("")
     def restitution(self) -> Value:
         """Coefficient of restitution e."""
-        return self._asked.restitution
+        return self.inputs.restitution
 
     @derived("")
     def friction(self) -> Value | None:
         """Coulomb friction bound as used, of ``solve`` as asked; None when a ratio or a critical fraction was given."""
-        return self._asked.bound if self._asked.rule == codes.FRICTION else None
+        return self.inputs.rule_value if self.inputs.rule == FRICTION else None
 
     @derived("m")
     def point(self) -> tuple[Value, Value] | None:
         """Contact point (x, y) [m]; None for the central models, of ``solve`` as asked."""
-        return self._asked.point
+        return self.inputs.point
 
     @derived()
     def choice(self) -> ModelChoice | None:
@@ -153,7 +105,7 @@ class Impact:
     @derived("")
     def normal(self) -> tuple[Value, Value]:
         """Unit vector (nx, ny) from A into B; may be given as ``normal=`` again."""
-        return self._asked.normal
+        return self.inputs.normal
 
     @derived("rad")
     def normal_angle(self) -> Value:
@@ -282,7 +234,7 @@ class Impact:
         """
         door = Door()
         share = door.number(share_a, "", "share_a", UNIT_INTERVAL)
-        if isinstance(share, np.ndarray) and outside_unit_interval(share).any():
+        if isinstance(share, np.ndarray) and not UNIT_INTERVAL.holds(share.ravel()):
             door.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
         door.close()
         energy = self.energy_absorbed
@@ -322,12 +274,12 @@ class Impact:
 
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
-        rule, bound, sticks = self._asked.rule, self._asked.bound, self._raw[codes.AT["sticks"]]
+        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self._raw.sticks
         if isinstance(sticks, np.ndarray):
-            if rule != codes.FRICTION:
+            if rule != FRICTION:
                 found = np.full(sticks.shape, "given", dtype="U12")
             else:
-                moving = np.where(np.equal(bound, 0.0), "frictionless", "sliding")
+                moving = np.where(np.equal(value, 0.0), "frictionless", "sliding")
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
             if self.choice is not None:
                 found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
@@ -336,28 +288,28 @@ class Impact:
             return ""
         if self.choice is not None and self.model == "linear_central":
             return "frictionless"
-        if rule != codes.FRICTION:
+        if rule != FRICTION:
             return "given"
-        return "sticking" if sticks else "frictionless" if bound == 0.0 else "sliding"
+        return "sticking" if sticks else "frictionless" if value == 0.0 else "sliding"
 
     @derived()
     def status(self) -> Any:
         """Outcome: a Status, whose ``sentence`` explains it; in a batch an array of its codes."""
-        code = self._raw[0]
+        code = self._raw.status
         return code if isinstance(code, np.ndarray) else Status(code)
 
     @derived()
     def ok(self) -> Any:
         """Whether the case was answered without an energy gain."""
-        return self._raw[0] == codes.OK
+        return self._raw.status == Status.OK
 
     @derived()
     def refused(self) -> Any:
         """Whether the case was refused, so that its numbers are NaN."""
-        return self._raw[0] > codes.ENERGY_GAIN
+        return self._raw.status > Status.ENERGY_GAIN
 
     def _output(self, name: str) -> Value:
-        value: Value = self._raw[codes.AT[name]]
+        value: Value = getattr(self._raw, name)
         return value
 
     def _answered(self, value: Any) -> Value:
@@ -365,16 +317,38 @@ class Impact:
         answered: Value = select(self.refused, math.nan, value)
         return answered
 
+    @classmethod
+    def _solved(
+        cls,
+        inputs: Inputs,
+        plain: bool = False,
+        on_failure: Any = None,
+        threads: Any = 1,
+        progress: Any = None,
+        choice: ModelChoice | None = None,
+    ) -> Impact:
+        """The answer to the inputs; ``plain`` as for ``solve``, ``choice`` that of a model that was chosen before."""
+        if inputs.model != "solve":
+            return build(inputs, solve(inputs, plain, on_failure, threads, progress))
+
+        raw, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
+        impact = build(inputs, raw)
+        impact._cache["choice"] = choice._where_answered(impact.refused)
+        return impact
+
     def _again(self, **changes: Any) -> Impact:
-        """The answer of the same model to the same question with some of it changed, NaN where it is refused.
+        """The answer of the same model to the same inputs with some of them changed, NaN where it is refused.
 
         What is to be said of refused cases and of energy was said of the impact itself.
         """
-        from .provenance import Again
-
-        options: dict[str, Any] = {} if self.choice is None else {"tolerance": Again(self.choice)}
         with quietly():
-            return self._asked._replace(**changes, given=None).ask(on_failure="nan", **options)
+            return self._solved(self.inputs._changed(**changes, given=None), on_failure="nan", choice=self.choice)
+
+    def _with(self, a: Vehicle, b: Vehicle) -> Impact:
+        """The same answer with vehicles that differ in name or in how their numbers were given."""
+        impact = build(self.inputs._changed(a=a, b=b), self._raw)
+        impact._cache.update({name: getattr(self, name) for name in ("reconstruction", "choice")})
+        return impact
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
@@ -401,9 +375,7 @@ class Impact:
         >>> many.case(1).b.after
         Vehicle(mass=1200 kg, vx=9.16667 m/s)
         """
-        from .cases import place_of
-
-        place = place_of(index, self.status.shape if isinstance(self.status, np.ndarray) else None)
+        place = index_of(index, self.status.shape if isinstance(self.status, np.ndarray) else None)
         if self.reconstruction is not None and self.refused[place]:
             status = Status(self.status[place])
             raise NoSolutionError(
@@ -413,21 +385,13 @@ class Impact:
             )
         return self._part(lambda value: np.broadcast_to(value, self.status.shape)[place].item())
 
-    def _part(self, take: Callable[[Any], Any], **options: Any) -> Impact:
+    def _part(self, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
         """Some cases of a batch, asked again: those that ``take`` takes of every array."""
-        from .cases import part_of, question_of
-
-        asked, origin = question_of(self._asked, take), self.reconstruction
-        if self.choice is not None:
-            from .provenance import Again
-
-            options["tolerance"] = Again(part_of(self.choice, take))
-        if origin is None:
-            impact: Impact = asked.ask(**options)
-            return impact
-        origin = part_of(origin, take)
-        impact = asked.ask(origin.contact_velocity, **options)
-        return found_by(origin, asked, impact._raw, take(self.status))
+        origin = self.reconstruction
+        inputs = checked(self.inputs._part(take), found=origin is not None)
+        choice = None if self.choice is None else self.choice._part(take, inputs)
+        impact = self._solved(inputs, on_failure=on_failure, choice=choice)
+        return impact if origin is None else found_by(part_of(origin, take), inputs, impact._raw, take(self.status))
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
@@ -440,17 +404,12 @@ class Impact:
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
         from .records import bad_record, from_record
 
-        question, options, origin, status = from_record(record)
-        if question["model"] not in SOLVERS:
-            raise bad_record(f"its model is {shown(question['model'])}; known are {', '.join(SOLVERS)}")
+        inputs, on_failure, origin, status = from_record(record)
         try:
-            asked = Asked(**question)
-            if origin is None:
-                return asked.ask(**options)
-            impact = asked.ask(origin.contact_velocity, **options)
-            return found_by(origin, impact._asked, impact._raw, status)
+            impact = cls._solved(inputs, on_failure=on_failure)
         except TypeError as error:
-            raise bad_record(f"its inputs are not those of {question['model']}") from error
+            raise bad_record(f"its inputs are not those of {inputs.model}") from error
+        return impact if origin is None else found_by(origin, inputs, impact._raw, status)
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
@@ -461,9 +420,7 @@ class Impact:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):
             return NotImplemented
-        # How a number was written does not make it another.
-        one, two = (asked._replace(given=None) for asked in (self._asked, other._asked))
-        return all(map(same, one, two)) and all(map(same, self._raw, other._raw))
+        return self.inputs == other.inputs and all(map(same, self._raw, other._raw))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an Impact is frozen: {name} cannot be set")
@@ -472,7 +429,7 @@ class Impact:
         raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self._asked, self._raw, {name: self._cache.get(name) for name in ("reconstruction", "choice")})
+        return _rebuild, (self.inputs, self._raw, {name: self._cache.get(name) for name in ("reconstruction", "choice")})
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -492,38 +449,33 @@ class Impact:
         return table(f"Impact ({self.model})", iter(rows))
 
 
-_set_asked, _set_raw, _set_cache = (vars(Impact)[name].__set__ for name in ("_asked", "_raw", "_cache"))
+_set_inputs, _set_raw, _set_cache = (vars(Impact)[name].__set__ for name in ("inputs", "_raw", "_cache"))
 
 
-def build(asked: Asked, raw: tuple[Any, ...]) -> Impact:
-    """An Impact from what was asked, in the order of its attributes, and what the kernel answered."""
+def build(inputs: Inputs, raw: Any) -> Impact:
+    """An Impact from its inputs and what the kernel answered."""
     impact: Impact = object.__new__(Impact)
-    _set_asked(impact, asked)
+    _set_inputs(impact, inputs)
     _set_raw(impact, raw)
     _set_cache(impact, {})
     return impact
 
 
-def unanswered(status: int) -> tuple[Any, ...]:
-    """What a kernel would answer of a case that was refused."""
-    return status, *(False if name == "sticks" else math.nan for name in codes.OUTPUTS[1:])
-
-
-def found_by(origin: Reconstruction, asked: Asked, raw: tuple[Any, ...], status: Any) -> Impact:
+def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:
     """An Impact that a reverse solver found; where that gave no answer, its status says why."""
-    code = raw[0]
+    code = raw.status
     if isinstance(code, np.ndarray):
-        code = np.where((code > codes.ENERGY_GAIN) & np.not_equal(status, codes.OK), status, code).astype(code.dtype)
-    elif code > codes.ENERGY_GAIN and status != codes.OK:
-        code = int(status)
-    impact = build(asked, (lock(code), *raw[1:]))
+        code = np.where((code > Status.ENERGY_GAIN) & np.not_equal(status, Status.OK), status, code).astype(code.dtype)
+    elif code > Status.ENERGY_GAIN and status != Status.OK:
+        code = Status(status)
+    impact = build(inputs, raw._replace(status=lock(code)))
     impact._cache["reconstruction"] = origin._where_answered(code)
     return impact
 
 
-def _rebuild(asked: Asked, raw: tuple[Any, ...], provenance: dict[str, Any]) -> Impact:
+def _rebuild(inputs: Inputs, raw: Any, provenance: dict[str, Any]) -> Impact:
     """An unpickled Impact; arrays come out of a pickle unlocked."""
-    impact = build(lock(asked), lock(raw))
+    impact = build(inputs, lock(raw))
     for found in provenance.values():
         if found is not None:
             lock(tuple(getattr(found, f.name) for f in fields(found)))

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .directions import from_radians
-from .door import POSITIVE, Door, warn_if_large
+from .door import Door, warn_if_large
 from .errors import InputError, ShapeError
+from .kernels.elementwise import POSITIVE
 from .units import has_unit, is_quantity, shown
 from .vehicle import Vehicle
 

@@ -10,8 +10,7 @@ import numpy as np
 from .door import widened
 from .errors import InputError, MissingInputError
 from .fields import lock
-from .kernels.checks import not_about_pivot
-from .kernels.turning import turning_velocity
+from .kernels.elementwise import not_about_pivot, turning_velocity
 
 
 def pinned_velocity(

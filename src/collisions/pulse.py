@@ -11,7 +11,7 @@ import math
 from typing import Any
 
 from .fields import numeric
-from .kernels.select import divisor, select
+from .kernels.elementwise import safe_divisor, select
 
 _QUARTER = 0.5 * math.pi
 
@@ -33,7 +33,7 @@ def passed(e: Any, share: float) -> Any:
     compressing = 1.0 - xp.cos(_QUARTER * phase)
     # Not before restitution: over the least restitution that would be infinite, which has no sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
-    restoring = 1.0 + e * xp.sin(_QUARTER * (late / divisor(True, e)))
+    restoring = 1.0 + e * xp.sin(_QUARTER * (late / safe_divisor(True, e)))
     return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
 
 

@@ -9,22 +9,27 @@ from typing import Any
 
 import numpy as np
 
+from .amounts import amount
 from .directions import direction, from_radians
 from .door import Door
 from .errors import InputError, Status
 from .fields import attributes, lock
-from .kernels import codes
-from .provenance import ModelChoice, Reconstruction
+from .inputs import Inputs
+from .kernels.contact_laws import RULES
+from .model_choice import ModelChoice
+from .models import MODELS, checked
+from .provenance import Reconstruction
 from .side import Side
 from .units import shown
 from .vehicle import NAMES, Vehicle
 
 FORMAT = "collisions impact 1"
 _NOTHING = dict.fromkeys(NAMES)
-_NUMBERS = ("restitution", "normal", "bound", "point")
+_NUMBERS = ("restitution", "normal", "rule_value", "point")
 _MOTION = ("vx", "vy", "yaw_rate")
 _LABELS = ("model", "rule", "law")
 _GIVEN = "given_as"  # texts, and a normal of more than a turn as the number without a unit that it was
+_SOLVERS = (*(model.name for model in MODELS), "solve")
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 # What a reverse solver may be told beside the contact, by its name.
 _ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
@@ -41,7 +46,7 @@ _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 def to_record(impact: Any) -> dict[str, Any]:
     """Inputs to ask it again from, and every result to read."""
-    asked = impact._asked
+    asked = impact.inputs
     inputs = {name: _strict(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
     if asked.given is not None:
         inputs[_GIVEN] = _strict(asked.given)
@@ -53,47 +58,54 @@ def to_record(impact: Any) -> dict[str, Any]:
     }
 
 
-def from_record(record: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], Reconstruction | None, Any]:
-    """The question of a record by its parts, the options to ask it with, what found it, and its status."""
+def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
+    """The inputs of a record, read as a caller's are, what to do on failure, what found it, and its status."""
     try:
         if not isinstance(record["format"], str) or record["format"] != FORMAT:
             raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
-        inputs = record["inputs"]
-        question = {name: inputs[name] for name in _LABELS} | {name: _number(inputs[name]) for name in _NUMBERS}
-        if question["rule"] not in codes.RULES or not isinstance(question["model"], str):
-            raise bad_record(f"its model is {shown(question['model'])} and its rule {shown(question['rule'])}")
+        found = record["inputs"]
+        question = {name: found[name] for name in _LABELS} | {name: _number(found[name]) for name in _NUMBERS}
+        model, rule = question["model"], question["rule"]
+        if rule not in RULES or not isinstance(model, str):
+            raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
+        if model not in _SOLVERS:
+            raise bad_record(f"its model is {shown(model)}; known are {', '.join(_SOLVERS)}")
         status = record["results"]["status"]
         listed = status["values"] if isinstance(status, Mapping) else [status]
         refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
-        options: dict[str, Any] = {"on_failure": "nan"} if refused else {}
         choice = record["results"]["choice"]
-        if choice is not None:
-            options["tolerance"] = _number(choice["tolerance"])
         origin = record["results"]["reconstruction"]
-        if _GIVEN in inputs:
+        given = None
+        if _GIVEN in found:
             # A reverse solver that gave no answer does not hold all that it was told.
             lost = np.array(listed) > Status.ENERGY_GAIN if origin is not None else np.zeros(len(listed), dtype=bool)
             lost = lost.reshape(status["shape"] if isinstance(status, Mapping) else ())
-            question["given"] = _given(inputs[_GIVEN], question, "" if origin is None else str(origin["method"]), lost)
+            given = _given(found[_GIVEN], question, "" if origin is None else str(origin["method"]), lost)
         if origin is not None:
             known = tuple(str(name) for name in origin["known"])
             condition, answers = _number(origin["condition"]), _count(origin.get("answers", 1))
             status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
+            velocity = _contact_velocity(origin.get("contact_velocity"), np.shape(status))
             origin = Reconstruction(
-                method=str(origin["method"]),
-                known=known,
-                condition=condition,
-                answers=answers,
-                contact_velocity=_contact_velocity(origin.get("contact_velocity"), np.shape(status)),
+                method=str(origin["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
             )
+        vehicles = []
         for side in "ab":
-            state = {name: _number(value) for name, value in inputs[side].items() if value is not None and name != "name"}
-            question[side] = _vehicle({**_NOTHING, **state, "name": inputs[side]["name"]}, refused and origin is not None)
+            state = {name: _number(value) for name, value in found[side].items() if value is not None and name != "name"}
+            vehicles.append(_vehicle({**_NOTHING, **state, "name": found[side]["name"]}, refused and origin is not None))
+        door = Door()
+        tolerance = None if choice is None else amount(door, _number(choice["tolerance"]), "m/s", "tolerance")
+        door.close()
+        point, law = question["point"], question["law"]
+        a, b = vehicles
+        contact = question["restitution"], question["normal"], rule, question["rule_value"]
+        velocity = None if origin is None else origin.contact_velocity
+        inputs = checked(Inputs(model, a, b, *contact, law, point, given, tolerance, velocity), found=origin is not None)
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
-    return question, options, origin, status
+    return inputs, "nan" if refused else None, origin, status
 
 
 def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
@@ -113,7 +125,7 @@ def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, 
         raise bad_record("how its inputs were given is no dict of texts")
     numbers = {"restitution": (question["restitution"], ""), "normal": (question["normal"], "rad")}
     if question["law"] is not None:
-        numbers[question["rule"]] = question["bound"], ""
+        numbers[question["rule"]] = question["rule_value"], ""
     numbers |= {f"point[{i}]": (part, "m") for i, part in enumerate(question["point"] or ())}
     stray = [name for name in given if name not in numbers and name not in _TOLD.get(method, ())]
     if stray:
@@ -156,8 +168,8 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
     columns: dict[str, Any] = {}
     for name, value in _results(impact):
         _add(columns, name, value)
-    columns["status"] = np.array([status.label for status in Status])[impact._raw[0]]
-    columns[impact._asked.rule] = impact._asked.bound
+    columns["status"] = np.array([status.label for status in Status])[impact._raw.status]
+    columns[impact.inputs.rule] = impact.inputs.rule_value
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in ("before", "after", "at_compression"):
             vehicle = getattr(side, moment)
@@ -165,7 +177,7 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
                 _add(columns, f"{label}.{moment}.{name}", getattr(vehicle, name))
         for name, value in _results(side):
             _add(columns, f"{label}.{name}", value)
-    shape = np.shape(impact._raw[0])
+    shape = np.shape(impact._raw.status)
     return {name: np.broadcast_to(np.asarray(value), shape).reshape(-1).tolist() for name, value in columns.items()}
 
 

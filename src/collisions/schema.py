@@ -8,15 +8,23 @@ from typing import Any
 
 from .errors import Status
 from .fields import attributes
-from .impact import SOLVERS, Asked, Impact
-from .kernels import codes
-from .provenance import MODELS, Reconstruction
+from .impact import Impact
+from .inputs import Inputs
+from .kernels.contact_laws import LAWS, RULES
+from .models import MODELS
+from .provenance import Reconstruction
 from .records import FORMAT
 from .side import Side
 from .vehicle import Vehicle
 
 __all__ = ["impact_schema"]
 
+_MODELS = [model.name for model in MODELS]
+_INPUTS = {f.name for f in fields(Inputs)}
+_MODELS = [model.name for model in MODELS]
+_INPUTS = {f.name for f in fields(Inputs)}
+_MODELS = [model.name for model in MODELS]
+_INPUTS = {f.name for f in fields(Inputs)}
 _PRECISIONS = ["float32", "float64"]
 _KINDS = ["elastic", "elastoplastic", "plastic", ""]
 _REGIMES = ["frictionless", "sliding", "sticking", "given", ""]
@@ -71,7 +79,7 @@ def impact_schema() -> dict[str, Any]:
             "side": _closed({name: _attribute(Side, name) for name in attributes(Side) if name != "before"}),
             "choice": _closed(
                 {
-                    "model": _each({"enum": list(MODELS)}),
+                    "model": _each({"enum": _MODELS}),
                     "reason": {"type": "string"},
                     "errors": _by_model({"$ref": "#/$defs/value"}),
                     "missing": _by_model({"type": "array", "items": {"type": "string"}}),
@@ -87,17 +95,17 @@ def _inputs() -> dict[str, Any]:
     """The question: a law and a point are given for the models that know them, and only for those."""
     value, pair, vehicle = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "vehicle"))
     asked = {
-        "model": {"enum": sorted(SOLVERS), "description": "The solver that was asked."},
+        "model": {"enum": sorted([*_MODELS, "solve"]), "description": "The solver that was asked."},
         "a": vehicle,
         "b": vehicle,
         "restitution": value,
         "normal": {**pair, "description": "Unit vector from A into B."},
-        "rule": {"enum": list(codes.RULES), "description": "What was said of the tangent, ..."},
-        "bound": {**value, "description": "... and its value."},
-        "law": {"enum": [*codes.LAWS, None]},
+        "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
+        "rule_value": {**value, "description": "... and its value."},
+        "law": {"enum": [*LAWS, None]},
         "point": {"anyOf": [pair, {"type": "null"}], "description": "Contact point [m]."},
     }
-    question = _closed({name: asked[name] for name in Asked._fields if name != "given"})
+    question = _closed(asked)
     question["properties"]["given_as"] = {
         "type": "object",
         "properties": {"normal": {"anyOf": [{"type": "string"}, value]}},
@@ -116,7 +124,7 @@ def _inputs() -> dict[str, Any]:
 def _results() -> dict[str, Any]:
     """Every attribute of an impact that its inputs do not give already."""
     side = {"$ref": "#/$defs/side"}
-    found = {name: _attribute(Impact, name) for name in attributes(Impact) if name not in Asked._fields}
+    found = {name: _attribute(Impact, name) for name in attributes(Impact) if name not in _INPUTS}
     return _closed(found | {"a": side, "b": side})
 
 
@@ -146,7 +154,7 @@ def _closed(properties: dict[str, Any]) -> dict[str, Any]:
 
 
 def _by_model(value: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "object", "propertyNames": {"enum": list(MODELS)}, "additionalProperties": value}
+    return {"type": "object", "propertyNames": {"enum": _MODELS}, "additionalProperties": value}
 
 
 def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,14 +11,11 @@ from .directions import Angle, angle_of
 from .door import Door, broadcast, widened
 from .errors import MissingInputError
 from .fields import Quantities, attributes, derived, hypot, returns, show, table
-from .kernels import codes
-from .kernels.select import select
+from .inputs import Inputs
+from .kernels.elementwise import select
+from .model_choice import ModelChoice
 from .units import Pair, Value
 from .vehicle import Vehicle, missing
-
-if TYPE_CHECKING:
-    from .impact import Asked
-    from .provenance import ModelChoice
 
 
 class Side:
@@ -28,19 +25,21 @@ class Side:
     PDOF. Values are floats, or arrays in a batch.
     """
 
-    __slots__ = ("_asked", "_cache", "_choice", "_index", "_raw")
+    __slots__ = ("_cache", "_choice", "_index", "_inputs", "_raw")
 
-    def __init__(self, asked: Asked, raw: tuple[Any, ...], index: int, choice: ModelChoice | None) -> None:
+    def __init__(self, inputs: Inputs, raw: Any, index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
-        self._asked = asked
+        self._inputs = inputs
         self._raw = raw
         self._index = index
         self._choice = choice
         self._cache: dict[str, Any] = {}
 
     def _change(self) -> tuple[Value, Value, Value]:
-        first = codes.AT["delta_vx_b"] if self._index else codes.AT["delta_vx_a"]
-        return self._raw[first], self._raw[first + 1], self._raw[first + 2]
+        raw = self._raw
+        if self._index:
+            return raw.delta_vx_b, raw.delta_vy_b, raw.delta_yaw_rate_b
+        return raw.delta_vx_a, raw.delta_vy_a, raw.delta_yaw_rate_a
 
     @property
     def q(self) -> Any:
@@ -50,7 +49,7 @@ class Side:
     @derived()
     def before(self) -> Vehicle:
         """The vehicle just before contact."""
-        return self._asked.b if self._index else self._asked.a
+        return self._inputs.b if self._index else self._inputs.a
 
     @derived()
     def after(self) -> Vehicle:
@@ -62,7 +61,7 @@ class Side:
     def at_compression(self) -> Vehicle:
         """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
         before, (dvx, dvy, dw) = self.before, self._change()
-        whole = 1.0 + self._asked.restitution
+        whole = 1.0 + self._inputs.restitution
         return before._moved(before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
 
     @derived("m/s")
@@ -168,12 +167,12 @@ class Side:
             return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
-        x, y = self._raw[codes.AT["impulse_x"]], self._raw[codes.AT["impulse_y"]]
+        x, y = self._raw.impulse_x, self._raw.impulse_y
         return (x, y) if self._index else (-x, -y)
 
     def _at_contact(self) -> tuple[Value, Value, Value, Value]:
         """Velocity before, and its change, of what the impulse acts on: the contact point, in a central model the centre."""
-        before, place = self.before, self._asked.point
+        before, place = self.before, self._inputs.point
         motion = before.vx, before.vy, self.delta_vx, self.delta_vy
         # ``solve`` keeps the point it was given, also where it took a central model.
         turns = True if self._choice is None else self._choice.model == "eccentric"

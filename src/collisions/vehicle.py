@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 
 from .directions import Angle, angle_of, direction
-from .door import FINITE, POSITIVE, Door, broadcast, widened
+from .door import Door, broadcast, widened
 from .errors import InputError, MissingInputError
 from .fields import Quantities, derived, hypot, lock, returns, same, show, table
-from .kernels.select import select
-from .kernels.turning import turning_velocity
+from .kernels.elementwise import FINITE, POSITIVE, select, turning_velocity
 from .units import Input, Pair, Value, shown
 
 _isfinite = math.isfinite

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.contact_laws import RULES
 from ..vehicle import Vehicle
 from .expressions import Function
 from .letters import Contact, letter
@@ -64,7 +64,7 @@ def given(page: Page, impact: Impact) -> None:
         name = f"{label} ({page.name(vehicle.name)})" if vehicle.name and vehicle.name != label else label
         rows += [(name, what, text) for what, text in _vehicle(page, vehicle)]
     direction = page.number(impact.normal_angle, "angle")
-    bare = impact._asked.bare_normal
+    bare = impact.inputs.bare_normal
     if bare is not None:
         direction += f", given as {bare:.6g} without a unit"
     rows.append(("contact", "normal, direction from A into B", direction))
@@ -72,13 +72,8 @@ def given(page: Page, impact: Impact) -> None:
         rows.append(("contact", "contact point (x, y)", ", ".join(page.number(part, "length") for part in impact.point)))
     rows.append(("contact", "restitution e", page.number(impact.restitution, "number")))
     if impact.model != "linear_central":
-        names = {
-            codes.FRICTION: "friction (bound on the impulse ratio)",
-            codes.IMPULSE_RATIO: "impulse ratio",
-            codes.CRITICAL_FRACTION: "critical fraction",
-        }
-        bound = impact._asked.bound
-        rows.append(("contact", names[impact._asked.rule], page.number(bound, "number")))
+        value = page.number(impact.inputs.rule_value, "number")
+        rows.append(("contact", RULES[impact.inputs.rule].meaning, value))
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     page.table(("of", "quantity", "value"), rows)
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from ..eccentric import body_numbers
 from ..impact import Impact
 from ..kernels.eccentric import response
+from ..models import body_numbers
 from .energy import energy
 from .expressions import Expression, Symbol, total
 from .letters import AFTER, BEFORE, COMPRESSED, Body, Contact, bodies, letter

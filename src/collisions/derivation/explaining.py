@@ -12,7 +12,7 @@ from ..errors import InputError, ShapeError, Status
 from ..impact import Impact
 from ..one_case import need_one_case
 from ..reconstruct import Fit, MomentumSolution
-from ..reconstruct.outcome import plain_error
+from ..solving import error_of
 from ..uncertainty.result import Propagation
 from ..unit_systems import SI_UNITS, UnitSystem, bad_system
 from ..units import shown
@@ -103,7 +103,7 @@ def explain(
     if problem is not None:
         raise problem
     _allowed("form", form, _FORMS)
-    need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=plain_error)
+    need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of)
     system = System(units)
     if isinstance(impact, Fit):
         if uncertainty is not None:

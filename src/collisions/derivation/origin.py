@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..impact import Impact
-from ..kernels.central import shares
+from ..kernels.linear import shares
 from ..provenance import Reconstruction
 from .eccentric import Lever
 from .expressions import HALF, Expression, Symbol, root

@@ -6,16 +6,10 @@ import math
 from typing import NamedTuple
 
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
 from .expressions import Expression, Symbol, over
 from .letters import Contact, letter
 from .page import Page
-
-NO_SLIP = {
-    codes.BRACH: 'no slip is left at separation (law "brach")',
-    codes.KUDLICH_SLIBAR: "the contact is at rest at the end of compression and the whole compression impulse is multiplied by "
-    '1 + e (law "kudlich-slibar"), which turns the slip around and leaves e times as much',
-}
 
 
 class Mobility(NamedTuple):
@@ -28,27 +22,27 @@ class Mobility(NamedTuple):
 
 def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
     """Both components of the impulse on B."""
-    rule, bound = impact._asked.rule, impact._asked.bound
+    rule, bound = impact.inputs.rule, impact.inputs.rule_value
     change = (1.0 + contact.e) * contact.closing
     if math.isnan(contact.critical.value):
         page.say(
             "The contact has one degree of freedom, so the impulse that just stops the slip and the critical impulse ratio are "
             "not defined."
         )
-    if rule == codes.FRICTION and bound == 0.0:
+    if rule == FRICTION and bound == 0.0:
         page.say(f"Without friction the impulse is along the normal alone, as in the paper: {page.shown(contact.tangential)}.")
         page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
-    if rule == codes.IMPULSE_RATIO:
+    if rule == IMPULSE_RATIO:
         page.say(f"The impulse ratio was given: {page.shown(contact.ratio)}, tangential over normal, signed.")
         _at_ratio(page, contact, change, k)
         return
-    if rule == codes.CRITICAL_FRACTION and bound == 0.0:
+    if rule == CRITICAL_FRACTION and bound == 0.0:
         page.say(f"A critical fraction of 0 leaves no tangential impulse: {page.shown(contact.tangential)}.")
         page.equation("Normal impulse", contact.normal, over(change, k.normal))
         return
     _without_slip(page, impact, contact, k)
-    if rule == codes.CRITICAL_FRACTION:
+    if rule == CRITICAL_FRACTION:
         fraction = letter("f", "f", bound, "number")
         page.say(f"The critical fraction was given: {page.shown(fraction)} of the ratio that just stops the slip.")
         page.equation("Impulse ratio", contact.ratio, fraction * contact.critical)
@@ -63,9 +57,9 @@ def _without_slip(page: Page, impact: Impact, contact: Contact, k: Mobility) -> 
     e, s = contact.e, contact.slip
     page.say(
         f"The impulse that just stops the slip has the components {page.letter(ns)} and {page.letter(ts)}: with it, "
-        f"{NO_SLIP[impact.law or codes.BRACH]}."
+        f"{LAWS[impact.law or BRACH].derivation}."
     )
-    wanted = -s if impact.law == codes.BRACH else -((1.0 + e) * s)
+    wanted = -s if impact.law == BRACH else -((1.0 + e) * s)
     change = (1.0 + e) * contact.closing
     if k.coupling is None:
         page.equation("Its normal component", ns, over(change, k.normal))
@@ -75,7 +69,7 @@ def _without_slip(page: Page, impact: Impact, contact: Contact, k: Mobility) -> 
         page.balance("Along the normal", k.normal * ns + k.coupling * ts, change, "speed")
         page.balance("Along the tangent", k.coupling * ns + k.tangential * ts, wanted, "speed")
         determinant = k.normal * k.tangential - k.coupling.squared()
-        stopped = (1.0 + e) * s if impact.law != codes.BRACH else s
+        stopped = (1.0 + e) * s if impact.law != BRACH else s
         page.equation(
             "Solved for the normal component (Cramer's rule)",
             ns,
@@ -89,7 +83,7 @@ def _without_slip(page: Page, impact: Impact, contact: Contact, k: Mobility) -> 
 def _decide(page: Page, impact: Impact, contact: Contact, change: Expression, k: Mobility) -> None:
     """Whether the contact sticks under a friction bound."""
     ns, ts = _no_slip(impact)
-    mu = letter(r"\mu", "mu", impact._asked.bound, "number")
+    mu = letter(r"\mu", "mu", impact.inputs.rule_value, "number")
     if impact.regime == "sticking":
         if math.isinf(mu.value):
             page.say("The friction has no bound and this impulse pushes, so the contact sticks: it is the impulse.")

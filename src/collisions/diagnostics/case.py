@@ -11,7 +11,7 @@ import numpy as np
 
 from ..idealisation import LeftOut
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.status import EPS
 from ..reconstruct import MomentumSolution
 from ..side import Side
 from ..vehicle import Vehicle
@@ -119,7 +119,7 @@ class Balance(Examined):
 
 def off_by(*sizes: float) -> float:
     """What a few sums and differences of numbers of these sizes may be off by: 16 eps of all of them together."""
-    return 16.0 * codes.EPS * sum(map(abs, sizes))
+    return 16.0 * EPS * sum(map(abs, sizes))
 
 
 def outline_off_by(outline: Any, vehicle: Vehicle, after: float = 0.0) -> float:

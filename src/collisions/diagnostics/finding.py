@@ -11,11 +11,11 @@ import numpy as np
 from ..door import Door
 from ..errors import InputError, ShapeError
 from ..fields import OWN, Quantities
+from ..kernels.elementwise import UNCHECKED
 from ..units import shown
 from .limits import LIMITS
 
 # The door's word for a number that no domain bounds: an infinite limit switches a finding off.
-_ANY = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,7 +91,7 @@ def read_limits(given: Any, door: Door) -> dict[str, float | None]:
             )
             continue
         count = len(door.problems)
-        read = door.number(value, LIMITS[code].unit, name, _ANY)
+        read = door.number(value, LIMITS[code].unit, name, UNCHECKED)
         if len(door.problems) > count:
             continue
         if isinstance(read, np.ndarray):

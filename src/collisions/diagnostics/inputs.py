@@ -16,7 +16,7 @@ _RADII, _FURTHEST = 3.0, 10.0
 
 def suspect_inputs(case: Case) -> Iterator[Finding]:
     """Masses, speeds, yaw rates, inertias, levers, headings and a normal that no road vehicle has."""
-    normal, origin = case.impact._asked.bare_normal, case.impact.reconstruction
+    normal, origin = case.impact.inputs.bare_normal, case.impact.reconstruction
     if normal is not None:
         turns = abs(normal) / math.tau
         sentence = f"the normal was given as {normal:.6g} rad, {turns:.3g} turns; were degrees meant?"

@@ -8,10 +8,10 @@ from typing import Any
 
 from ..directions import from_degrees
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.contact_laws import BRACH, LAWS
 from ..quiet import quietly
-from ..scene import required_model
 from ..side import Side
+from ..solvers import required_model
 from .case import Case, named, share
 from .finding import Finding
 
@@ -24,7 +24,7 @@ def model(case: Case) -> Iterator[Finding]:
     impact = case.impact
     if impact.model == "eccentric":
         return
-    asked, a, b = impact._asked, impact.a.before, impact.b.before
+    inputs, a, b = impact.inputs, impact.a.before, impact.b.before
     point: Any = impact.point
     between = ""
     places: Any = (a.x, a.y, b.x, b.y)
@@ -32,10 +32,10 @@ def model(case: Case) -> Iterator[Finding]:
         point = 0.5 * (places[0] + places[2]), 0.5 * (places[1] + places[3])
         between = ", with the contact point taken half-way between the centres"
     options: dict[str, Any] = {
-        asked.rule: asked.bound,
+        inputs.rule: inputs.rule_value,
         "normal": impact.normal,
         "point": point,
-        "law": asked.law or codes.BRACH,
+        "law": inputs.law or BRACH,
     }
     choice = required_model(a, b, impact.restitution, **options)
     error = choice.errors[impact.model]
@@ -61,7 +61,7 @@ def law(case: Case) -> Iterator[Finding]:
     impact = case.impact
     if impact.law is None or impact.model == "linear_central":
         return
-    others = [name for name in codes.LAWS if name != impact.law]
+    others = [name for name in LAWS if name != impact.law]
     answers = [(f"under the law {other!r} instead of {impact.law!r}", _again(impact, law=other)) for other in others]
     yield from _told(case, "law", answers)
 
@@ -69,7 +69,7 @@ def law(case: Case) -> Iterator[Finding]:
 def normal(case: Case) -> Iterator[Finding]:
     """An answer that hangs on the direction of the normal."""
     impact = case.impact
-    if impact._asked.model == "linear_central":
+    if impact.inputs.model == "linear_central":
         return
     nx, ny = impact.normal
     turned = []

@@ -8,16 +8,14 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .codes import AT, ENERGY_GAIN, OK, OUT_OF_RANGE, OUTPUTS
 from .replay import Replay, aligned, record
-from .select import select
+from .status import Answer, Status
 
 BLOCK = 8192
 # Of all threads together, in bytes; a longer block gains nothing.
@@ -36,9 +34,9 @@ FIRST = (
     "delta_vy_b",
     "delta_yaw_rate_b",
 )
-LATER = ("status", *(name for name in OUTPUTS if name not in FIRST))
+LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
 # What a kernel sees to it that it is finite, in the precision it works in.
-_FINITE = frozenset(name for name in OUTPUTS if name.startswith(("energy_loss", "slip_after", "tangential", "delta_")))
+_FINITE = frozenset(name for name in Answer._fields if name.startswith(("energy_loss", "slip_after", "tangential", "delta_")))
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -51,22 +49,6 @@ class Check(NamedTuple):
     fault: Callable[..., Any]
     values: tuple[Any, ...]
     passes: Callable[..., bool] | None = None
-
-
-@dataclass(frozen=True)
-class Scoped:
-    """A kernel and the check of what its model cannot hold, whose values stand between the kernel's inputs and its settings."""
-
-    kernel: Callable[..., tuple[Any, ...]]
-    scope: Callable[..., Any]
-    inputs: int
-    values: int
-
-    def __call__(self, *given: Any) -> tuple[Any, ...]:
-        settings = given[self.inputs + self.values :]
-        status, *answers = self.kernel(*given[: self.inputs], *settings)
-        fault = self.scope(*given[self.inputs : self.inputs + self.values], settings[-1])
-        return select(np.not_equal(fault, OK), fault, status), *answers
 
 
 def precision(values: Iterable[Any]) -> Any:
@@ -82,7 +64,7 @@ def precision(values: Iterable[Any]) -> Any:
     return np.float32 if arrays else np.float64
 
 
-def solve_lanes(
+def solve_cases(
     kernel: Callable[..., tuple[Any, ...]],
     settings: tuple[Any, ...],
     inputs: Sequence[Any],
@@ -98,46 +80,44 @@ def solve_lanes(
     """
     solve = partial(_solved, kernel, settings, inputs, checks, shape, np.dtype(dtype), threads)
     if math.prod(shape) > BLOCK:
-        return Answers(solve, solve(FIRST, progress))
-    return tuple(solve(OUTPUTS, progress).values())
+        return BatchAnswer(solve, solve(FIRST, progress))
+    return Answer(**solve(Answer._fields, progress))
 
 
-class Answers:
-    """The outputs of many cases, in order: a few at once, the others together when the first of them is asked for.
+class BatchAnswer:
+    """The ``Answer`` of many cases: a few outputs at once, the others together when the first of them is read.
 
     Writing an output costs as much as several steps of the formula, and most of them are never read.
     """
 
     def __init__(self, solve: Callable[[Sequence[str]], dict[str, Any]], found: dict[str, Any]) -> None:
-        self._solve = solve
-        self._found = found
+        vars(self).update(found, _solve=solve)
 
-    def __getitem__(self, index: Any) -> Any:
-        if isinstance(index, slice):
-            return tuple(self)[index]
-        name = OUTPUTS[index]
-        if name not in self._found:
-            later, refused = self._solve(LATER), self._found["status"] > ENERGY_GAIN
-            if np.any(refused & (later["status"] <= ENERGY_GAIN)):
-                # Refused for an answer that is not among these.
-                later = {
-                    key: np.where(refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value)
-                    for key, value in later.items()
-                    if key != "status"
-                }
-                for value in later.values():
-                    value.setflags(write=False)
-            self._found = {**later, **self._found}
-        return self._found[name]
+    def __getattr__(self, name: str) -> Any:
+        if name not in LATER:
+            raise AttributeError(name)
+        later, refused = self._solve(LATER), self.status > Status.ENERGY_GAIN
+        if np.any(refused & (later["status"] <= Status.ENERGY_GAIN)):
+            # Refused for an answer that is not among these.
+            later = {
+                key: np.where(refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value)
+                for key, value in later.items()
+                if key != "status"
+            }
+            for value in later.values():
+                value.setflags(write=False)
+        vars(self).update({**later, **vars(self)})
+        return vars(self)[name]
+
+    def _replace(self, status: Any) -> BatchAnswer:
+        """The same with another status, as an ``Answer`` has it."""
+        return BatchAnswer(self._solve, {**vars(self), "status": status})
 
     def __iter__(self) -> Iterator[Any]:
-        return (self[index] for index in range(len(OUTPUTS)))
-
-    def __len__(self) -> int:
-        return len(OUTPUTS)
+        return (getattr(self, name) for name in Answer._fields)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return tuple, (tuple(self),)
+        return Answer, tuple(self)
 
 
 def _solved(
@@ -185,7 +165,7 @@ def _solved(
 def room_for(names: Sequence[str], size: int, dtype: Any) -> tuple[tuple[Any, ...], list[Any]]:
     """The type and an array for every output of these names; None for the others."""
     types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
-    kinds = tuple(types.get(name, dtype) if name in names else None for name in OUTPUTS)
+    kinds = tuple(types.get(name, dtype) if name in names else None for name in Answer._fields)
     return kinds, [None if kind is None else aligned(size, kind) for kind in kinds]
 
 
@@ -193,18 +173,18 @@ def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[
     """The outputs by name, locked; of float32 without the cases whose answers only the float64 of plain numbers could hold."""
     if dtype == np.float32:
         beyond = np.zeros(outputs[0].shape, dtype=bool)
-        for name, output in zip(OUTPUTS, outputs, strict=True):
+        for name, output in zip(Answer._fields, outputs, strict=True):
             if output is not None and name in _FINITE:
                 beyond |= np.isinf(output)
-        closing, normal = (outputs[AT[name]] for name in ("closing_speed", "normal_impulse"))
+        closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
         if closing is not None and normal is not None:
             # The work of the normal impulse, of which an elastic contact loses nothing, however large it is.
             with np.errstate(over="ignore"):
                 beyond |= np.isinf(closing * normal)
-        beyond &= outputs[0] <= ENERGY_GAIN
+        beyond &= outputs[0] <= Status.ENERGY_GAIN
         if beyond.any():
-            blank([np.where(beyond, np.uint8(OUT_OF_RANGE), np.uint8(OK))], outputs)
-    found = {name: output.reshape(shape) for name, output in zip(OUTPUTS, outputs, strict=True) if output is not None}
+            blank([np.where(beyond, np.uint8(Status.OUT_OF_RANGE), np.uint8(Status.OK))], outputs)
+    found = {name: output.reshape(shape) for name, output in zip(Answer._fields, outputs, strict=True) if output is not None}
     for output in found.values():
         output.setflags(write=False)
     return found
@@ -246,10 +226,10 @@ def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
     """The first fault that applies decides the status of a case; where it is refused, no answer is left."""
     status = answers[0]
     for fault in reversed(faults):
-        np.copyto(status, fault, where=np.not_equal(fault, OK), casting="unsafe")
-    if status.max() > ENERGY_GAIN:
-        refused = status > ENERGY_GAIN
-        for name, answer in zip(OUTPUTS[1:], answers[1:], strict=True):
+        np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
+    if status.max() > Status.ENERGY_GAIN:
+        refused = status > Status.ENERGY_GAIN
+        for name, answer in zip(Answer._fields[1:], answers[1:], strict=True):
             if answer is not None:
                 answer[refused] = False if name == "sticks" else np.nan
 

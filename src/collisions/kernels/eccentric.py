@@ -7,25 +7,9 @@ pivots and free bodies differ only in a_i and b_i.
 from math import nan
 from typing import Any
 
-from .codes import (
-    BRACH,
-    ENERGY_GAIN,
-    EPS,
-    FRICTION,
-    GRAZING,
-    IMMOVABLE,
-    KUDLICH_SLIBAR,
-    NO_SLIP_PULLS,
-    OK,
-    OUT_OF_RANGE,
-    RATIO_JAMS,
-    SEPARATING,
-    SINGULAR_CONTACT,
-)
-from .energy import energy_losses
-from .friction import sticking_slip, tangential_rule
-from .select import divisor, select, verdict
-from .turning import turning_velocity
+from .contact_laws import LAWS, RULES, dissipates, energy_losses
+from .elementwise import first_status, safe_divisor, select, turning_velocity
+from .status import EPS, Answer, Status
 
 
 def response(
@@ -85,8 +69,8 @@ def eccentric(
     impulse_only: bool = False,
     *,
     contact_velocity: tuple[Any, Any] | None = None,
-) -> tuple[Any, ...]:
-    """Answers in the order of ``codes.OUTPUTS``.
+) -> Any:
+    """The ``Answer`` of the eccentric model.
 
     ``contact_velocity`` is the closing speed and the slip before, known to more digits than the motions hold. It is used where
     it is that of the motions to their rounding.
@@ -123,14 +107,14 @@ def eccentric(
     bounded = threshold - threshold == 0.0
     yields = (k_nn > threshold) & (trace > 0.0)
     immovable = bounded & (yields ^ True)
-    k_nn = divisor(yields, k_nn)
-    trace = divisor(yields, trace)
+    k_nn = safe_divisor(yields, k_nn)
+    trace = safe_divisor(yields, trace)
     cross = rx_a * ry_b - ry_a * rx_b
     determinant = a + ((b_a / trace) * cross) * (b_b * cross)
     regular = determinant > threshold
 
     # The impulse that ends with the slip a sticking contact keeps.
-    kept = sticking_slip(restitution, law)
+    kept = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
     change_t = 0.0 - (1.0 - kept) * slip
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
@@ -140,10 +124,10 @@ def eccentric(
     no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divided_by
     no_slip_t = no_slip_t_determinant / divided_by
 
-    sticks, ratio, no_slip_matters, pulls = tangential_rule(rule, tangential, no_slip_n, no_slip_t)
+    sticks, ratio, no_slip_matters, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
     resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
     jams = (resistance <= 0.0) & (sticks ^ True)
-    sliding_n = change_n / divisor(resistance != 0.0, resistance)
+    sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
     normal = select(sticks, no_slip_n, sliding_n)
     impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
     torque_a = rt_a * normal - rn_a * impulse_t
@@ -158,9 +142,9 @@ def eccentric(
     beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
     slip_after = kept * slip + beyond_sticking
     # At rest after sticking, so that the sum is the slip before, to the bit.
-    slip_sum = slip + slip_after if law == BRACH else select(sticks, (1.0 + kept) * slip, slip + slip_after)
+    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
     mobility: Any = 0.0
-    if law == KUDLICH_SLIBAR and rule == FRICTION:
+    if dissipates(rule, law):
         mobility = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
     loss_n, loss_t, loss, gains = energy_losses(
         restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps
@@ -172,37 +156,57 @@ def eccentric(
     dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
     # Finite only if all of it is: the losses are products of both impulses.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
-    if law == KUDLICH_SLIBAR:
+    if LAWS[law].compression_limit:
         total = total + loss_n + loss_t
     finite = bounded & (total - total == 0.0)
     fine = (closing > 0.0) & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
     status = (
-        OK
+        Status.OK
         if fine is True
         else select(
             fine,
-            OK,
-            verdict(
-                (immovable, IMMOVABLE),
-                (closing < 0.0, SEPARATING),
-                (closing == 0.0, GRAZING),
-                (stuck, SINGULAR_CONTACT),
-                (pulls, NO_SLIP_PULLS),
-                (jams, RATIO_JAMS),
-                (finite ^ True, OUT_OF_RANGE),
-                (gains, ENERGY_GAIN),
+            Status.OK,
+            first_status(
+                (immovable, Status.IMMOVABLE),
+                (closing < 0.0, Status.SEPARATING),
+                (closing == 0.0, Status.GRAZING),
+                (stuck, Status.SINGULAR_CONTACT),
+                (pulls, Status.NO_SLIP_PULLS),
+                (jams, Status.RATIO_JAMS),
+                (finite ^ True, Status.OUT_OF_RANGE),
+                (gains, Status.ENERGY_GAIN),
             ),
         )
     )
     # A contact with one degree of freedom has no impulse without slip.
     no_slip_n = select(regular, no_slip_n, nan)
-    return (
-        status, closing, slip, slip_after, normal, impulse_t, normal / (1.0 + restitution), no_slip_n, no_slip_t,
-        sticks, 1.0 / k_nn, k_nt, loss_n, loss_t, loss, impulse_x, impulse_y,
-        dvx_a, dvy_a, spin_change_a, dvx_b, dvy_b, spin_change_b,
-    )  # fmt: skip
+    return Answer(
+        status=status,
+        closing_speed=closing,
+        slip_before=slip,
+        slip_after=slip_after,
+        normal_impulse=normal,
+        tangential_impulse=impulse_t,
+        compression_impulse=normal / (1.0 + restitution),
+        no_slip_normal=no_slip_n,
+        no_slip_tangential=no_slip_t,
+        sticks=sticks,
+        effective_mass=1.0 / k_nn,
+        coupling=k_nt,
+        energy_loss_normal=loss_n,
+        energy_loss_tangential=loss_t,
+        energy_loss=loss,
+        impulse_x=impulse_x,
+        impulse_y=impulse_y,
+        delta_vx_a=dvx_a,
+        delta_vy_a=dvy_a,
+        delta_yaw_rate_a=spin_change_a,
+        delta_vx_b=dvx_b,
+        delta_vy_b=dvy_b,
+        delta_yaw_rate_b=spin_change_b,
+    )
 
 
-def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> tuple[Any, ...]:
+def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> Any:
     """``eccentric`` with the closing speed and the slip before, which stand before its other inputs."""
     return eccentric(*inputs, contact_velocity=(closing, slip))

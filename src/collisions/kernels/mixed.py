@@ -17,7 +17,7 @@ import numpy as np
 from .batch import (
     BLOCK,
     FIRST,
-    Answers,
+    BatchAnswer,
     Check,
     Straight,
     blank,
@@ -29,12 +29,12 @@ from .batch import (
     room_for,
     settled,
 )
-from .codes import OK, OUTPUTS
+from .model_error import ECCENTRIC, least_model
 from .replay import Replay, aligned, record
-from .shortfall import ECCENTRIC, least_model
+from .status import Answer, Status
 
 
-class Model(NamedTuple):
+class Part(NamedTuple):
     """A kernel, its settings and its inputs."""
 
     kernel: Callable[..., tuple[Any, ...]]
@@ -55,7 +55,7 @@ def least_models(
     size, kinds = math.prod(shape), (np.dtype(np.uint8), np.dtype(dtype), np.dtype(dtype))
     outputs = [aligned(size, kind) for kind in kinds]
     lanes = _lanes(inputs, checks, shape)
-    length, work = BLOCK, _work(Model(least_model, settings, tuple(inputs)), size, kinds, dtype)
+    length, work = BLOCK, _work(Part(least_model, settings, tuple(inputs)), size, kinds, dtype)
     mine = threading.local()
 
     def choose(start: int) -> int:
@@ -67,7 +67,7 @@ def least_models(
         with np.errstate(all="ignore"):
             mine.run([cut[id(value)] for value in inputs], answers)
             for fault in faults_of(checks, cut):
-                wrong = np.not_equal(fault, OK)
+                wrong = np.not_equal(fault, Status.OK)
                 which[wrong] = ECCENTRIC
                 for error in errors:
                     error[wrong] = np.nan
@@ -79,7 +79,7 @@ def least_models(
 
 
 def solve_mixed(
-    models: Sequence[Model],
+    models: Sequence[Part],
     which: Any,
     checks: Sequence[Check],
     shape: tuple[int, ...],
@@ -87,15 +87,15 @@ def solve_mixed(
     threads: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Any:
-    """The outputs of many cases, each by the model of its number, as ``solve_lanes`` gives them for one model."""
+    """The outputs of many cases, each by the model of its number, as ``solve_cases`` gives them for one model."""
     solve = partial(_solved, models, which, checks, shape, np.dtype(dtype), threads)
     if math.prod(shape) > BLOCK:
-        return Answers(solve, solve(FIRST, progress))
-    return tuple(solve(OUTPUTS, progress).values())
+        return BatchAnswer(solve, solve(FIRST, progress))
+    return Answer(**solve(Answer._fields, progress))
 
 
 def _solved(
-    models: Sequence[Model],
+    models: Sequence[Part],
     which: Any,
     checks: Sequence[Check],
     shape: tuple[int, ...],
@@ -170,7 +170,7 @@ class _Work(NamedTuple):
         return self.make(length)
 
 
-def _work(model: Model, size: int, kinds: tuple[Any, ...], dtype: Any) -> _Work:
+def _work(model: Part, size: int, kinds: tuple[Any, ...], dtype: Any) -> _Work:
     if size <= BLOCK:
         return _Work(lambda length: Straight(model.kernel, model.settings), 0)
     texts = tuple(value.hex() if isinstance(value, float) else None for value in model.inputs)

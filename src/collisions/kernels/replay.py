@@ -45,10 +45,10 @@ class Program(NamedTuple):
     buffers: tuple[int, ...]
 
 
-class _Noted(NDArrayOperatorsMixin):
+class Traced(NDArrayOperatorsMixin):
     """An array of the kernel as the tape knows it, with one element of it to tell the type."""
 
-    def __init__(self, tape: _Tape, index: int, sample: Any) -> None:
+    def __init__(self, tape: Tape, index: int, sample: Any) -> None:
         self.tape = tape
         self.index = index
         self.sample = sample
@@ -67,25 +67,29 @@ class _Noted(NDArrayOperatorsMixin):
         raise TypeError("a kernel chooses between arrays through select")
 
 
-class _Tape:
+class Tape:
     """What a kernel did: every value in order, the call it came from, and the value whose memory it shares."""
 
     def __init__(self) -> None:
         self.made: dict[int, tuple[Callable[..., Any], tuple[int, ...]]] = {}
         self.cells: list[Cell] = []
         self.root: list[int] = []
-        self.known: dict[Any, _Noted] = {}
+        self.known: dict[Any, Traced] = {}
 
-    def add(self, cell: Cell, made: Any, sample: Any, root: int | None = None) -> _Noted:
+    def add(self, cell: Cell, made: Any, sample: Any, root: int | None = None) -> Traced:
         if made is not None:
             self.made[len(self.cells)] = made
         self.cells.append(cell)
         self.root.append(len(self.root) if root is None else root)
-        return _Noted(self, len(self.cells) - 1, sample)
+        return Traced(self, len(self.cells) - 1, sample)
 
-    def operand(self, value: Any, dtype: Any = None) -> _Noted:
+    def input(self, which: int, dtype: Any) -> Traced:
+        """An array that the kernel is called with."""
+        return self.add(Cell(INPUT, which, np.dtype(dtype)), None, np.ones(1, dtype))
+
+    def operand(self, value: Any, dtype: Any = None) -> Traced:
         """A value of the kernel, or a plain number, which is noted as it is unless a type is asked for."""
-        if isinstance(value, _Noted):
+        if isinstance(value, Traced):
             return (
                 value
                 if dtype is None or dtype == value.sample.dtype
@@ -98,8 +102,8 @@ class _Tape:
             self.known[key] = self.add(Cell(CONSTANT, value, dtype), None, value)
         return self.known[key]
 
-    def call(self, function: Callable[..., Any], *values: Any) -> _Noted:
-        kinds = {value.sample.dtype for value in values if isinstance(value, _Noted)}
+    def call(self, function: Callable[..., Any], *values: Any) -> Traced:
+        kinds = {value.sample.dtype for value in values if isinstance(value, Traced)}
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":
             beside = None
@@ -109,7 +113,7 @@ class _Tape:
         operands = tuple(self.operand(value, beside if type(value) is float else None) for value in values)
         return self.keep(function, operands, function(*(operand.sample for operand in operands)))
 
-    def keep(self, function: Callable[..., Any], operands: tuple[_Noted, ...], sample: Any) -> _Noted:
+    def keep(self, function: Callable[..., Any], operands: tuple[Traced, ...], sample: Any) -> Traced:
         """The value of a call, which is the one noted before if it was made before."""
         numbers = tuple(operand.index for operand in operands)
         key = function, numbers, sample.dtype
@@ -117,7 +121,7 @@ class _Tape:
             self.known[key] = self.add(Cell(BUFFER, None, sample.dtype), (function, numbers), sample)
         return self.known[key]
 
-    def seen_as(self, value: _Noted, dtype: Any) -> _Noted:
+    def seen_as(self, value: Traced, dtype: Any) -> Traced:
         """The same memory read as another type."""
         key = "seen", value.index, dtype
         if key not in self.known:
@@ -125,9 +129,9 @@ class _Tape:
             self.known[key] = self.add(Cell(BUFFER, None, dtype), None, sample, self.root[value.index])
         return self.known[key]
 
-    def choose(self, condition: Any, yes: Any, no: Any) -> _Noted:
+    def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         """``np.where`` on the bits of both values: without branches, a quarter of its time where the cases are mixed."""
-        samples = [value.sample if isinstance(value, _Noted) else value for value in (condition, yes, no)]
+        samples = [value.sample if isinstance(value, Traced) else value for value in (condition, yes, no)]
         dtype = np.where(*samples).dtype
         if dtype.kind in "iu":
             operands = self.operand(condition), self.operand(yes, _CODE), self.operand(no, _CODE)
@@ -137,7 +141,7 @@ class _Tape:
         one, other = (self.bits(self.operand(value, dtype), bits) for value in (yes, no))
         return self.seen_as(((one ^ other) & mask) ^ other, dtype)
 
-    def bits(self, value: _Noted, bits: Any) -> _Noted:
+    def bits(self, value: Traced, bits: Any) -> Traced:
         return (
             self.operand(value.sample.view(bits), bits)
             if self.cells[value.index].place == CONSTANT
@@ -157,11 +161,11 @@ def record(
 
     ``outputs`` are the types to write, None for what is not wanted; the first one is.
     """
-    tape = _Tape()
+    tape = Tape()
     operands: list[Any] = []
     for which, text in enumerate(inputs):
         if text is None:
-            operands.append(tape.add(Cell(INPUT, which, np.dtype(dtype)), None, np.ones(1, dtype)))
+            operands.append(tape.input(which, dtype))
         else:
             operands.append(float.fromhex(text))
     with np.errstate(all="ignore"):
@@ -169,7 +173,7 @@ def record(
         for which, (answer, wanted) in enumerate(zip(answers, outputs, strict=True)):
             if wanted is None:
                 continue
-            value = tape.operand(answer, None if isinstance(answer, _Noted) else wanted)
+            value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
             root = tape.root[value.index]
             if tape.cells[root].place == BUFFER and value.sample.dtype == wanted:
                 tape.cells[root] = Cell(OUTPUT, which, tape.cells[root].dtype)
@@ -178,7 +182,7 @@ def record(
     return _placed(tape)
 
 
-def _needs(tape: _Tape, wanted: set[int]) -> set[int]:
+def _needs(tape: Tape, wanted: set[int]) -> set[int]:
     """All values that are worked out for these, themselves included."""
     needed = {tape.root[index] for index in wanted}
     for index in sorted(tape.made, reverse=True):
@@ -187,7 +191,7 @@ def _needs(tape: _Tape, wanted: set[int]) -> set[int]:
     return needed & tape.made.keys()
 
 
-def _fine(tape: _Tape, status: int) -> int | None:
+def _fine(tape: Tape, status: int) -> int | None:
     """The condition on which the status is 0 without more ado, if the kernel ends by choosing so."""
     function, operands = tape.made[status]
     is_short = function is _label and tape.cells[operands[1]].place == CONSTANT and tape.cells[operands[1]].which == 0
@@ -202,7 +206,7 @@ class _Room(NamedTuple):
     which: int
 
 
-def _placed(tape: _Tape) -> Program:
+def _placed(tape: Tape) -> Program:
     """The calls that an output needs, and for every value between a room, which is free again after its last use."""
     outputs = {index for index, cell in enumerate(tape.cells) if cell.place == OUTPUT}
     status = min(outputs, key=lambda index: int(tape.cells[index].which))
@@ -237,7 +241,7 @@ def _placed(tape: _Tape) -> Program:
     return _numbered(tape, order, len(early), fine, cells, buffers)
 
 
-def _numbered(tape: _Tape, order: list[int], early: int, fine: int | None, cells: list[Cell], buffers: list[int]) -> Program:
+def _numbered(tape: Tape, order: list[int], early: int, fine: int | None, cells: list[Cell], buffers: list[int]) -> Program:
     """The program of placed values, in which those that share a place and a type are one cell."""
     places: dict[Any, int] = {}
     found: list[Cell] = []

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.contact_laws import IMPULSE_RATIO, KUDLICH_SLIBAR
+from ..kernels.status import EPS
 from ..quiet import quietly
 from ..unit_systems import UnitSystem
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
-_ROUNDING = 64.0 * codes.EPS  # relative: what differences of speeds leave of a coefficient that is 0
+_ROUNDING = 64.0 * EPS  # relative: what differences of speeds leave of a coefficient that is 0
 
 
 def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
@@ -100,7 +101,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         slip_yields = closing * math.hypot(k_nt, k_tt) > _ROUNDING * k_nn * (closing + abs(slip))
         if slip_yields:
             line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
-        if slip_yields and impact.law == codes.KUDLICH_SLIBAR and e > 0.0:
+        if slip_yields and impact.law == KUDLICH_SLIBAR and e > 0.0:
             text = "slip at separation if it sticks"
             line("no slip at separation", k_nt, k_tt, -(1.0 + e) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
 
@@ -177,6 +178,8 @@ def _tangential_yield(impact: Impact) -> float:
     # Of this sign the contact cannot jam.
     ratio: Any = math.copysign(1.0, coupling)
     with quietly():
-        other = impact._asked._replace(model="eccentric", rule=codes.IMPULSE_RATIO, bound=ratio).ask(on_failure="nan")
+        other = Impact._solved(
+            impact.inputs._changed(model="eccentric", rule=IMPULSE_RATIO, rule_value=ratio), on_failure="nan"
+        )
     slip_change = other.slip_after - other.slip_before - coupling * other.normal_impulse
     return float(np.divide(slip_change, other.tangential_impulse))

@@ -9,18 +9,21 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import OnFailure
-from ..door import POSITIVE, UNIT_INTERVAL, Door
+from ..door import Door
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..fields import show
-from ..impact import Asked, Impact, found_by
-from ..kernels import codes
-from ..kernels.central import shares
-from ..kernels.in_line import VELOCITIES, allowed_losses, moving_apart, speeds
+from ..impact import Impact, found_by
+from ..inputs import Inputs, OnFailure
+from ..kernels.contact_laws import FRICTION
+from ..kernels.elementwise import POSITIVE, RESTITUTION
+from ..kernels.linear import shares
+from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
+from ..kernels.status import EPS, Status
 from ..provenance import Reconstruction
+from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle
-from .outcome import Cases, exactly, input_faults, plain_error, settle
+from .outcome import Cases, exactly, input_faults, settle
 
 _ALONG: Any = (1.0, 0.0)
 _NONE: Any = 0.0
@@ -108,7 +111,7 @@ def central(
     ]
     told = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
     cases = Cases.of({**_named(masses), **known})
-    eps = codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
+    eps = EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
     numbers = {name: np.asarray(value, dtype=np.float64) for name, value in {**_named(masses), **known}.items()}
     with np.errstate(all="ignore"):
         answers = _answers(numbers, eps)
@@ -118,15 +121,15 @@ def central(
         found |= _limits(numbers)
         condition = _condition(numbers, found, which, eps)
         ambiguous = _differ(answers, eps)
-        status = cases.verdict(
+        status = cases.first_status(
             (
                 *input_faults({**_named(masses), **known}),
-                (ambiguous, codes.AMBIGUOUS),
-                (found["fits"], codes.OK),
+                (ambiguous, Status.AMBIGUOUS),
+                (found["fits"], Status.OK),
                 *_faults(masses, known, found),
             )
         )
-    sure = np.equal(status, codes.OK)
+    sure = np.equal(status, Status.OK)
     origin = Reconstruction(
         method="central",
         known=tuple(known),
@@ -134,7 +137,7 @@ def central(
         answers=cases.whole(np.where(ambiguous, len(answers), 1)),
     )
 
-    def asked(answer: dict[str, Any], keep: Any) -> Asked:
+    def asked(answer: dict[str, Any], keep: Any) -> Inputs:
         # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
         still: Any = 0.0 if np.all(keep) else cases.values(np.where(keep, 0.0, np.nan))
         a, b = (
@@ -142,16 +145,16 @@ def central(
             for mass, name, given_as in zip(masses, ("va", "vb"), written, strict=True)
         )
         e = cases.values(np.where(keep, answer["e"], np.nan))
-        return Asked("linear_central", a, b, e, _ALONG, codes.FRICTION, _NONE, None, None, told)
+        return Inputs("linear_central", a, b, e, _ALONG, FRICTION, _NONE, None, None, told)
 
     def solution(which: int) -> Impact:
         with np.errstate(all="ignore"):
             condition = cases.values(_condition(numbers, answers[which], np.intp(which), eps))
-        impact = asked(answers[which], True).ask()
-        return found_by(replace(origin, condition=condition, answers=len(answers)), impact._asked, impact._raw, codes.OK)
+        impact = Impact._solved(asked(answers[which], True))
+        return found_by(replace(origin, condition=condition, answers=len(answers)), impact.inputs, impact._raw, Status.OK)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
-        if cases.shape is None and status == codes.AMBIGUOUS:
+        if cases.shape is None and status == Status.AMBIGUOUS:
             solutions = tuple(solution(k) for k in range(len(answers)))
             both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
             return AmbiguousSolutionError(
@@ -161,7 +164,7 @@ def central(
             )
         code = int(np.asarray(status)[index])
         of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in {**_named(masses), **known}.items()}
-        if code == codes.AMBIGUOUS:
+        if code == Status.AMBIGUOUS:
             try:
                 central(**of_case)
             except CollisionsError as both:
@@ -174,7 +177,7 @@ def central(
 
 def _read(door: Door, value: Any, name: str) -> Any:
     if name == "restitution":
-        return door.number(value, "", name, UNIT_INTERVAL)
+        return door.number(value, "", name, RESTITUTION)
     if name != "energy_loss":
         return door.number(value, "m/s", name)
     return amount(door, value, "J", name)
@@ -189,7 +192,7 @@ def _answers(numbers: dict[str, Any], eps: float) -> list[dict[str, Any]]:
     share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
     return [
         _whole(numbers, share_a, share_b, closing, separation, fixed, eps)
-        for closing, separation in speeds(numbers, share_a, share_b, reduced, eps)
+        for closing, separation in inline_speeds(numbers, share_a, share_b, reduced, eps)
     ]
 
 
@@ -256,14 +259,14 @@ def _faults(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any
     silent = _needs_motion_of(known)
     at_rest_a, at_rest_b = (np.isinf(mass) for mass in masses)
     return [
-        (at_rest_a & at_rest_b, codes.IMMOVABLE),
-        ((at_rest_a & ("a" in silent)) | (at_rest_b & ("b" in silent)), codes.INFINITE_MASS),
-        (np.equal(restitution, 0.0) & (known.keys() == {"va_after", "vb_after", "restitution"}), codes.INVERSE_E0),
-        (np.isnan(found["closing"]) & np.equal(known.get("energy_loss", 0.0), 0.0), codes.UNDETERMINED),
-        (((found["closing"] < 0.0) & np.isfinite(found["closing"])) | found["apart"], codes.SEPARATING),
-        (found["closing"] == 0.0, codes.NO_CLOSING),
-        (found["e"] < 0.0, codes.NOT_SEPARATING),
-        (True, codes.CONTRADICTORY),
+        (at_rest_a & at_rest_b, Status.IMMOVABLE),
+        ((at_rest_a & ("a" in silent)) | (at_rest_b & ("b" in silent)), Status.INFINITE_MASS),
+        (np.equal(restitution, 0.0) & (known.keys() == {"va_after", "vb_after", "restitution"}), Status.INVERSE_E0),
+        (np.isnan(found["closing"]) & np.equal(known.get("energy_loss", 0.0), 0.0), Status.UNDETERMINED),
+        (((found["closing"] < 0.0) & np.isfinite(found["closing"])) | found["apart"], Status.SEPARATING),
+        (found["closing"] == 0.0, Status.NO_CLOSING),
+        (found["e"] < 0.0, Status.NOT_SEPARATING),
+        (True, Status.CONTRADICTORY),
     ]
 
 
@@ -280,20 +283,20 @@ def _error(status: int, found: dict[str, float], known: dict[str, float]) -> Col
     given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
     along = "velocities are counted along the line from A to B, A behind"
     speed = "no approach" if np.isnan(closing) else f"a closing speed of {closing:.6g} m/s"
-    texts = {
-        codes.SEPARATING: f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B",
-        codes.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
-        codes.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
+    texts: dict[int, str] = {
+        Status.SEPARATING: f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B",
+        Status.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
+        Status.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
         f"one of them would pass through the other{_limit(found)}",
-        codes.INVERSE_E0: f"{given}: after a plastic impact (restitution = 0) both have one velocity"
+        Status.INVERSE_E0: f"{given}: after a plastic impact (restitution = 0) both have one velocity"
         f"{_difference(known)}, and nothing is left of the closing speed; give energy_loss, va or vb instead of restitution",
-        codes.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
+        Status.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
         f"velocity of the other body",
-        codes.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
-        codes.UNDETERMINED: f"{given} fit any closing speed; give another velocity",
+        Status.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
+        Status.UNDETERMINED: f"{given} fit any closing speed; give another velocity",
     }
     text = texts.get(status) or _contradiction(given, found, known)
-    return plain_error(status, text, restitution=e, closing_speed=closing)
+    return error_of(status, text, restitution=e, closing_speed=closing)
 
 
 def _difference(known: dict[str, float]) -> str:

@@ -12,7 +12,7 @@ from ..amounts import amount
 from ..directions import Angle
 from ..door import Door, largest, warn_if_large
 from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..kernels import codes
+from ..kernels.status import Status
 from ..quiet import warn
 from ..units import Input, Value, has_unit, is_quantity, shown
 from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
@@ -138,20 +138,20 @@ def crush_energy(
     with np.errstate(all="ignore"):
         widths, depths, (a, b) = ([np.asarray(x, dtype=np.float64) for x in values] for values in (gaps, crush, (a, b)))
         energy = sum(_gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)) / (cosine * cosine)
-        status = cases.verdict(
+        status = cases.first_status(
             (
                 *input_faults({**numbers, "stiffness_b": b, "force_angle": angle.value}),
-                *((np.less(value, 0.0), codes.CONTRADICTORY) for value in numbers.values()),
-                (np.less_equal(b, 0.0), codes.NOT_POSITIVE),
-                (np.less_equal(cosine, _NO_WORK), codes.CONTRADICTORY),
-                (cases.beyond(energy), codes.OUT_OF_RANGE),
+                *((np.less(value, 0.0), Status.CONTRADICTORY) for value in numbers.values()),
+                (np.less_equal(b, 0.0), Status.NOT_POSITIVE),
+                (np.less_equal(cosine, _NO_WORK), Status.CONTRADICTORY),
+                (cases.beyond(energy), Status.OUT_OF_RANGE),
             )
         )
     if cases.shape is not None:
         raise_or_warn(status, None, _too_large, ASK_ALONE)
-    elif status != codes.OK:
+    elif status != Status.OK:
         raise _too_large()
-    absorbed: Value = cases.values(np.where(np.equal(status, codes.OK), energy, np.nan))
+    absorbed: Value = cases.values(np.where(np.equal(status, Status.OK), energy, np.nan))
     return absorbed
 
 

@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..door import POSITIVE, UNIT_INTERVAL, Door
+from ..door import Door
 from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
-from ..kernels import codes
-from ..kernels.central import shares
-from ..kernels.in_line import absorbing_speed, changing_speed, losing_speed
+from ..kernels.elementwise import POSITIVE, RESTITUTION
+from ..kernels.linear import shares
+from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
+from ..kernels.status import Status
+from ..solving import error_of
 from ..units import Input, Value
-from .outcome import ASK_ALONE, Cases, exactly, input_faults, plain_error, raise_or_warn
+from .outcome import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn
 from .self_consistent import RestitutionOf, crossings
 
 _SPEEDS = ("delta_v", "ees")
@@ -94,7 +96,7 @@ def inline_closing_speed(
         numbers[name] = amount(door, value, "J" if kind == "energy_loss" else "m/s", name)
     function = restitution if callable(restitution) else None
     if function is None:
-        numbers["restitution"] = door.number(restitution, "", "restitution", UNIT_INTERVAL)
+        numbers["restitution"] = door.number(restitution, "", "restitution", RESTITUTION)
     door.close()
     cases = Cases.of(numbers)
     if function is None:
@@ -140,31 +142,31 @@ def _speed(kind: str, numbers: dict[str, Any]) -> Any:
 
 def _closing(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
     speed = _speed(kind, numbers)
-    status = cases.verdict(
+    status = cases.first_status(
         (
             *input_faults(numbers),
-            (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), codes.IMMOVABLE),
-            (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), codes.INFINITE_MASS),
-            *((np.less(value, 0.0), codes.CONTRADICTORY) for name, value in numbers.items() if name.startswith(_SPEEDS)),
-            (~cases.beyond(speed), codes.OK),
-            (True, codes.UNDETERMINED if kind == "energy_loss" else codes.CONTRADICTORY),
+            (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), Status.IMMOVABLE),
+            (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), Status.INFINITE_MASS),
+            *((np.less(value, 0.0), Status.CONTRADICTORY) for name, value in numbers.items() if name.startswith(_SPEEDS)),
+            (~cases.beyond(speed), Status.OK),
+            (True, Status.UNDETERMINED if kind == "energy_loss" else Status.CONTRADICTORY),
         )
     )
 
     def error(index: tuple[int, ...]) -> CollisionsError:
-        code = int(np.asarray(status)[index])
+        code = Status(int(np.asarray(status)[index]))
         text = {
-            codes.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
-            codes.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
-            codes.UNDETERMINED: "restitution = 1 loses no energy, so energy_loss tells nothing of the closing speed; give a "
+            Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
+            Status.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
+            Status.UNDETERMINED: "restitution = 1 loses no energy, so energy_loss tells nothing of the closing speed; give a "
             "delta-V",
         }.get(code, "these values give no finite closing speed; the ees of an infinite mass is 0")
-        return plain_error(code, text)
+        return error_of(code, text)
 
     if cases.shape is None:
-        if status != codes.OK:
+        if status != Status.OK:
             raise error(())
     else:
         raise_or_warn(status, None, error, ASK_ALONE)
-    answer: Value = cases.values(np.where(np.equal(status, codes.OK), speed, np.nan))
+    answer: Value = cases.values(np.where(np.equal(status, Status.OK), speed, np.nan))
     return answer

@@ -8,13 +8,15 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import OnFailure, check_options
 from ..directions import Angle, between, course, direction
-from ..door import POSITIVE, Door
+from ..door import Door
 from ..errors import InputError, MissingInputError
 from ..fields import show
-from ..kernels import codes
-from ..kernels.crossing import Term
+from ..inputs import OnFailure
+from ..kernels.elementwise import POSITIVE
+from ..kernels.reverse import Term
+from ..kernels.status import EPS
+from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
 from .momentum_balance import Question, blur, solve
 from .momentum_solution import MomentumSolution
@@ -189,7 +191,7 @@ def _share(given: dict[str, Any], kind: str) -> Any:
 
 def _same_course(one: Angle, other: Angle) -> Any:
     cosine, sine = between(one, other)
-    return (abs(sine) <= blur(one, other, codes.EPS)) & (cosine > 0.0)
+    return (abs(sine) <= blur(one, other, EPS)) & (cosine > 0.0)
 
 
 def _shown(value: Any) -> str:

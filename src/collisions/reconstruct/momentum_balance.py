@@ -10,8 +10,7 @@ import numpy as np
 from ..directions import Angle, angle_of, between
 from ..errors import CollisionsError, InputError, NoSolutionError, Status
 from ..fields import hypot
-from ..kernels import codes
-from ..kernels.crossing import Term, change_of_speed, course_change, unknown_speed
+from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_warnings import warn_of_physics, warn_of_speeds
 from .outcome import Cases, raise_or_warn
@@ -56,12 +55,12 @@ def solve(cases: Cases, question: Question, on_failure: Any) -> MomentumSolution
     rounding = 16.0 * eps * condition * (flow / np.minimum(*masses.values()))
     loss, worth = solution["translational_energy_loss"], sum(abs(full[name]) for name in _SPEEDS)
     gains = -loss > 4.0 * rounding * np.minimum(*masses.values()) * worth
-    status = cases.verdict(
+    status = cases.first_status(
         (
             *_faults(question),
-            (abs(sine) <= blur(one.course, other.course, eps), codes.PARALLEL_HEADINGS),
-            (cases.beyond(full[first] + full[second] + loss), codes.OUT_OF_RANGE),
-            (gains & (impulse is None), codes.ENERGY_GAIN),
+            (abs(sine) <= blur(one.course, other.course, eps), Status.PARALLEL_HEADINGS),
+            (cases.beyond(full[first] + full[second] + loss), Status.OUT_OF_RANGE),
+            (gains & (impulse is None), Status.ENERGY_GAIN),
         )
     )
 
@@ -69,16 +68,16 @@ def solve(cases: Cases, question: Question, on_failure: Any) -> MomentumSolution
         return _error(Status(int(np.asarray(status)[index])), first, second)
 
     if cases.shape is None:
-        if status > codes.ENERGY_GAIN and on_failure != "nan":
+        if status > Status.ENERGY_GAIN and on_failure != "nan":
             raise error(())
     else:
         raise_or_warn(status, on_failure, error)
-    sure = np.less_equal(status, codes.ENERGY_GAIN)
+    sure = np.less_equal(status, Status.ENERGY_GAIN)
     full = {name: np.where(sure, speed, np.nan) for name, speed in full.items()}
     solution = {name: None if value is None else np.where(sure, value, np.nan) for name, value in solution.items()}
     sensitivity = _sensitivity(cases, question, full, (first, one), (second, other), sure)
     warn_of_speeds(cases, sure, full, (first, second), abs(sine), condition, sensitivity, rounding)
-    warn_of_physics(cases, np.equal(status, codes.ENERGY_GAIN), solution, rounding)
+    warn_of_physics(cases, np.equal(status, Status.ENERGY_GAIN), solution, rounding)
     found: dict[str, Any] = {name: cases.values(mass) for name, mass in masses.items()}
     for name in _COURSES:
         found[name] = cases.values(question.angles[name].radians) if name in question.angles else None
@@ -118,11 +117,11 @@ def _faults(question: Question) -> list[tuple[Any, int]]:
         *(part for vector in vectors for part in vector),
     ]
     return [
-        (np.logical_or(*(np.isposinf(mass) for mass in masses.values())), codes.INFINITE_MASS),
-        (np.logical_or(*(np.less_equal(mass, 0.0) for mass in masses.values())), codes.NOT_POSITIVE),
-        (_any(~np.isfinite(value) for value in everything), codes.NOT_FINITE),
-        (_any((x == 0.0) & (y == 0.0) for x, y in vectors), codes.ZERO_NORMAL),
-        (_any(np.less(speed, 0.0) for speed in speeds) | question.unlike, codes.CONTRADICTORY),
+        (np.logical_or(*(np.isposinf(mass) for mass in masses.values())), Status.INFINITE_MASS),
+        (np.logical_or(*(np.less_equal(mass, 0.0) for mass in masses.values())), Status.NOT_POSITIVE),
+        (_any(~np.isfinite(value) for value in everything), Status.NOT_FINITE),
+        (_any((x == 0.0) & (y == 0.0) for x, y in vectors), Status.ZERO_NORMAL),
+        (_any(np.less(speed, 0.0) for speed in speeds) | question.unlike, Status.CONTRADICTORY),
     ]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import MissingInputError
 from ..fields import Shown, derived
-from ..kernels import codes
+from ..kernels.status import Status
 from ..units import Value, to_quantity
 
 # Of the attributes that may be None the arguments that give them.
@@ -82,4 +82,4 @@ class MomentumSolution(Shown):
     @derived()
     def ok(self) -> Any:
         """Whether the case was answered, and without energy that came from nowhere."""
-        return self.status == codes.OK
+        return self.status == Status.OK

@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import read
-from ..eccentric import body_numbers
 from ..errors import (
     CollisionsError,
     IllConditionedWarning,
@@ -17,11 +15,16 @@ from ..errors import (
     OutOfRangeWarning,
     Status,
 )
-from ..kernels import checks, codes
+from ..inputs import read_inputs
+from ..kernels.contact_laws import BRACH, FRICTION
+from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
+from ..kernels.status import EPS
+from ..models import body_numbers
 from ..quiet import warn
+from ..solving import error_of
 from ..units import Input, Pair, Value
 from ..vehicle import DOMAINS, Vehicle, not_a_vehicle
-from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, plain_error, raise_or_warn
+from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, raise_or_warn
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 _KEPT = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # what no impulse changes
@@ -87,9 +90,9 @@ def restitution(
     with np.errstate(all="ignore"):
         closing, eps = before["closing_speed"], _eps(cases)
         found = (0.0 - after["closing_speed"]) / np.where(closing > 0.0, closing, np.nan)
-        status = cases.verdict((*faults, *_closing_faults(closing), (cases.beyond(found), codes.OUT_OF_RANGE)))
+        status = cases.first_status((*faults, *_closing_faults(closing), (cases.beyond(found), Status.OUT_OF_RANGE)))
         _raise_or_warn(cases, status, before)
-        answer = np.where(np.equal(status, codes.OK), found, np.nan)
+        answer = np.where(np.equal(status, Status.OK), found, np.nan)
         # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
         rounding = 4.0 * eps * (before["speeds"] + after["speeds"]) / closing
         below, above = answer < -rounding, answer > 1.0 + rounding
@@ -162,16 +165,16 @@ def friction(
         # The impulse on B by each body's own change, and their mean with weights 1/m^2, which an infinite mass leaves alone.
         px, py = (changes[1][i] / mass_b - changes[0][i] / mass_a for i in range(2))
         normal_part, tangential_part = nx * px + ny * py, nx * py - ny * px
-        status = cases.verdict(
+        status = cases.first_status(
             (
                 *faults,
                 *_closing_faults(before["closing_speed"]),
-                (normal_part <= 0.0, codes.NOT_SEPARATING),
-                (cases.beyond(tangential_part / normal_part), codes.OUT_OF_RANGE),
+                (normal_part <= 0.0, Status.NOT_SEPARATING),
+                (cases.beyond(tangential_part / normal_part), Status.OUT_OF_RANGE),
             )
         )
         _raise_or_warn(cases, status, before)
-        sure = np.equal(status, codes.OK)
+        sure = np.equal(status, Status.OK)
         both = np.isfinite(mass_a) & np.isfinite(mass_b) & sure
         on_a = [-mass_a * part for part in changes[0]]
         on_b = [mass_b * part for part in changes[1]]
@@ -200,7 +203,8 @@ def _motions(
     named = {"a_before": a_before, "b_before": b_before, "a_after": a_after, "b_after": b_after}
     wrong = [not_a_vehicle(label, body) for label, body in named.items() if not isinstance(body, Vehicle)]
     motions = (number for body in named.values() if isinstance(body, Vehicle) for number in body._numbers())
-    e, n, _, _, contact, *_ = read(_ANY, _ANY, 0.0, normal, point, 0.0, None, None, codes.BRACH, wrong, motions)
+    read, _ = read_inputs("eccentric", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
+    n, contact = read.normal, read.point
     everything: dict[str, Any] = {"normal[0]": n[0], "normal[1]": n[1]}
     sides = {}
     for moment, bodies in (("before", (a_before, b_before)), ("after", (a_after, b_after))):
@@ -218,27 +222,27 @@ def _motions(
             arrays = [[np.asarray(value, dtype=np.float64) for value in sides[moment, label]] for label in "ab"]
             pinned = [body.pivot is not None and not Vehicle._rests(body.yaw_rate) for body in bodies]
             inputs = (np.zeros(()), *map(np.asarray, n), np.zeros(()), *map(np.asarray, contact or (0.0, 0.0)))
-            raw = forward(*inputs, *arrays[0], *arrays[1], codes.FRICTION, codes.BRACH, *pinned)
-            known = {"closing_speed": raw[codes.AT["closing_speed"]], "normal": tuple(map(np.asarray, n)), "speeds": 0.0}
+            raw = forward(*inputs, *arrays[0], *arrays[1], FRICTION, BRACH, *pinned)
+            known = {"closing_speed": raw.closing_speed, "normal": tuple(map(np.asarray, n)), "speeds": 0.0}
             for label, array in zip("ab", arrays, strict=True):
                 known |= {f"{name}_{label}": array[i] for i, name in ((0, "mass"), (2, "vx"), (3, "vy"))}
                 turning = abs(array[4]) * (abs(inputs[4] - array[5]) + abs(inputs[5] - array[6]))
                 known["speeds"] = known["speeds"] + abs(array[2]) + abs(array[3]) + turning
             found.append(known)
-        faults = [*input_faults({**everything, **kept, "e": e}), *_pivot_faults(kept, named, cases)]
+        faults = [*input_faults({**everything, **kept}), *_pivot_faults(kept, named, cases)]
         return found[0], found[1], cases, [*faults, *_differences(kept, contact, cases)]
 
 
 def _pivot_faults(kept: dict[str, Any], named: dict[str, Any], cases: Cases) -> list[tuple[Any, int]]:
     """What a pinned vehicle checks of single numbers, of arrays."""
-    faults = []
+    faults: list[tuple[Any, int]] = []
     for label in (label for label, body in named.items() if body.pivot is not None):
         mass, inertia = (kept.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
         motion = [kept[f"{label}.{name}"] for name in _PINNED]
-        eps = checks.rounding(_eps(cases), *motion[:2])
+        eps = rounding(_eps(cases), *motion[:2])
         vx, vy, yaw_rate, x, y, pin_x, pin_y = (np.asarray(value, dtype=np.float64) for value in motion)
-        faults.append((checks.either_infinite(mass, inertia), codes.PINNED_INFINITE))
-        faults.append((checks.not_about_pivot(vx, vy, yaw_rate, x, y, pin_x, pin_y, eps), codes.PINNED_VELOCITY))
+        faults.append((either_infinite(mass, inertia), Status.PINNED_INFINITE))
+        faults.append((not_about_pivot(vx, vy, yaw_rate, x, y, pin_x, pin_y, eps), Status.PINNED_VELOCITY))
     return faults
 
 
@@ -249,7 +253,8 @@ def _differences(kept: dict[str, Any], contact: Any, cases: Cases) -> list[tuple
     scene = np.zeros(())
     for place in (*(value for name, value in kept.items() if name.endswith((".x", ".y"))), *(contact or ())):
         scene = np.fmax(scene, abs(place))
-    told, lanes = [], []
+    told: list[str] = []
+    lanes: list[tuple[Any, int]] = []
     for label in ("a_before", "b_before"):
         for name, unit in _KEPT.items():
             before, after = f"{label}.{name}", f"{label[0]}_after.{name}"
@@ -260,7 +265,7 @@ def _differences(kept: dict[str, Any], contact: Any, cases: Cases) -> list[tuple
             apart = np.abs(np.subtract(one, other))
             unlike = np.not_equal(one, other) & ((apart > within * size) | (np.isinf(one) ^ np.isinf(other)))
             if np.ndim(unlike):
-                lanes.append((unlike, codes.CONTRADICTORY))
+                lanes.append((unlike, Status.CONTRADICTORY))
             elif unlike:
                 told.append(f"{before} = {one:.6g} {unit} and {after} = {other:.6g} {unit}, {apart:.6g} {unit} apart")
     if told:
@@ -310,23 +315,23 @@ def _numbers(body: Vehicle, contact: Any, label: str, purpose: str) -> tuple[Any
 
 
 def _closing_faults(closing: Any) -> list[tuple[Any, int]]:
-    return [(closing < 0.0, codes.SEPARATING), (closing == 0.0, codes.NO_CLOSING)]
+    return [(closing < 0.0, Status.SEPARATING), (closing == 0.0, Status.NO_CLOSING)]
 
 
 def _eps(cases: Cases) -> float:
-    return codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
+    return EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
 
 
 def _raise_or_warn(cases: Cases, status: Any, before: dict[str, Any]) -> None:
     def error(index: tuple[int, ...]) -> CollisionsError:
         code = int(np.asarray(status)[index])
-        if code == codes.NOT_SEPARATING:
+        if code == Status.NOT_SEPARATING:
             return NoImpactError(
                 "the motions show no impulse that pushes the bodies apart along the normal, which must point from A into B",
                 code="not_pushed",
             )
-        if code not in (codes.SEPARATING, codes.NO_CLOSING):
-            return plain_error(code, f"{Status(code).sentence}: give motions that are known")
+        if code not in (Status.SEPARATING, Status.NO_CLOSING):
+            return error_of(code, f"{Status(code).sentence}: give motions that are known")
         speed = cases.one(before["closing_speed"], index)
         rounding = 4.0 * _eps(cases) * cases.one(before["speeds"], index)
         what = f"closing speed {speed:.6g} m/s along the normal, which must point from A into B"
@@ -335,11 +340,11 @@ def _raise_or_warn(cases: Cases, status: Any, before: dict[str, Any]) -> None:
         return NoImpactError(
             f"the bodies did not approach before the impact: {what}; without closing there is nothing to compare the "
             f"separation with",
-            code="no_closing" if code == codes.NO_CLOSING else "separating",
+            code="no_closing" if code == Status.NO_CLOSING else "separating",
             closing_speed=speed,
         )
 
     if cases.shape is not None:
         raise_or_warn(status, None, error, ASK_ALONE)
-    elif status != codes.OK:
+    elif status != Status.OK:
         raise error(())

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels import codes
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR, LAWS
 from ..kernels.eccentric import recoil, response
-from ..kernels.friction import sticking_slip
+from ..kernels.status import EPS, Status
 from .outcome import NUMBERS, forward
 
 NEARLY_PLASTIC = 0.01  # of the closing speed: what measured motions may still approach after a plastic impact
@@ -39,7 +39,7 @@ class End:
     """The state after, and what the kernel says of the contact there."""
 
     def __init__(
-        self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float = codes.EPS
+        self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float = EPS
     ) -> None:
         self.numbers = numbers
         self.kind, self.rule, self.law, self.pinned = kind, rule, law, pinned
@@ -49,9 +49,9 @@ class End:
         self.bodies = [[numbers[f"{label}_after.{name}"] for name in NUMBERS] for label in "ab"]
         here = self._at_the_end()
         self.status = here[0]
-        self.separation = 0.0 - here[codes.AT["closing_speed"]]
-        self.k_nn = 1.0 / here[codes.AT["effective_mass"]]
-        self.k_nt = here[codes.AT["coupling"]]
+        self.separation = 0.0 - here.closing_speed
+        self.k_nn = 1.0 / here.effective_mass
+        self.k_nt = here.coupling
         self._mobilities()
         self.size = self._size(self.bodies)
         # The motion before leaves its rounding in the one after.
@@ -67,17 +67,17 @@ class End:
             for body, motion in zip(self.bodies, self._struck(push, 0.0 * push), strict=True):
                 body[2:5] = motion
             here = self._at_the_end()
-            self.separation = np.where(self.pressed, 0.0, 0.0 - here[codes.AT["closing_speed"]])
-        self.slip = here[codes.AT["slip_before"]]
+            self.separation = np.where(self.pressed, 0.0, 0.0 - here.closing_speed)
+        self.slip = here.slip_before
         # K^-1 times the contact velocity after.
-        self.whole = 0.0 - here[codes.AT["no_slip_normal"]], 0.0 - here[codes.AT["no_slip_tangential"]]
+        self.whole = 0.0 - here.no_slip_normal, 0.0 - here.no_slip_tangential
         self.slides = self._slides()
         self.noise = self._noise(eps)
         self.at_rest = (abs(self.slip) <= self.noise) & (abs(self.separation) <= self.noise)
 
     def _at_the_end(self) -> Any:
         """What the kernel says of the end state, as if it approached: the closing speed there is minus the separation speed."""
-        return self._kernel(np.zeros(()), codes.FRICTION, np.zeros(()), self.bodies)
+        return self._kernel(np.zeros(()), FRICTION, np.zeros(()), self.bodies)
 
     def _responses(self) -> list[tuple[Any, Any, Any, Any]]:
         """Of A and B the response a and b, and the lever along n and t."""
@@ -95,7 +95,7 @@ class End:
         a, cross = a_a + a_b, rn_a * rt_b - rt_a * rn_b
         self.trace = a + b_a * (rn_a * rn_a + rt_a * rt_a) + b_b * (rn_b * rn_b + rt_b * rt_b)
         determinant = (a + (b_a / self.trace) * cross * (b_b * cross)) / self.trace
-        self.singular = determinant <= (_ROUNDING * codes.EPS) ** 2
+        self.singular = determinant <= (_ROUNDING * EPS) ** 2
         self.magnified = np.where(self.singular, 1.0, 1.0 / determinant)
 
     def _size(self, bodies: Sequence[Sequence[Any]]) -> Any:
@@ -115,7 +115,7 @@ class End:
             size = np.fmax(size, np.where(slide.jams, np.nan, self.size + moved))
         if self.kind == "energy_loss":
             size = size + np.sqrt(2.0 * self.known * 2.0 * self.trace)
-        endless = np.isinf(self.bound) if self.rule == codes.FRICTION else self.bound == 1.0
+        endless = np.isinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
         for slide in self.slides:
             endless = endless | slide.jams
         # Only two pins leave nothing of the motion.
@@ -135,23 +135,23 @@ class End:
         return motions
 
     def _kernel(self, e: Any, rule: str, bound: Any, bodies: Sequence[Sequence[Any]], n: Any = None, **known: Any) -> Any:
-        law = self.law if rule == self.rule else codes.BRACH
+        law = self.law if rule == self.rule else BRACH
         inputs = (e, *(n or self.n), bound, *self.p, *bodies[0], *bodies[1])
         return forward(*inputs, rule, law, *self.pinned, **known)
 
     def _slides(self) -> list[Origin]:
         """The origins of a contact that slid one way and the other to the end."""
-        if self.rule != codes.FRICTION:
+        if self.rule != FRICTION:
             return []
         finite = np.where(np.isinf(self.bound) | (self.bound == 0.0), np.nan, self.bound)
         return [self._along("sliding", sign * finite) for sign in (1.0, -1.0)]
 
     def candidates(self) -> list[Origin]:
         """Every origin the law allows, whether it fits or not."""
-        if self.rule == codes.IMPULSE_RATIO:
+        if self.rule == IMPULSE_RATIO:
             return [self._along("given", self.bound)]
         frictionless = np.where(self.bound == 0.0, 0.0, np.nan)
-        if self.rule == codes.FRICTION:
+        if self.rule == FRICTION:
             without = self._along("frictionless", frictionless)
             return [without, *self.slides, self._sticking("sticking", self.bound > 0.0)]
         shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
@@ -173,8 +173,8 @@ class End:
             # Along the impulse the contact is a one-dimensional one, with the effective mass of that direction.
             length = np.hypot(1.0, ratio)
             d = (self.n[0] - ratio * self.n[1]) / length, (self.n[1] + ratio * self.n[0]) / length
-            there = self._kernel(np.zeros(()), codes.FRICTION, np.zeros(()), self.bodies, d)
-            parting, mass = 0.0 - there[codes.AT["closing_speed"]], there[codes.AT["effective_mass"]]
+            there = self._kernel(np.zeros(()), FRICTION, np.zeros(()), self.bodies, d)
+            parting, mass = 0.0 - there.closing_speed, there.effective_mass
             root = np.sqrt(parting * parting + 2.0 * self.known / mass)
             impulse = mass * np.where(parting > 0.0, parting + root, (2.0 * self.known / mass) / (root - parting))
             normal = impulse / length
@@ -185,9 +185,9 @@ class End:
             normal = (closing + self.separation) / resistance
             e = self.separation / self.known if self.kind == "closing_speed" else self.known
             condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
-        if self.rule == codes.CRITICAL_FRACTION:
+        if self.rule == CRITICAL_FRACTION:
             # The slip after is this part of the slip before.
-            left = abs(1.0 - self.bound * (1.0 - sticking_slip(e, self.law)))
+            left = abs(1.0 - self.bound * (1.0 - LAWS[self.law].sticking_slip(e)))
             condition = np.maximum(condition, 1.0 / left)
         tangential = ratio * normal
         velocity = closing, self.slip - self._slip_change(normal, tangential)
@@ -199,7 +199,7 @@ class End:
 
     def _sticking(self, regime: str, possible: Any) -> Origin:
         """The origin of a contact that does not slip under "kudlich-slibar", which sends all of the velocity back e-fold."""
-        if self.law == codes.BRACH:
+        if self.law == BRACH:
             nothing = np.full((), np.nan)
             return self._origin(regime, nothing, nothing, nothing, nothing, (nothing, nothing), False)
         if self.kind == "energy_loss":
@@ -222,10 +222,10 @@ class End:
         "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves a quadratic in the ratio.
         """
         y_n, y_t = self.whole
-        if self.law == codes.BRACH:
+        if self.law == BRACH:
             # With e = -1 the wanted change along the normal is 0, and what remains is the slip.
-            only_slip = self._kernel(np.full((), -1.0), codes.FRICTION, np.zeros(()), self.bodies)
-            y_n, y_t = 0.0 - only_slip[codes.AT["no_slip_normal"]], 0.0 - only_slip[codes.AT["no_slip_tangential"]]
+            only_slip = self._kernel(np.full((), -1.0), FRICTION, np.zeros(()), self.bodies)
+            y_n, y_t = 0.0 - only_slip.no_slip_normal, 0.0 - only_slip.no_slip_tangential
         share = self.bound
         square = y_n * self.k_nt
         linear = y_n * self.k_nn - share * y_t * self.k_nt - (1.0 - share) * (self._closing() + self.separation)
@@ -237,13 +237,13 @@ class End:
         self, regime: str, normal: Any, tangential: Any, e: Any, condition: Any, velocity: tuple[Any, Any], possible: Any
     ) -> Origin:
         e = np.where((e < 0.0) & (abs(self.separation) <= self.rounding), 0.0, e)
-        e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * codes.EPS + self.rounding / abs(self.separation)), 1.0, e)
+        e = np.where((e > 1.0) & (e <= 1.0 + 16.0 * EPS + self.rounding / abs(self.separation)), 1.0, e)
         motions = self._struck(0.0 - normal, 0.0 - tangential)
         before = [[*body[:2], *motion, *body[5:]] for body, motion in zip(self.bodies, motions, strict=True)]
         answer = self._kernel(e, self.rule, self.bound, before, contact_velocity=velocity)
-        n_again, t_again = answer[codes.AT["normal_impulse"]], answer[codes.AT["tangential_impulse"]]
+        n_again, t_again = answer.normal_impulse, answer.tangential_impulse
         again = abs(n_again - normal) + abs(t_again - tangential) <= _SAME * (abs(normal) + abs(tangential))
-        fits = possible & again & (answer[0] <= codes.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
+        fits = possible & again & (answer[0] <= Status.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
         jams = ~np.isnan(normal) & ~np.asarray(possible)
         return Origin(regime, normal, tangential, e, condition, velocity, jams, (motions[0], motions[1]), fits)
 
@@ -264,22 +264,22 @@ class End:
         normal = 2.0 * self.separation / self.resistance(ratio)
         return 0.0 - ratio * normal * (self.slip - 0.5 * self._slip_change(normal, ratio * normal))
 
-    def always_sticks(self, law: str = codes.BRACH) -> Any:
+    def always_sticks(self, law: str = BRACH) -> Any:
         """Whether the contact is under this law and cannot end but as one that sticks."""
-        if self.rule == codes.IMPULSE_RATIO or self.law != law:
+        if self.rule == IMPULSE_RATIO or self.law != law:
             return False
-        return np.isposinf(self.bound) if self.rule == codes.FRICTION else self.bound == 1.0
+        return np.isposinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
 
     def range(self) -> tuple[Any, Any]:
         """Between which slips before a contact that stuck under "brach" had its own; infinite where friction jams."""
-        if not self.slides or self.law != codes.BRACH:
+        if not self.slides or self.law != BRACH:
             return np.full((), np.nan), np.full((), np.nan)
         slips = [np.where(one.jams, np.copysign(np.inf, self.k_nt), one.contact_velocity[1]) for one in self.slides]
         return np.minimum(*slips), np.maximum(*slips)
 
     def forgets_slip(self) -> Any:
         """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
-        if self.rule == codes.IMPULSE_RATIO:
+        if self.rule == IMPULSE_RATIO:
             return False
-        could_stick = self.bound > 0.0 if self.rule == codes.FRICTION else self.bound == 1.0
-        return could_stick & (self.at_rest if self.law == codes.KUDLICH_SLIBAR else abs(self.slip) <= self.noise)
+        could_stick = self.bound > 0.0 if self.rule == FRICTION else self.bound == 1.0
+        return could_stick & (self.at_rest if self.law == KUDLICH_SLIBAR else abs(self.slip) <= self.noise)

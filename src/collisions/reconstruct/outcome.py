@@ -7,16 +7,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..answering import first_refused, warn_of_refusals
-from ..arguments import check_options
 from ..door import broadcast
-from ..errors import CollisionsError, InputError, NoImpactError, NoSolutionError, Status
+from ..errors import CollisionsError, InputError, Status
 from ..fields import lock
-from ..impact import Asked, Impact, found_by
-from ..kernels import checks, codes
+from ..impact import Impact, found_by
+from ..inputs import Inputs
 from ..kernels.batch import precision
+from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
+from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
 from ..provenance import Reconstruction
+from ..solving import check_options, first_refused, warn_of_refusals
 from ..vehicle import Vehicle
 
 # How the names of numbers begin that cannot be below 0.
@@ -49,7 +50,7 @@ def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
 
 
 # The forward kernel, called with the numbers of two bodies in this order.
-forward: Callable[..., tuple[Any, ...]] = eccentric
+forward: Callable[..., Any] = eccentric
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 
 # For functions that answer with plain numbers, which have no status.
@@ -88,7 +89,7 @@ class Cases(NamedTuple):
         """The same of what is counted."""
         return int(found) if self.shape is None else lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
 
-    def verdict(self, findings: Sequence[tuple[Any, int]]) -> Any:
+    def first_status(self, findings: Sequence[tuple[Any, int]]) -> Any:
         """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
         status = np.zeros(self.shape or (), dtype=np.uint8)
         for condition, code in reversed(findings):
@@ -106,22 +107,23 @@ def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
             kind = name.rpartition(".")[2]
-            if kind.startswith(("mass", "yaw_inertia")):
-                found += [(checks.not_a_number(value), codes.NOT_FINITE), (checks.not_positive(value), codes.NOT_POSITIVE)]
-            elif kind in ("restitution", "critical_fraction"):
-                code = codes.BAD_RESTITUTION if kind == "restitution" else codes.BAD_FRACTION
-                found.append((checks.outside_unit_interval(value), code))
-            elif kind == "friction":
-                found.append((checks.negative(value), codes.BAD_FRICTION))
-            else:
-                found.append((checks.not_finite(value), codes.NOT_FINITE))
-                if kind.startswith(_AMOUNTS):
-                    found.append((checks.negative(value), codes.CONTRADICTORY))
+            domain = (
+                POSITIVE
+                if kind.startswith(("mass", "yaw_inertia"))
+                else RESTITUTION
+                if kind == "restitution"
+                else RULES[kind].domain
+                if kind in RULES
+                else FINITE
+            )
+            found += [(fault(value), status) for fault, status in domain.faults]
+            if kind.startswith(_AMOUNTS):
+                found.append((value < 0.0, Status.CONTRADICTORY))
     return found
 
 
 def settle(
-    asked: Callable[[Any], Asked],
+    asked: Callable[[Any], Inputs],
     status: Any,
     origin: Reconstruction,
     on_failure: Any,
@@ -133,19 +135,19 @@ def settle(
     """
     check_options(on_failure)
     single = not isinstance(status, np.ndarray)
-    if single and status != codes.OK and on_failure != "nan":
+    if single and status != Status.OK and on_failure != "nan":
         raise error(())
     found = answered(asked, status, origin, on_failure if single else "nan")
     if not single:
-        raise_or_warn(found._raw[0], on_failure, error)
+        raise_or_warn(found._raw.status, on_failure, error)
     return found
 
 
-def answered(asked: Callable[[Any], Asked], status: Any, origin: Reconstruction, on_failure: Any) -> Impact:
+def answered(asked: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any) -> Impact:
     """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
-    sure = np.equal(status, codes.OK)
-    impact = asked(sure).ask(origin.contact_velocity, on_failure=on_failure)
-    question = impact._asked
+    sure = np.equal(status, Status.OK)
+    impact = Impact._solved(asked(sure)._changed(contact_velocity=origin.contact_velocity), on_failure=on_failure)
+    question = impact.inputs
     if np.any(sure & impact.refused):
         question = asked(sure & np.logical_not(impact.refused))
     return found_by(origin, question, impact._raw, status)
@@ -155,22 +157,9 @@ def raise_or_warn(
     status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError], advice: str | None = None
 ) -> None:
     """What a batch does about its refused cases."""
-    if on_failure != "nan" and np.any(status > codes.ENERGY_GAIN):
+    if on_failure != "nan" and np.any(status > Status.ENERGY_GAIN):
         if on_failure == "raise":
             index, place = first_refused(status)
             problem = error(index)
             raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
         warn_of_refusals(status, *([] if advice is None else [advice]))
-
-
-def plain_error(status: int, text: str, **fields: Any) -> CollisionsError:
-    """The error of a status, in the family its label belongs to."""
-    outcome = Status(status)
-    kind = (
-        NoImpactError
-        if outcome in (Status.SEPARATING, Status.GRAZING, Status.NO_CLOSING)
-        else InputError
-        if Status.OUT_OF_RANGE <= outcome < Status.NO_CLOSING
-        else NoSolutionError
-    )
-    return kind(text, code=outcome.label, **fields)

@@ -13,13 +13,13 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from ..amounts import amount
-from ..arguments import Law, OnFailure, read
-from ..cases import part_of
 from ..door import Door
-from ..eccentric import body_numbers, missing_numbers
 from ..errors import CollisionsError, InputError
-from ..impact import Asked, Impact, found_by
-from ..kernels import codes
+from ..impact import Impact, found_by
+from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
+from ..kernels.contact_laws import CRITICAL_FRACTION, IMPULSE_RATIO
+from ..kernels.status import EPS, Status
+from ..models import body_numbers, missing_numbers
 from ..provenance import Reconstruction
 from ..quiet import quietly
 from ..units import Input, Pair, shown
@@ -131,19 +131,19 @@ def planar(
                 argument="regime",
             )
         )
-    e, n, rule, bound, contact, _, given_as = read(
+    inputs, _ = read_inputs(
+        "eccentric",
         a_after,
         b_after,
         known if kind == "restitution" else 0.0,
         normal,
         point,
-        friction,
-        impulse_ratio,
-        critical_fraction,
+        (friction, impulse_ratio, critical_fraction),
         law,
         [*door.problems, *missing_numbers(a_after, b_after, point)],
         (known,),
     )
+    e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
     bodies = body_numbers(a_after, contact), body_numbers(b_after, contact)
     known = e if kind == "restitution" else known
     everything = {kind: known, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
@@ -153,7 +153,7 @@ def planar(
     everything |= {
         f"{label}_after.heading": body.heading for label, body in (("a", a_after), ("b", b_after)) if body.heading is not None
     }
-    if rule == codes.CRITICAL_FRACTION and kind == "energy_loss" and np.any((bound > 0.0) & (bound < 1.0)):
+    if rule == CRITICAL_FRACTION and kind == "energy_loss" and np.any((bound > 0.0) & (bound < 1.0)):
         raise InputError(
             "a critical_fraction between 0 and 1 cannot be used with energy_loss; give impulse_ratio=, or the restitution or "
             "closing_speed instead of the energy",
@@ -164,8 +164,8 @@ def planar(
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in everything.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = End(arrays, kind, rule, law, pinned, codes.EPS if cases.shape is None else float(np.finfo(cases.dtype).eps))
-        told = {**door.texts, **(given_as or {})}
+        end = End(arrays, kind, rule, law, pinned, EPS if cases.shape is None else float(np.finfo(cases.dtype).eps))
+        told = {**door.texts, **(inputs.given or {})}
         return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact, told), regime, on_failure)
 
 
@@ -192,20 +192,20 @@ def _answer(
     blind = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
     parts = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
-    status = cases.verdict(
+    status = cases.first_status(
         (
             *input_faults(end.numbers),
-            (end.status == codes.IMMOVABLE, codes.IMMOVABLE),
-            (end.singular & (end.bound > 0.0) & (end.rule != codes.IMPULSE_RATIO), codes.SINGULAR_CONTACT),
-            (plastic, codes.INVERSE_E0),
-            (~parts, codes.NOT_SEPARATING),
-            (blind, codes.STICK_INVERSE),
-            (count == 1, codes.OK),
-            (count > 1, codes.AMBIGUOUS_INVERSE),
-            (True, codes.CONTRADICTORY),
+            (end.status == Status.IMMOVABLE, Status.IMMOVABLE),
+            (end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO), Status.SINGULAR_CONTACT),
+            (plastic, Status.INVERSE_E0),
+            (~parts, Status.NOT_SEPARATING),
+            (blind, Status.STICK_INVERSE),
+            (count == 1, Status.OK),
+            (count > 1, Status.AMBIGUOUS_INVERSE),
+            (True, Status.CONTRADICTORY),
         )
     )
-    sure = np.equal(status, codes.OK)
+    sure = np.equal(status, Status.OK)
     which = np.argmax(np.stack(np.broadcast_arrays(*fits)), axis=0) if fits else 0
     condition = np.choose(which, [one.condition for one in origins]) if origins else np.nan
     low, high = end.range()
@@ -220,23 +220,25 @@ def _answer(
         velocity = cases.values(velocity[0]), cases.values(velocity[1])
         return Reconstruction(method="planar", known=known, condition=condition, answers=answers, contact_velocity=velocity)
 
-    def asked(found: list[Any], restitution: Any, keep: Any) -> Asked:
+    def asked(found: list[Any], restitution: Any, keep: Any) -> Inputs:
         moved = [
             body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(texts)
             for body, motion, texts in zip((a, b), found, kept, strict=True)
         ]
         used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, np.nan))
-        return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
+        return Inputs("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
 
     def solution(one: Origin, answers: float) -> Impact:
         found = provenance(one.condition, answers, one.contact_velocity)
-        impact = asked(list(one.motions), one.restitution, True).ask(found.contact_velocity)
-        return found_by(found, impact._asked, impact._raw, codes.OK)
+        impact = Impact._solved(
+            asked(list(one.motions), one.restitution, True)._changed(contact_velocity=found.contact_velocity)
+        )
+        return found_by(found, impact.inputs, impact._raw, Status.OK)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
         if isinstance(status, np.ndarray):
             return _alone(int(status[index]), cases, end, a, b, index, regime)
-        stuck = status == codes.STICK_INVERSE
+        stuck = status == Status.STICK_INVERSE
         # Those of a range are its ends, however it was asked for.
         candidates, fitting = end.origin(None if stuck else regime)
         fitting = [one for one, fit in zip(candidates, fitting, strict=True) if fit]

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, OutOfRangeWarning, Status
 from ..impact import Impact
-from ..kernels import codes
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..quiet import callers_level
+from ..solving import error_of
 from .origins import End, Origin
-from .outcome import Cases, plain_error
+from .outcome import Cases
 
 _FREE = "give a finite friction=, or impulse_ratio="
 
@@ -54,7 +55,7 @@ def refusal(status: int, end: End, regime: str | None, fitting: list[Origin], so
     """The error of a single case, with what fits; what it advises does not end in the same refusal."""
     separation, slip = float(end.separation), float(end.slip)
     fields = {"separation_speed": separation, "slip_after": slip, "solutions": solutions}
-    if status == codes.AMBIGUOUS_INVERSE:
+    if status == Status.AMBIGUOUS_INVERSE:
         regimes = [one.regime for one in fitting]
         told = " or ".join(
             f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of {impact.closing_speed:.6g} m/s"
@@ -67,32 +68,32 @@ def refusal(status: int, end: End, regime: str | None, fitting: list[Origin], so
             code="ambiguous_inverse",
             solutions=solutions,
         )
-    if status == codes.STICK_INVERSE:
+    if status == Status.STICK_INVERSE:
         text = _stuck(end, slip, solutions)
-    elif status == codes.NOT_SEPARATING:
+    elif status == Status.NOT_SEPARATING:
         text = _not_parting(end, separation)
-    elif status == codes.CONTRADICTORY:
+    elif status == Status.CONTRADICTORY:
         text = _contradiction(end, separation, slip, regime)
     else:
         text = {
-            codes.INVERSE_E0: f"restitution = 0: after a plastic impact nothing is left of the closing speed; give "
+            Status.INVERSE_E0: f"restitution = 0: after a plastic impact nothing is left of the closing speed; give "
             f"{_plastic(end)} instead",
-            codes.IMMOVABLE: "nothing can yield along the normal: both bodies are fixed there; correct normal or point, or "
+            Status.IMMOVABLE: "nothing can yield along the normal: both bodies are fixed there; correct normal or point, or "
             "give a finite mass",
-            codes.SINGULAR_CONTACT: "the contact can move in one direction only (a pinned body against a fixed one, or "
+            Status.SINGULAR_CONTACT: "the contact can move in one direction only (a pinned body against a fixed one, or "
             "parallel arms), so what would stop the slip is not defined; write friction=0, or give impulse_ratio=",
-        }[status]
-    return plain_error(status, text, **fields)
+        }[Status(status)]
+    return error_of(status, text, **fields)
 
 
 def plain_refusal(status: int) -> CollisionsError:
     """The error of a case of which only its status is known."""
-    return plain_error(status, Status(status).sentence)
+    return error_of(status, Status(status).sentence)
 
 
 def _plastic(end: End) -> str:
     """What may be known in place of the restitution."""
-    shares = end.rule == codes.CRITICAL_FRACTION and 0.0 < end.bound < 1.0
+    shares = end.rule == CRITICAL_FRACTION and 0.0 < end.bound < 1.0
     return "closing_speed=" if shares else "closing_speed= or energy_loss="
 
 
@@ -119,8 +120,8 @@ def _stuck(end: End, slip: float, solutions: tuple[Impact, ...]) -> str:
     elif solutions:
         ends = f".solutions holds the {len(solutions)} ends of the range, where friction is just used up. "
     # At rest it tells no more under the other law.
-    other = end.law == codes.BRACH and abs(end.separation) > end.noise
-    law = f", or law={codes.KUDLICH_SLIBAR!r} if that is the model" if other else ""
+    other = end.law == BRACH and abs(end.separation) > end.noise
+    law = f", or law={KUDLICH_SLIBAR!r} if that is the model" if other else ""
     return (
         f"the contact ended without slip (slip after {slip:.3g} m/s, no more than rounding leaves), and under {end.law!r} any "
         f"slip before may end so: the motion across the normal is lost. {ends}What decides is impulse_ratio=, the tangential "
@@ -130,7 +131,7 @@ def _stuck(end: End, slip: float, solutions: tuple[Impact, ...]) -> str:
 
 def _allowed(end: End) -> str:
     """Between which ratios a contact with this friction may stick."""
-    if end.rule != codes.FRICTION or math.isinf(end.bound):
+    if end.rule != FRICTION or math.isinf(end.bound):
         low, high = -math.inf, math.inf
     else:
         low, high = -float(end.bound), float(end.bound)
@@ -184,19 +185,19 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
             f"the contact points part faster than they met: {here}, closing_speed={float(end.known):.6g} m/s; give at least "
             f"the separation speed, or restitution= instead"
         )
-    if end.always_sticks(codes.KUDLICH_SLIBAR):
+    if end.always_sticks(KUDLICH_SLIBAR):
         return f"with {given} the contact sticks, and under {end.law!r} none that sticks ends so: {here}; {_FREE}"
-    ratios = {codes.FRICTION: (float(end.bound), -float(end.bound)), codes.IMPULSE_RATIO: (float(end.bound),)}.get(end.rule, ())
+    ratios = {FRICTION: (float(end.bound), -float(end.bound)), IMPULSE_RATIO: (float(end.bound),)}.get(end.rule, ())
     if any(end.resistance(ratio) <= 0.0 for ratio in ratios):
         limit = _limit(end)
-        allowed = abs(limit) if end.rule == codes.FRICTION else limit
+        allowed = abs(limit) if end.rule == FRICTION else limit
         return (
             f"{given} jams the bodies in a contact that ends so ({here}); give {end.rule}= "
             f"{'below' if allowed > 0.0 else 'above'} {allowed:.4g}, or check the yaw rates and the normal"
         )
     if end.kind == "energy_loss":
         # Friction acts against the slip; under "kudlich-slibar" against that of compression, and the one after may be either.
-        free = end.rule == codes.IMPULSE_RATIO or end.law != codes.BRACH
+        free = end.rule == IMPULSE_RATIO or end.law != BRACH
         least = min((end.elastic_loss(ratio) for ratio in ratios if free or ratio * slip <= 0.0), default=0.0)
         if least > end.known:
             return (
@@ -205,5 +206,5 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
             )
     return (
         f"no motion before ends so under {end.law!r} with {given} and {end.kind}={float(end.known):g}: {here}; check the "
-        f"normal and the motions after{', or give friction= or impulse_ratio=' if end.rule == codes.CRITICAL_FRACTION else ''}"
+        f"normal and the motions after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
     )

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..answering import warn_of_refusals
-from ..arguments import Law, read
 from ..directions import Angle, course
 from ..door import Door
-from ..eccentric import body_numbers, missing_numbers
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
-from ..impact import Asked, Impact
-from ..kernels import codes
+from ..impact import Impact
+from ..inputs import Inputs, Law, read_inputs
+from ..kernels.status import Status
+from ..models import body_numbers, missing_numbers
 from ..provenance import Reconstruction
 from ..quiet import warn
+from ..solving import warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle
 from .outcome import ASK_ALONE, NUMBERS, Cases, answered, exactly, input_faults, parted
@@ -160,19 +160,19 @@ def speeds(
                     argument="pivot",
                 )
             )
-    e, n, rule, bound, contact, _, given_as = read(
+    inputs, _ = read_inputs(
+        "eccentric",
         a,
         b,
         0.0 if function is not None else restitution,
         normal,
         point,
-        friction,
-        impulse_ratio,
-        critical_fraction,
+        (friction, impulse_ratio, critical_fraction),
         law,
         [*door.problems, *missing_numbers(a, b, point)],
         (*known.values(), *(angle.value for angle in courses.values())),
     )
+    e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
     everything: dict[str, Any] = {**known, "restitution": e, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
     everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     for label, body in (("a", a), ("b", b)):
@@ -190,7 +190,7 @@ def speeds(
     with np.errstate(all="ignore"):
         _refuse_pairs(given, known, a, b)
         scene = Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
-        told = {**door.texts, **(given_as or {})} or None
+        told = {**door.texts, **(inputs.given or {})} or None
         roots = scene.roots() if function is None else joint(scene, cases, function)
         return _answers(cases, scene, in_order(cases, scene, roots), a, b, (n, rule, bound, law, contact, e, told), function)
 
@@ -224,16 +224,16 @@ def _answers(
 ) -> tuple[Impact, ...]:
     faults = input_faults(scene.numbers)
     told_nothing = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
-    faults += [(of_wall, codes.INFINITE_MASS) for of_wall in told_nothing]
-    faults.append((scene.open, codes.UNDETERMINED))
+    faults += [(of_wall, Status.INFINITE_MASS) for of_wall in told_nothing]
+    faults.append((scene.open, Status.UNDETERMINED))
     none = np.full((), np.nan)
     nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
     impacts: list[Impact] = []
     backward = 0.0
     for root, there in found or [nothing]:
-        status = cases.verdict((*faults, (there, codes.OK), (True, codes.CONTRADICTORY)))
-        if isinstance(status, int) and status != codes.OK:
+        status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
+        if isinstance(status, int) and status != Status.OK:
             raise refusal(scene, status, function)
         origin = Reconstruction(
             method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.whole(count)
@@ -244,8 +244,8 @@ def _answers(
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
         impacts.append(impact)
-    if cases.shape is not None and np.any(impacts[0]._raw[0] > codes.ENERGY_GAIN):
-        warn_of_refusals(impacts[0]._raw[0], ASK_ALONE)
+    if cases.shape is not None and np.any(impacts[0]._raw.status > Status.ENERGY_GAIN):
+        warn_of_refusals(impacts[0]._raw.status, ASK_ALONE)
     if backward < 0.0:
         warn(
             OutOfRangeWarning(
@@ -260,7 +260,7 @@ def _answers(
 
 def _asked(
     cases: Cases, scene: Scene, root: Root, bodies: tuple[Vehicle, Vehicle], contact: tuple[Any, ...], as_given: bool, keep: Any
-) -> Asked:
+) -> Inputs:
     """The question of the speeds of a root where they are kept, with the restitution as it was given or found."""
     n, rule, bound, law, point, e, told = contact
     moved = []
@@ -270,4 +270,4 @@ def _asked(
         changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
         moved.append(changed._told(parted(body, ("vx", "vy", "speed", "course"))[0]))
     used = e if as_given else cases.values(root.restitution)
-    return Asked("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)
+    return Inputs("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)

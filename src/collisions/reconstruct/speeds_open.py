@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..kernels import codes
+from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO
+from ..kernels.status import EPS, Status
 
 if TYPE_CHECKING:
     from .speeds_scene import Root, Scene
@@ -16,7 +17,7 @@ STICK = "stick"
 # Part of the closing speed by which two roots that are one may be apart.
 SAME = 1e-6
 # Worst case of the forward kernel's rounding, in eps of the parts that it adds up.
-ROUNDING = 32.0 * codes.EPS
+ROUNDING = 32.0 * EPS
 # Part of the speeds by which a root is moved, to see whether what was given tells it from its neighbours.
 _BESIDE = 0.02
 # Where a range of speeds is looked at: five places, for what is observed along it is a quotient of quartics at most.
@@ -36,7 +37,7 @@ def blur(kind: str, seen: dict[str, Any]) -> Any:
 def reaches(scene: Scene, regime: Any) -> Any:
     """Whether the law may lead to a regime: not to sticking without friction, nor with less than the critical ratio."""
     if regime is STICK:
-        return scene.bound == 1.0 if scene.rule == codes.CRITICAL_FRACTION else scene.bound > 0.0
+        return scene.bound == 1.0 if scene.rule == CRITICAL_FRACTION else scene.bound > 0.0
     return True
 
 
@@ -52,7 +53,7 @@ def any_speed(scene: Scene, regime: Any, e: Any) -> Any:
     size = np.where(size > 0.0, size, 1.0)
     low: Any = np.full((), -np.inf)
     high: Any = np.full((), np.inf)
-    ends = (_conditions(scene, regime, scene.run(*pair(x), e, codes.FRICTION, 0.0)) for x in (-size, size))
+    ends = (_conditions(scene, regime, scene.run(*pair(x), e, FRICTION, 0.0)) for x in (-size, size))
     for behind, ahead in zip(*ends, strict=True):
         # Each is linear in the speed, so it begins or ends to hold at one place.
         middle = size * (behind + ahead) / (behind - ahead)
@@ -67,10 +68,10 @@ def any_speed(scene: Scene, regime: Any, e: Any) -> Any:
 
 def _conditions(scene: Scene, regime: Any, raw: tuple[Any, ...]) -> list[Any]:
     """What must be above 0 for the law to lead to a regime."""
-    closing, normal, tangential = (raw[codes.AT[name]] for name in ("closing_speed", "no_slip_normal", "no_slip_tangential"))
-    if scene.rule == codes.IMPULSE_RATIO:
+    closing, normal, tangential = (getattr(raw, name) for name in ("closing_speed", "no_slip_normal", "no_slip_tangential"))
+    if scene.rule == IMPULSE_RATIO:
         return [closing]
-    if scene.rule == codes.CRITICAL_FRACTION:
+    if scene.rule == CRITICAL_FRACTION:
         return [closing, np.where(scene.bound > 0.0, normal, 1.0)]
     endless = np.isinf(scene.bound)
     most = np.where(endless, 1.0, scene.bound) * normal
@@ -125,7 +126,7 @@ def _same(scene: Scene, e: Any, pairs: Sequence[tuple[Any, Any]]) -> Any:
     for speed_a, speed_b in pairs:
         status, seen = scene.outcome(speed_a, speed_b, e)
         first = first or seen
-        same = same & (status <= codes.ENERGY_GAIN)
+        same = same & (status <= Status.ENERGY_GAIN)
         for kind in scene.kinds:
             if kind.startswith("speed"):
                 continue

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import NoSolutionError, Status
-from ..kernels import codes
+from ..kernels.status import EPS
 from .self_consistent import RestitutionOf
 from .speeds_scene import Scene
 
@@ -35,13 +35,13 @@ _Values = Callable[[Any], Any]
 def parallel(scene: Scene) -> bool:
     """Whether the courses are parallel."""
     (ax, ay), (bx, by) = ([float(scene.numbers[f"course_{label}[{i}]"]) for i in range(2)] for label in "ab")
-    return abs(ax * by - ay * bx) <= 8.0 * codes.EPS
+    return abs(ax * by - ay * bx) <= 8.0 * EPS
 
 
 def refusal(scene: Scene, status: int, function: RestitutionOf | None) -> NoSolutionError:
     """The error of a single case that has no answer."""
     kinds = " and ".join("both EES" if kind == "ees_a" else kind for kind in scene.kinds)
-    if status == codes.INFINITE_MASS:
+    if status == Status.INFINITE_MASS:
         kind = next(k for k in scene.kinds if k.startswith("delta_v") and np.isinf(scene.numbers[f"{k[-1]}.mass"]))
         other = "b" if kind[-1] == "a" else "a"
         return NoSolutionError(
@@ -53,7 +53,7 @@ def refusal(scene: Scene, status: int, function: RestitutionOf | None) -> NoSolu
             f"the courses are parallel, so {kinds} tell of the closing speed alone; give one of the speeds",
             code="parallel_headings",
         )
-    if status == codes.UNDETERMINED:
+    if status == Status.UNDETERMINED:
         return NoSolutionError(_many(scene, kinds), code="undetermined")
     if function is not None:
         function.complain()
@@ -126,7 +126,7 @@ def _values(scan: _Scan, e: Any) -> _Values:
 
     def values(places: Any) -> Any:
         status, _, seen = scan(places, e)
-        return np.where((status <= codes.ENERGY_GAIN) & np.isfinite(seen), seen, np.nan)[np.newaxis]
+        return np.where((status <= Status.ENERGY_GAIN) & np.isfinite(seen), seen, np.nan)[np.newaxis]
 
     return values
 
@@ -137,7 +137,7 @@ def _joint_values(scan: _Scan, restitution: Callable[[Any], Any]) -> _Values:
 
     def values(places: Any) -> Any:
         status, closing, seen = scan(places, es)
-        seen = np.where(status <= codes.ENERGY_GAIN, seen, np.nan)
+        seen = np.where(status <= Status.ENERGY_GAIN, seen, np.nan)
         excess = restitution(closing) - es
         share = excess[:-1] / (excess[:-1] - excess[1:])
         share = np.where((share >= 0.0) & (share <= 1.0), share, np.nan)
@@ -177,7 +177,7 @@ def _by_other_speed(scene: Scene) -> tuple[_Scan, Any]:
     places = [np.zeros(1), -_SIZES, _SIZES]
     changes = {name: float(per_speed[which]) for name, per_speed in scene.per_speed.items()}
     for name, change in changes.items():
-        if abs(change) > 64.0 * codes.EPS * max(map(abs, changes.values())):
+        if abs(change) > 64.0 * EPS * max(map(abs, changes.values())):
             middle = -(scene.rest[name] + scene.per_speed[name][1 - which] * value) / change
             places += [middle - _SIZES, middle.reshape(1), middle + _SIZES]
     return scan, np.unique(np.concatenate(places))

@@ -13,11 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels import codes
-from ..kernels.energy import energy_losses
-from ..kernels.friction import sticking_slip
-from ..kernels.in_line import absorbed_energy
-from ..kernels.roots import PLACES, parabola_roots, quartic_roots
+from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
+from ..kernels.reverse import PLACES, absorbed_energy, parabola_roots, quartic_roots
+from ..kernels.status import EPS, Status
 from .outcome import NUMBERS, forward
 from .speeds_open import ROUNDING, SAME, STICK, any_speed, blur, every_slip, reaches
 
@@ -86,18 +84,18 @@ class Scene:
 
     def shares_critical(self) -> bool:
         """Whether the impulse ratio depends on the answer."""
-        return self.rule == codes.CRITICAL_FRACTION and bool(np.any((self.bound > 0.0) & (self.bound < 1.0)))
+        return self.rule == CRITICAL_FRACTION and bool(np.any((self.bound > 0.0) & (self.bound < 1.0)))
 
     def regimes(self) -> list[Any]:
         """Impulse ratios, or sticking, that the contact may turn out to have."""
-        if self.rule == codes.IMPULSE_RATIO:
+        if self.rule == IMPULSE_RATIO:
             return [self.bound]
-        if self.rule == codes.CRITICAL_FRACTION:
+        if self.rule == CRITICAL_FRACTION:
             return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *([_SHARE] if self.shares_critical() else [])]
         finite = np.where(np.isinf(self.bound), np.nan, self.bound)
         return [finite, np.where(self.bound > 0.0, -finite, np.nan), STICK]
 
-    def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> tuple[Any, ...]:
+    def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> Any:
         """The forward kernel at these speeds."""
         v, bodies = self.numbers, []
         for label, speed in (("a", speed_a), ("b", speed_b)):
@@ -111,32 +109,32 @@ class Scene:
         """What would be observed at these speeds if the contact were in this regime; times its weight, a polynomial of them."""
         weight: Any = 1.0
         if isinstance(regime, str):
-            raw = self.run(speed_a, speed_b, e, codes.FRICTION, 0.0)
-            closing, slip = raw[codes.AT["closing_speed"]], raw[codes.AT["slip_before"]]
-            normal, tangential = raw[codes.AT["no_slip_normal"]], raw[codes.AT["no_slip_tangential"]]
+            raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
+            closing, slip = raw.closing_speed, raw.slip_before
+            normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
         if regime is _SHARE:
             shared = self.bound * tangential
-            weight = (normal + shared * (raw[codes.AT["coupling"]] * raw[codes.AT["effective_mass"]])) ** 2
+            weight = (normal + shared * (raw.coupling * raw.effective_mass)) ** 2
             regime = shared / normal
         if isinstance(regime, str):
-            kept = sticking_slip(e, self.law)
+            kept = LAWS[self.law].sticking_slip(e)
             slips = (slip, kept * slip, (1.0 + kept) * slip, 0.0)
-            loss = energy_losses(e, closing, *slips, normal, tangential, 0.0, codes.IMPULSE_RATIO, "", codes.EPS)[2]
+            loss = energy_losses(e, closing, *slips, normal, tangential, 0.0, IMPULSE_RATIO, "", EPS)[2]
         else:
-            raw = self.run(speed_a, speed_b, e, codes.IMPULSE_RATIO, regime)
-            normal, tangential, loss = (raw[codes.AT[name]] for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
+            raw = self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime)
+            normal, tangential, loss = (getattr(raw, name) for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
         return {"weight": weight, **self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)}
 
     def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
         """The status under the law as asked, and what would be observed."""
         raw = self.run(speed_a, speed_b, e, self.rule, self.bound)
-        normal, tangential, loss = (raw[codes.AT[name]] for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
+        normal, tangential, loss = (getattr(raw, name) for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
         return raw[0], self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)
 
     def _seen(self, raw: Any, normal: Any, tangential: Any, loss: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
         squared = normal * normal + tangential * tangential
-        closing = raw[codes.AT["closing_speed"]]
-        slip, slip_after = (raw[codes.AT[f"slip_{when}"]] for when in ("before", "after"))
+        closing = raw.closing_speed
+        slip, slip_after = raw.slip_before, raw.slip_after
         whole = abs(speed_a) + abs(speed_b) + self.spinning
         return {
             "closing": closing,
@@ -158,7 +156,7 @@ class Scene:
         """The speeds along the courses that bring the contact points together like this; NaN for parallel courses."""
         (ga, gb), (sa, sb) = self.per_speed["closing"], self.per_speed["slip"]
         crossed = ga * sb - gb * sa
-        crossed = np.where(abs(crossed) <= 64.0 * codes.EPS * (np.hypot(ga, sa) * np.hypot(gb, sb)), np.nan, crossed)
+        crossed = np.where(abs(crossed) <= 64.0 * EPS * (np.hypot(ga, sa) * np.hypot(gb, sb)), np.nan, crossed)
         g, s = closing - self.rest["closing"], slip - self.rest["slip"]
         return (g * sb - s * gb) / crossed, (s * ga - g * sa) / crossed
 
@@ -297,7 +295,7 @@ class Scene:
         status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
         # A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
         # makes of speeds so large is none.
-        fits = (status <= codes.ENERGY_GAIN) & (seen["closing"] > ROUNDING * seen["whole"])
+        fits = (status <= Status.ENERGY_GAIN) & (seen["closing"] > ROUNDING * seen["whole"])
         for kind, slope in zip(self.kinds, root.slopes, strict=True):
             scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
             if kind == "energy_loss":

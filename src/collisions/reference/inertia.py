@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..door import POSITIVE, Door, broadcast, widened
+from ..door import Door, broadcast, widened
 from ..errors import InputError
+from ..kernels.elementwise import POSITIVE
 from ..units import Input, Value
 from .published import Fit, Outside, check_outside, settle
 

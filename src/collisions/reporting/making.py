@@ -14,10 +14,11 @@ from ..derivation.fit import fit
 from ..derivation.page import Page
 from ..derivation.rounding import System
 from ..diagnostics import diagnose
-from ..door import UNIT_INTERVAL, Door
+from ..door import Door
 from ..errors import InputError, ShapeError
 from ..idealisation import left_out
 from ..impact import Impact
+from ..kernels.elementwise import UNIT_INTERVAL
 from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
@@ -233,11 +234,10 @@ def _readable(impact: Impact) -> Impact:
     """The same impact with names that a file can hold, where one has half a letter."""
     if not any(map(_SURROGATE.search, (impact.a.before.name, impact.b.before.name))):
         return impact
-    rebuild, (asked, raw, provenance) = impact.__reduce__()
-    a, b = (vehicle._told(None) for vehicle in (asked.a, asked.b))
+    a, b = (vehicle._told(None) for vehicle in (impact.inputs.a, impact.inputs.b))
     for vehicle in (a, b):
         vehicle.__setstate__({"name": plain(vehicle.name)})
-    named: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
+    named = impact._with(a, b)
     return named
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..diagnostics import LIMITS
 from ..door import Door
+from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 
 # What makes another page, and in which unit it is read; None for what is no number.
@@ -31,7 +32,6 @@ UNITS: dict[str, str | None] = {
     "derivation": None,
 }
 EVIDENCE = tuple(name for name in UNITS if name.startswith(("crush", "damage")))
-_ANY = ""  # the door's word for a number that no domain bounds
 
 
 def plain_options(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -58,13 +58,13 @@ def _number(value: Any, unit: str, name: str) -> Any:
     if isinstance(value, str):
         return value
     door = Door(trusted=(name,))
-    read = door.number(value, unit, name, _ANY)
+    read = door.number(value, unit, name, UNCHECKED)
     if door.problems or not isinstance(read, float):
         return value
     text = door.texts.get(name)
     again = Door()
     # A unit of another registry may be another here, or none.
-    return text if text is not None and again.number(text, unit, name, _ANY) == read and not again.problems else read
+    return text if text is not None and again.number(text, unit, name, UNCHECKED) == read and not again.problems else read
 
 
 def kept(options: Mapping[str, Any], usual: Mapping[str, Any]) -> dict[str, Any]:

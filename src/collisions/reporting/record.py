@@ -113,9 +113,8 @@ def replay(text: str) -> Impact | MomentumSolution:
     given = found.get("given")
     if not isinstance(given, Mapping) or set(given) != {"a", "b"}:
         raise _bad("it does not say how a and b were given")
-    rebuild, (asked, raw, provenance) = impact.__reduce__()
-    a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", asked.a), ("b", asked.b)))
-    whole: Impact = rebuild(asked._replace(a=a, b=b), raw, provenance)
+    a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
+    whole = impact._with(a, b)
     return whole
 
 

@@ -16,6 +16,8 @@ from ..door import Door
 from ..errors import Status
 from ..idealisation import LeftOut, LeftOutSide
 from ..impact import Impact
+from ..kernels.contact_laws import LAWS
+from ..models import BY_NAME
 from ..plot.canvas import who
 from ..reconstruct import MomentumSolution
 from ..unit_systems import KIND_OF, SI_UNITS
@@ -52,29 +54,6 @@ _EVIDENCE = {
     "damage_delta_v_a": ("A", "delta-V that the damage or the recorder shows", "speed"),
     "damage_delta_v_b": ("B", "delta-V that the damage or the recorder shows", "speed"),
 }
-_MODELS = {
-    "linear_central": (
-        "Linear central: momentum along the normal (2) with restitution, which gives (5) and (6). The vehicles are point "
-        "masses that move along one line; rotation and forces along the tangent are left out."
-    ),
-    "oblique_central": (
-        "Oblique central: restitution along the normal (9), friction along the tangent. The vehicles are point masses; "
-        "rotation is left out."
-    ),
-    "eccentric": (
-        "Eccentric: momentum and angular momentum (10) to (19), with restitution along the normal and friction along the "
-        "tangent at one contact point; free, pinned and fixed bodies."
-    ),
-}
-_LAWS = {
-    "brach": (
-        "restitution acts on the normal impulse; with enough friction the contact has stopped slipping when the vehicles part"
-    ),
-    "kudlich-slibar": (
-        "with enough friction the contact is at rest at the end of compression, and the whole impulse until then is multiplied "
-        "by 1 + e, so that slip comes back with the opposite sign"
-    ),
-}
 _REGIMES = {
     "frictionless": "none: the contact is frictionless",
     "sliding": "the contact slips to the end, and the impulse ratio has the size of the friction given",
@@ -109,7 +88,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
     rows: list[tuple[str, str, str]] = []
     for of, quantity, value in _rows(aside):
         vehicle = None if of == "contact" else vehicles[of[0]]
-        texts = (impact._asked.given if vehicle is None else vehicle._given) or {}
+        texts = (impact.inputs.given if vehicle is None else vehicle._given) or {}
         names, kind = (_CONTACT if vehicle is None else _FIELDS).get(quantity, ((), ""))
         written = [texts[name] for name in names if isinstance(texts.get(name), str)]
         if written and len(written) == len(names):
@@ -193,7 +172,7 @@ def _numbers(impact: Impact, vehicle: Vehicle | None, name: str) -> tuple[Any, .
     """The number of an input, or both of a place."""
     field = name.partition("[")[0]
     contact = {"normal": impact.normal_angle, "point": impact.point, "restitution": impact.restitution}
-    found = getattr(vehicle, field) if vehicle is not None else contact.get(field, impact._asked.bound)
+    found = getattr(vehicle, field) if vehicle is not None else contact.get(field, impact.inputs.rule_value)
     return found if isinstance(found, tuple) else (found,)
 
 
@@ -215,9 +194,9 @@ def assumptions(
 ) -> None:
     """The model and its law, the conventions, and what an impulse leaves out, as numbers."""
     sheet.heading("Assumptions")
-    lines = [("Model:", _MODELS[impact.model])]
+    lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
-        lines.append(("Law:", f"{impact.law}: {_LAWS[str(impact.law)]}."))
+        lines.append(("Law:", f"{impact.law}: {LAWS[str(impact.law)].assumption}."))
         back = impact.regime == "sticking" and sheet.system.working(abs(impact.slip_after), "speed") != "0"
         ends = ", and comes back" if back else ""
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))

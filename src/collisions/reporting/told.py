@@ -72,8 +72,8 @@ def unlike(impact: Impact) -> Iterator[str]:
 
 def _texts(impact: Impact, every: bool = False) -> Iterator[tuple[str, str]]:
     """Of what was told beside the contact."""
-    contact = ("restitution", "normal", "point[0]", "point[1]", impact._asked.rule)
-    given: Mapping[str, Any] = impact._asked.given or {}
+    contact = ("restitution", "normal", "point[0]", "point[1]", impact.inputs.rule)
+    given: Mapping[str, Any] = impact.inputs.given or {}
     return ((name, text) for name, text in given.items() if name not in contact and (every or name in _KNOWN))
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import CollisionsWarning
-from ..kernels.select import select
+from ..kernels.elementwise import select
 from ..quiet import warn_of_cases
 
 

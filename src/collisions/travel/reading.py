@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from ..amounts import at_least_zero
-from ..door import FINITE, Door, warn_if_large
+from ..door import Door, warn_if_large
 from ..errors import ShapeError, UnitsError
+from ..kernels.elementwise import FINITE, Domain
 from ..units import Input, is_quantity, shown
 from .chain import GRAVITY
 
@@ -42,7 +43,7 @@ def for_each(door: Door, value: Any, name: str, count: int | None, read: _Reader
     return [math.nan] * (count or 1)
 
 
-def one_value(door: Door, value: Any, unit: str, name: str, domain: str = FINITE) -> Any:
+def one_value(door: Door, value: Any, unit: str, name: str, domain: Domain = FINITE) -> Any:
     """A float or an array; a list here is neither segments nor cases."""
     if isinstance(value, (list, tuple)):
         return door.refuse(

@@ -12,11 +12,11 @@ import numpy as np
 
 from ..amounts import at_least_zero
 from ..directions import angle_of
-from ..door import UNIT_INTERVAL, Door, broadcast, warn_if_large, widened
+from ..door import Door, broadcast, warn_if_large, widened
 from ..errors import InputError, OutOfRangeWarning
 from ..fields import Shown, derived, hypot, numeric
 from ..fields import lock as write_locked
-from ..kernels.select import divisor, select
+from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, safe_divisor, select
 from ..quiet import warn
 from ..units import Input, Pair, Value, shown
 from .chain import durations_along, out_of_range, speeds_along
@@ -25,7 +25,6 @@ from .places import in_radians, read_headings, read_points, turns_too_far
 from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
 
 # For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
-_NOT_CHECKED = ""
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 
 
@@ -285,7 +284,7 @@ def _settled(run: RunOut, checks: Iterator[tuple[str, Any]], shape: tuple[int, .
 def _at_start(changes: Sequence[Any], widths: Sequence[Any]) -> Any:
     """Slope at the start of the parabola through the first three points; of the line, if there are two."""
     # A width of 0 is refused elsewhere.
-    before, *after = (divisor(True, width) for width in widths[:2])
+    before, *after = (safe_divisor(True, width) for width in widths[:2])
     first = changes[0] / before
     return first + (first - changes[1] / after[0]) * (before / (before + after[0])) if after else first
 
@@ -305,7 +304,7 @@ def _leg(i: int) -> str:
 
 def _read_friction(door: Door, value: Any, name: str) -> Any:
     wrong = len(door.problems)
-    read = one_value(door, value, "", name, _NOT_CHECKED)
+    read = one_value(door, value, "", name, UNCHECKED)
     if len(door.problems) > wrong:
         return read
     if isinstance(read, float) and not math.isfinite(read):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..door import Door, broadcast, widened
 from ..errors import NoSolutionError, ShapeError
-from ..kernels.select import select
+from ..kernels.elementwise import select
 from ..units import Input, Value
 from .chain import GRAVITY, durations_along, out_of_range, speeds_along
 from .lanes import settle

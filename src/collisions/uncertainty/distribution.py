@@ -9,12 +9,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..door import FINITE, Door, is_whole
+from ..door import Door, is_whole
 from ..errors import InputError, ShapeError, UnitsError
+from ..kernels.elementwise import FINITE, UNCHECKED
 from ..units import has_unit, is_quantity, shown, si_unit
 from .standard_normal import both_tails
-
-_ANY = ""  # the door's word for a number that no domain bounds
 
 
 class Stated:
@@ -180,7 +179,7 @@ def _bare(door: Door, given: Any, argument: str) -> Any:
         return door.refuse(
             InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
         )
-    found = door.number(given, "", argument, _ANY)
+    found = door.number(given, "", argument, UNCHECKED)
     return found.astype(np.float64) if isinstance(found, np.ndarray) else found
 
 
@@ -211,7 +210,7 @@ def read_alike(
             argument=bare[0],
         )
     door = Door()
-    numbers = {name: door.number(value, unit, name, "any" if name in optional else FINITE) for name, value in given.items()}
+    numbers = {name: door.number(value, unit, name, UNCHECKED if name in optional else FINITE) for name, value in given.items()}
     for name, number in numbers.items():
         if name in optional and isinstance(number, float) and not math.isfinite(number):
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"

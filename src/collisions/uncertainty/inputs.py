@@ -11,6 +11,7 @@ import numpy as np
 
 from ..door import Door
 from ..errors import InputError, ShapeError, UnitsError
+from ..kernels.elementwise import UNCHECKED
 from ..units import Input, is_quantity, si_unit
 from .bell import LogNormal, Normal
 from .distribution import Distribution, Stated, check_order, read_alike
@@ -210,7 +211,7 @@ def read_input(name: str, value: Any) -> Any:
             **error.fields,
         ) from None
     door = Door()
-    number = door.number(value, unit, name, "any")
+    number = door.number(value, unit, name, UNCHECKED)
     door.close()
     if isinstance(number, np.ndarray):
         raise ShapeError(

@@ -1,23 +1,35 @@
-"""In-line impact from any three of four velocities, restitution and energy loss (eqs 5 to 8 of the paper, read backwards).
+"""What the reverse solvers work out: in-line impacts from any three values, courses that cross, and roots of polynomials.
 
-Everything follows from the closing speed g and the separation speed r = e g: with the shares of the masses f_a + f_b = 1,
+In line (eqs 5 to 8 of the paper, read backwards) everything follows from the closing speed g and the separation speed r = e g:
+with the shares of the masses f_a + f_b = 1,
 
     va - vb = g     vb' - va' = r     va - va' = f_a (g + r)     vb' - vb = f_b (g + r)     loss = m (g - r)(g + r) / 2
+
+Along courses that cross, every moving body is a term: sign (+ before, - after), mass, speed, course. The balance
+sum(sign m s h) + J = 0 crossed with one unknown's course leaves the other unknown alone, and all cross products are sines of
+differences of courses.
 """
 
-from typing import Any, TypeAlias
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .codes import EPS
+from .status import EPS
 
 VELOCITIES = ("va", "vb", "va_after", "vb_after")
-
 # Closing and separation speed.
 Pair: TypeAlias = tuple[Any, Any]
+# Cosine and sine of the angle from one course to another.
+Between: TypeAlias = Callable[[Any, Any], tuple[Any, Any]]
+# Where a quartic is read off: nowhere a multiple of another or 0, for what is at rest there tells nothing.
+PLACES = np.array([-1.06, -0.47, 0.13, 0.61, 1.27])
+_FROM_PLACES = np.linalg.inv(np.vander(PLACES, increasing=True)).T
+# A double root comes out of rounding as a pair with imaginary parts of the square root of it.
+_REAL = 1e-6
 
 
-def speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS) -> list[Pair]:
+def inline_speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS) -> list[Pair]:
     """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart."""
     v = {name: known[name] for name in VELOCITIES if name in known}
     restitution: Any = known.get("restitution")
@@ -138,3 +150,73 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
     )
     far = sign * (q * middle + p * size) / (p - q), sign * (p * middle + q * size) / (p - q)
     return [near, far]
+
+
+class Term(NamedTuple):
+    """One body before or after; ``speed`` is None where it is asked for, ``course`` None for a body at rest."""
+
+    sign: float
+    mass: Any
+    speed: Any
+    course: Any
+
+
+def crossed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, course: Any, per_mass: Any, between: Between) -> Any:
+    """The known momentum of the balance crossed with a course, over a mass."""
+    total: Any = 0.0
+    for term in terms:
+        if term.speed is not None and term.course is not None:
+            total = total + term.sign * (term.mass / per_mass) * (term.speed * between(term.course, course)[1])
+    if impulse is not None:
+        c, s = course.direction
+        total = total + (impulse[0] * s - impulse[1] * c) / per_mass
+    return total
+
+
+def unknown_speed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term, between: Between) -> Any:
+    """The speed of one unknown term, the other being eliminated; not finite where their courses are parallel."""
+    sine = between(wanted.course, other.course)[1]
+    return np.divide(-wanted.sign * crossed(terms, impulse, other.course, wanted.mass, between), sine)
+
+
+def change_of_speed(cross: Any, wanted: Term, other: Term, between: Between) -> Any:
+    """What a change of the balance, crossed with the other unknown's course, does to the wanted speed."""
+    return np.divide(-wanted.sign * cross, wanted.mass * between(wanted.course, other.course)[1])
+
+
+def course_change(term: Term, speed: Any, other: Term, between: Between) -> Any:
+    """Change of the balance by radian of a term's course, crossed with the other unknown's course."""
+    return -term.sign * term.mass * (speed * between(term.course, other.course)[0])
+
+
+def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
+    """Roots of the parabola through three points a step apart, the middle one at 0, rising; NaN where there are none."""
+    behind, middle, ahead = samples
+    square = 0.5 * (ahead + behind) - middle
+    linear = 0.5 * (ahead - behind)
+    scale = abs(behind) + abs(middle) + abs(ahead)
+    square = np.where(abs(square) <= 8.0 * EPS * scale, 0.0, square)
+    inside = linear * linear - 4.0 * square * middle
+    # A double root, where the line only touches the parabola, survives rounding.
+    inside = np.where(abs(inside) <= 64.0 * EPS * (linear * linear + abs(square) * scale), 0.0, inside)
+    half = -0.5 * (linear + np.copysign(np.sqrt(inside), linear))
+    one = np.where(square == 0.0, np.nan, half / square)
+    other = np.where(half == 0.0, np.where(square == 0.0, np.nan, 0.0), middle / half)
+    return step * np.fmin(one, other), step * np.fmax(one, other)
+
+
+def quartic_roots(samples: Sequence[Any], step: Any) -> list[Any]:
+    """Real roots of the quartic through five points at ``PLACES`` times the step; NaN in place of those that are not real."""
+    values = np.stack(np.broadcast_arrays(*samples), axis=-1)
+    largest = np.max(abs(values), axis=-1, keepdims=True)
+    coefficients = (values / largest) @ _FROM_PLACES
+    leading = coefficients[..., 4:]
+    below = -coefficients[..., :4] / np.where(abs(leading) < EPS, EPS, leading)
+    # Nothing is known where a value is none, or all of them are 0; eigvals would raise.
+    known = np.all(np.isfinite(below), axis=-1, keepdims=True)
+    companion = np.zeros((*values.shape[:-1], 4, 4))
+    companion[..., range(1, 4), range(3)] = 1.0
+    companion[..., 3] = np.where(known, below, 0.0)
+    found = np.linalg.eigvals(companion)
+    real = known & (abs(found.imag) <= _REAL * abs(found))
+    return [step * np.where(real[..., i], found[..., i].real, np.nan) for i in range(4)]

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from math import inf, nan
 from typing import Any, NamedTuple
 
-from .codes import CRITICAL_FRACTION, ENERGY_GAIN, EPS, OUT_OF_RANGE
+from .contact_laws import CRITICAL_FRACTION
 from .eccentric import eccentric
-from .linear import linear_central
+from .elementwise import larger, select
 from .oblique import oblique_central
-from .select import larger, select
+from .status import EPS
 
 # With ``impulse_only`` they answer with other things.
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
@@ -43,7 +43,7 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     restitution, nx, ny, tangential, px, py = given[:6]
     bodies, tolerance = (given[6:15], given[15:24]), given[24]
     rule, law, known, eps = given[25:]
-    linear, oblique, closing, torques, impulse = shortfalls(
+    linear, oblique, closing, torques, impulse = model_errors(
         restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned, eps
     )
     lacking: Any = False
@@ -74,7 +74,7 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     return select(within & (_MARGIN * linear <= tolerance), LINEAR, which), linear, oblique
 
 
-def shortfalls(
+def model_errors(
     restitution: Any,
     nx: Any,
     ny: Any,
@@ -107,9 +107,25 @@ def shortfalls(
     beyond: Any = select(answered, inf, nan)
     if any(pinned):
         return beyond, beyond, closing, torques, impulse
-    (mass_a, _, vx_a, vy_a, *_), (mass_b, _, vx_b, vy_b, *_) = body_a, body_b
+    (mass_a, _, vx_a, vy_a, spin_a, *_), (mass_b, _, vx_b, vy_b, spin_b, *_) = body_a, body_b
     central, pulls, central_normal, central_tangential = _oblique(
-        restitution, nx, ny, tangential, mass_a, vx_a, vy_a, mass_b, vx_b, vy_b, rule, law, eps, impulse_only=True
+        restitution,
+        nx,
+        ny,
+        tangential,
+        mass_a,
+        vx_a,
+        vy_a,
+        spin_a,
+        mass_b,
+        vx_b,
+        vy_b,
+        spin_b,
+        rule,
+        law,
+        True,
+        eps,
+        impulse_only=True,
     )
     off_normal = normal - central_normal
     worst = []
@@ -128,12 +144,3 @@ def shortfalls(
 
 def _square(value: Any) -> Any:
     return value * value
-
-
-def linear_carried(restitution: Any, nx: Any, ny: Any, *rest: Any) -> tuple[Any, ...]:
-    """Answers of the linear model in the order of ``codes.OUTPUTS``, with the slip of what it carries through."""
-    status, closing, _, _, *others = linear_central(restitution, nx, ny, *rest)
-    _, vx_a, vy_a, _, vx_b, vy_b, *_ = rest
-    slip = ny * (vx_a - vx_b) - nx * (vy_a - vy_b)
-    finite = slip - slip == 0.0
-    return select((status > ENERGY_GAIN) | finite, status, OUT_OF_RANGE), closing, slip, slip, *others

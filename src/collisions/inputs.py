@@ -1,0 +1,253 @@
+"""The question put to a solver: every number of it, how each was given, and the reading of a solver's arguments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from itertools import chain
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from .directions import direction, from_radians
+from .door import Door, is_whole, largest
+from .errors import InputError, ShapeError
+from .fields import lock, same
+from .kernels.contact_laws import FRICTION, LAWS, RULES
+from .kernels.elementwise import RESTITUTION
+from .units import Value, has_unit, is_quantity, shown
+from .vehicle import DOMAINS, NAMES, Vehicle, not_a_vehicle
+
+Law: TypeAlias = Literal["brach", "kudlich-slibar"]
+OnFailure: TypeAlias = Literal["raise", "nan"]
+
+_ALONG_X = (1.0, 0.0)
+_NO_OTHERS = [None] * (len(RULES) - 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """What a solver was asked, in SI numbers: enough to ask it again.
+
+    Attributes
+    ----------
+    model : str
+        The solver: "linear_central", "oblique_central", "eccentric" or "solve".
+    a, b : Vehicle
+        States just before contact.
+    restitution : float or array [1]
+    normal : tuple of float or array [1]
+        Unit vector from A into B.
+    rule : str
+        What was said of the tangent: "friction", "impulse_ratio" or "critical_fraction" ...
+    rule_value : float or array [1]
+        ... and its value.
+    law : str, optional
+        None for the linear model.
+    point : tuple of float or array [m], optional
+    given : mapping, optional
+        By argument, the text of what was given with a unit, and an angle of more than a turn that had none.
+    tolerance : float or array [m/s], optional
+        Of ``solve``: the largest error that was accepted.
+    contact_velocity : tuple of float or array [m/s], optional
+        Of a reverse solver: closing speed and slip before, which the rounded motions would hold to fewer digits.
+    """
+
+    model: str
+    a: Vehicle
+    b: Vehicle
+    restitution: Value
+    normal: tuple[Value, Value]
+    rule: str
+    rule_value: Value
+    law: str | None
+    point: tuple[Value, Value] | None
+    given: Mapping[str, Any] | None = None
+    tolerance: Value | None = None
+    contact_velocity: tuple[Value, Value] | None = None
+
+    @property
+    def bare_normal(self) -> Any:
+        """The normal as an angle of more than a turn that was given without a unit; None for any other."""
+        normal = None if self.given is None else self.given.get("normal")
+        return None if isinstance(normal, str) else normal
+
+    def _changed(self, **changes: Any) -> Inputs:
+        """The same question with some of it changed, taken as it is."""
+        return replace(self, **changes)
+
+    def _numbers(self) -> dict[str, Any]:
+        """Every number by the name the caller knows it by."""
+        found = {"restitution": self.restitution, self.rule: self.rule_value}
+        found |= {f"normal[{i}]": part for i, part in enumerate(self.normal)}
+        found |= {f"point[{i}]": part for i, part in enumerate(self.point or ())}
+        found |= {f"contact_velocity[{i}]": part for i, part in enumerate(self.contact_velocity or ())}
+        for label, vehicle in (("a", self.a), ("b", self.b)):
+            found |= {f"{label}.{name}": getattr(vehicle, name) for name in DOMAINS}
+            found |= {f"{label}.pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
+        return found
+
+    def _part(self, take: Callable[[Any], Any]) -> Inputs:
+        """The question put to some cases: those that ``take`` takes of every array."""
+
+        def taken(label: str, value: Any) -> Any:
+            try:
+                return part_of(value, take)
+            except InputError as error:
+                who = f"{label} ({value.name})" if value.name else label
+                raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
+
+        return Inputs(**{name: taken(name, value) for name, value in vars(self).items()})
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same question; how a number was written does not make it another."""
+        if not isinstance(other, Inputs):
+            return NotImplemented
+        return all(same(value, getattr(other, name)) for name, value in vars(self).items() if name != "given")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Arrays come out of a pickle unlocked."""
+        vars(self).update(lock(state))
+
+
+def _made(
+    model: str, a: Vehicle, b: Vehicle, restitution: Any, normal: Any, rule: str, rule_value: Any, law: Any, point: Any
+) -> Inputs:
+    """What ``Inputs(...)`` makes of plain numbers, in a third of its time: a frozen dataclass sets a field through object."""
+    inputs: Inputs = object.__new__(Inputs)
+    found = inputs.__dict__
+    found["model"] = model
+    found["a"] = a
+    found["b"] = b
+    found["restitution"] = restitution
+    found["normal"] = normal
+    found["rule"] = rule
+    found["rule_value"] = rule_value
+    found["law"] = law
+    found["point"] = point
+    found["given"] = found["tolerance"] = found["contact_velocity"] = None
+    return inputs
+
+
+def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
+    """Vehicles, dataclasses and the like with ``take`` put to every array in them."""
+    if isinstance(whole, np.ndarray):
+        return take(whole)
+    if isinstance(whole, Vehicle):
+        part = Vehicle._of_numbers({name: part_of(getattr(whole, name), take) for name in NAMES})
+        return part._told(whole._given)
+    if isinstance(whole, Mapping):
+        return {name: part_of(value, take) for name, value in whole.items()}
+    if isinstance(whole, tuple):
+        return tuple(part_of(value, take) for value in whole)
+    if is_dataclass(whole) and not isinstance(whole, type):
+        return type(whole)(**{f.name: part_of(getattr(whole, f.name), take) for f in fields(whole)})
+    return whole
+
+
+def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
+    """An index of one case of a batch of this shape, checked; the shape of a single case is None."""
+    if shape is None:
+        raise ShapeError(
+            "impact is one case, and case() takes one of a batch; use it as it is", code="bad_shape", argument="index"
+        )
+    place = index if isinstance(index, tuple) else (index,)
+    whole = all(map(is_whole, place))
+    if not whole or len(place) != len(shape) or not all(-size <= at < size for at, size in zip(place, shape, strict=True)):
+        wanted = f"a whole number below {shape[0]}" if len(shape) == 1 else f"{len(shape)} whole numbers in a tuple"
+        raise InputError(
+            f"index must be that of one case in a batch of shape {shape}, {wanted}, got {shown(index)}; write impact.case("
+            f"{', '.join(['0'] * len(shape)) if len(shape) == 1 else tuple([0] * len(shape))})",
+            code="bad_index",
+            argument="index",
+        )
+    return tuple(int(at) for at in place)
+
+
+def read_inputs(
+    model: str,
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    tangential: tuple[Any, ...],
+    law: Any,
+    problems: Sequence[InputError] = (),
+    beside: Iterable[Any] = (),
+) -> tuple[Inputs, bool]:
+    """The arguments of a solver as its inputs, and whether they, but for the vehicles, are plain numbers.
+
+    ``tangential`` are the values of ``RULES``, of which one must be given. Plain floats in order need no reader; anything else
+    goes through it, and one error names all that cannot be used, with the ``problems`` that were found before. ``beside`` has
+    the numbers that are not among these arguments, with which the normal shares its precision.
+    """
+    friction, *others = tangential
+    law_used = None if model == "linear_central" else law
+    if (
+        type(a) is type(b) is Vehicle
+        and type(restitution) is type(friction) is type(normal) is float
+        and 0.0 <= restitution <= 1.0
+        and friction >= 0.0
+        and -6.0 < normal < 6.0
+        and others == _NO_OTHERS
+        and type(law) is str
+        and law in LAWS
+        and not problems
+        and (
+            point is None
+            or (
+                type(point) is tuple
+                and len(point) == 2
+                and type(point[0]) is type(point[1]) is float
+                and math.isfinite(point[0] + point[1])
+            )
+        )
+    ):
+        along = _ALONG_X if normal == 0.0 else from_radians(normal)
+        return _made(model, a, b, restitution, along, FRICTION, friction, law_used, point), True
+    door = Door()
+    door.problems.extend(problems)
+    for label, vehicle in (("a", a), ("b", b)):
+        if not isinstance(vehicle, Vehicle):
+            door.refuse(not_a_vehicle(label, vehicle))
+    e = door.number(restitution, "", "restitution", RESTITUTION)
+    contact = None if point is None else door.pair(point, "m", "point")
+    rule, value = _tangential(door, tangential)
+    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in vehicle._numbers())
+    unit: Any = direction(door, normal, "normal", chain((e, value, *(contact or ())), vehicles, beside))
+    if not isinstance(law, str) or law not in LAWS:
+        known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
+        door.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
+    door.close()
+    # Of a vector only the direction counts.
+    given = {name: text for name, text in door.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
+    inputs = Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None)
+    return inputs, np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
+
+
+def _beyond_a_turn(normal: Any) -> dict[str, Any]:
+    """A normal given without a unit as an angle of more than a turn, which may have been meant in degrees."""
+    if isinstance(normal, tuple) or has_unit(normal):
+        return {}
+    radians: Any = np.array(normal.magnitude if is_quantity(normal) else normal, dtype=np.float64)
+    return {"normal": lock(radians) if radians.ndim else float(radians)} if largest(radians) > math.tau else {}
+
+
+def _tangential(door: Door, values: tuple[Any, ...]) -> tuple[str, Any]:
+    """Which of the ways to say what happens along the tangent was used, and its value."""
+    given = [(rule, value) for rule, value in zip(RULES.values(), values, strict=True) if value is not None]
+    if len(given) == 1:
+        rule, value = given[0]
+        return rule.name, door.number(value, "", rule.name, rule.domain)
+    found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
+    door.refuse(
+        InputError(
+            f"give exactly one of {', '.join(f'{name}=' for name in RULES)}; got {found}. There is no default, because it "
+            f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",
+            code="one_tangential",
+            argument="friction",
+        )
+    )
+    return FRICTION, math.nan

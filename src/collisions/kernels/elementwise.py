@@ -1,0 +1,109 @@
+"""Choices and conditions that read the same for one case and for many: the kernels are built of these and of arithmetic."""
+
+from collections.abc import Callable
+from math import inf, isfinite
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .status import EPS, Status
+
+
+def select(condition: Any, yes: Any, no: Any) -> Any:
+    """``yes`` where the condition holds, ``no`` elsewhere; both have been worked out already."""
+    if condition is True:
+        return yes
+    if condition is False:
+        return no
+    return np.where(condition, yes, no)
+
+
+def larger(one: Any, other: Any) -> Any:
+    """The larger of both; NaN only if both are."""
+    if isinstance(one, float) and isinstance(other, float):
+        return one if one >= other or other != other else other
+    return np.fmax(one, other)
+
+
+def safe_divisor(usable: Any, value: Any) -> Any:
+    """``value``, or 1.0 where the quotient is discarded (Python floats raise on division by zero)."""
+    return 1.0 if usable is False or (isinstance(value, float) and value == 0.0) else value
+
+
+def first_status(*findings: tuple[Any, Status]) -> Any:
+    """Status of the first finding whose condition holds, OK if none does."""
+    status: Any = Status.OK
+    for condition, code in reversed(findings):
+        if condition is not False:
+            status = select(condition, code, status)
+    return status
+
+
+def turning_velocity(yaw_rate: Any, x: Any, y: Any, center_x: Any, center_y: Any) -> tuple[Any, Any]:
+    """Velocity at (x, y) of a body that turns about the centre: the arm turned by +90 degrees, times the yaw rate."""
+    return -yaw_rate * (y - center_y), yaw_rate * (x - center_x)
+
+
+def without_length(nx: Any, ny: Any) -> Any:
+    """A vector of length 0."""
+    return (nx == 0.0) & (ny == 0.0)
+
+
+def all_with_length(nx: Any, ny: Any) -> bool:
+    """Whether no vector of an array has length 0."""
+    return np.count_nonzero(nx) == np.size(nx) or not np.any(without_length(nx, ny))
+
+
+def either_infinite(mass: Any, inertia: Any = 0.0) -> Any:
+    """A mass or, where it is known, a yaw inertia that is infinite."""
+    return (mass == inf) | (inertia == inf)
+
+
+def rounding(eps: float, *values: Any) -> float:
+    """The coarser of ``eps`` and the rounding of the arrays among the values."""
+    return max(eps, *(float(np.finfo(value.dtype).eps) if isinstance(value, np.ndarray) else EPS for value in values))
+
+
+def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, eps: float = EPS) -> Any:
+    """A velocity that is not yaw rate times arm to 1e-9 (or to the rounding of a coarser precision)."""
+    wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
+    tolerance = max(1e-9, 8.0 * eps)
+    return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))
+
+
+class Domain(NamedTuple):
+    """The numbers that an argument may have.
+
+    ``faults`` are what is wrong with the others, case by case, each with its status; ``holds`` tells of a whole array, at less
+    cost, that it has no fault, and may say no where there is none.
+    """
+
+    name: str
+    faults: tuple[tuple[Callable[[Any], Any], Status], ...]
+    holds: Callable[[Any], bool]
+
+
+FINITE = Domain(
+    "finite",
+    ((lambda value: value - value != 0.0, Status.NOT_FINITE),),
+    # The sum is finite only if every number is: a single reading.
+    lambda values: isfinite(np.add.reduce(values)),
+)
+POSITIVE = Domain(
+    "positive",
+    ((lambda value: value != value, Status.NOT_FINITE), (lambda value: value <= 0.0, Status.NOT_POSITIVE)),
+    # The least of an array with NaN is NaN.
+    lambda values: bool(np.minimum.reduce(values) > 0.0),
+)
+NOT_NEGATIVE = Domain(
+    "not negative",
+    ((lambda value: (value < 0.0) | (value != value), Status.BAD_FRICTION),),
+    lambda values: bool(np.minimum.reduce(values) >= 0.0),
+)
+UNIT_INTERVAL = Domain(
+    "unit interval",
+    ((lambda value: (value < 0.0) | (value > 1.0) | (value != value), Status.BAD_FRACTION),),
+    lambda values: bool(np.minimum.reduce(values) >= 0.0 and np.maximum.reduce(values) <= 1.0),
+)
+UNCHECKED = Domain("unchecked", (), lambda values: True)
+RESTITUTION = UNIT_INTERVAL._replace(name="restitution", faults=((UNIT_INTERVAL.faults[0][0], Status.BAD_RESTITUTION),))

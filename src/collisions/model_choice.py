@@ -1,0 +1,268 @@
+"""The least model that a scene requires within a tolerance, and why."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from .door import Door, broadcast
+from .errors import InputError
+from .fields import Shown, lock, same, show
+from .inputs import Inputs, part_of
+from .kernels.elementwise import select
+from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
+from .kernels.status import EPS
+from .models import MODELS, checked, lacking, missing_numbers
+from .progress import halves, reporter
+from .solving import check_options, say_of_cases, solve, solve_cases, value_checks
+from .units import Value, to_quantity
+
+_NAMES = tuple(model.name for model in MODELS)
+_LINEAR, _OBLIQUE, _ECCENTRIC = _NAMES
+
+
+class ByModel(Mapping[str, Any]):
+    """What is known of each model, by its name: like a dict that cannot be changed. ``.q`` has the numbers as Quantities."""
+
+    __slots__ = ("_unit", "_values")
+
+    def __init__(self, values: Mapping[str, Any], unit: str | None = None) -> None:
+        self._values = lock(dict(values))
+        self._unit = unit
+
+    @property
+    def q(self) -> Any:
+        """The same with units."""
+        return self if self._unit is None else {name: to_quantity(value, self._unit) for name, value in self.items()}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mapping):
+            return NotImplemented
+        return same(dict(self), dict(other))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ByModel, (self._values, self._unit)
+
+    def __repr__(self) -> str:
+        return repr(self._values)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class ModelChoice(Shown):
+    """Which model a scene requires, and why.
+
+    Attributes
+    ----------
+    model : str or array of str
+        "linear_central", "oblique_central" or "eccentric"; the last also where the case is refused.
+    reason : str
+        Why, in a sentence.
+    errors : mapping of float or array [m/s]
+        By cheaper model, what it is predicted to err by: hypot of the delta-V vector and of radius of gyration times yaw rate,
+        for the worse of both vehicles. NaN where it cannot be told or the case is refused, infinite where only that model has
+        no answer.
+    missing : mapping of tuple of str
+        By model, what it still needs, such as "a.yaw_inertia" or "point".
+    tolerance : float or array [m/s]
+        What was accepted.
+    """
+
+    _title = "Model required"
+
+    reason: str
+    errors: Mapping[str, Value]
+    missing: Mapping[str, tuple[str, ...]]
+    tolerance: Value = field(metadata={"unit": "m/s"})
+    # Which of the models, by number.
+    _which: Any
+
+    def _where_answered(self, refused: Any) -> ModelChoice:
+        """The same without the errors of cases that turned out to have no answer."""
+        if not np.any(refused):
+            return self
+        return replace(self, errors={name: select(refused, math.nan, error) for name, error in self.errors.items()})
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "errors", ByModel(self.errors, "m/s"))
+        object.__setattr__(self, "missing", ByModel(self.missing))
+        lock(self._which)
+
+    @property
+    def model(self) -> Any:
+        """The name, or the names of a batch, which take fifty times the room of the numbers that are kept."""
+        return lock(np.array(_NAMES).take(self._which)) if isinstance(self._which, np.ndarray) else _NAMES[self._which]
+
+    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        yield prefix + "model", show(self.model)
+        yield prefix + "reason", self.reason
+        for name, error in self.errors.items():
+            yield f"{prefix}errors.{name}", show(error, "m/s")
+        for name, needed in self.missing.items():
+            if needed:
+                yield f"{prefix}missing.{name}", ", ".join(needed)
+        yield prefix + "tolerance", show(self.tolerance, "m/s")
+
+    def _part(self, take: Any, inputs: Inputs) -> ModelChoice:
+        """The choice for some cases of a batch, or for one of them, with a reason that is about these."""
+        part: ModelChoice = part_of(self, take)
+        errors = part.errors
+        missing = self.missing[_ECCENTRIC]
+        reason = _reason(inputs, part.tolerance, part._which, errors[_LINEAR], errors[_OBLIQUE], missing, bool(missing))
+        return replace(part, reason=reason)
+
+
+def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
+    """The choice of a model, and where the eccentric one is required and lacks something."""
+    tolerance: Any = inputs.tolerance
+    plain = plain and inputs.a._given is None and inputs.b._given is None
+    shape = None if plain else broadcast({"tolerance": tolerance, **inputs._numbers()})
+    missing = tuple(f"{label}.{name}" for label, name in lacking(inputs.a, inputs.b))
+    missing += () if inputs.point is not None else ("point",)
+    which, linear, oblique = _predicted(inputs, tolerance, missing, shape, threads, progress)
+    lacks = which == LACKING
+    if shape is None:
+        which = min(which, ECCENTRIC)
+    else:
+        np.minimum(which, ECCENTRIC, out=which)
+    choice = ModelChoice(
+        reason=_reason(inputs, tolerance, which, linear, oblique, missing, lacks),
+        errors={_LINEAR: linear, _OBLIQUE: oblique},
+        missing={_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: missing},
+        tolerance=tolerance,
+        _which=which,
+    )
+    return choice, lacks
+
+
+def refuse_first(door: Door, tolerances: Any) -> None:
+    """Refuses the first of these that would be refused alone."""
+    at = tuple(int(i) for i in np.argwhere(~np.isfinite(tolerances) | (tolerances < 0.0))[0])
+    value, place = float(tolerances[at]), at[0] if len(at) == 1 else at
+    code = "negative_speed" if math.isfinite(value) else "not_finite"
+    text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
+    door.refuse(InputError(text, code=code, argument="tolerance"))
+
+
+def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
+    """Names all that is missing, in a batch for the first case that needs it."""
+    place = ""
+    if isinstance(lacks, np.ndarray):
+        at = tuple(int(i) for i in np.unravel_index(int(np.argmax(lacks)), lacks.shape))
+        place = f"case {at if len(at) != 1 else at[0]}: "
+    door = Door()
+    for error in missing_numbers(inputs.a, inputs.b, inputs.point):
+        door.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
+    door.close()
+
+
+def solve_least(
+    inputs: Inputs,
+    plain: bool,
+    on_failure: Any,
+    threads: Any,
+    progress: Any,
+    choice: ModelChoice | None = None,
+) -> tuple[Any, ModelChoice]:
+    """The answer of the least model, in a batch for every case by itself, and the choice; ``choice`` if it was made before."""
+    check_options(on_failure, threads, progress)
+    report = reporter(progress)
+    if choice is None:
+        predicting, report = halves(report)
+        choice, lacks = choose(inputs, plain, threads, predicting)
+        if np.any(lacks):
+            refuse_incomplete(inputs, lacks)
+    which = choice._which
+    if not isinstance(which, np.ndarray):
+        return solve(inputs, plain, on_failure, threads, report, MODELS[which]), choice
+    shape = broadcast({"which": which, **inputs._numbers()}) or ()
+    used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
+    raw = (
+        solve_cases(inputs, used[0], True, shape, threads, report)
+        if len(used) == 1
+        else _solve_mixed(inputs, which, shape, threads, report)
+    )
+
+    def one(take: Any) -> Any:
+        case = checked(inputs._part(take))
+        return solve_least(case, False, None, 1, None, chosen._part(take, case))
+
+    chosen = choice
+    say_of_cases(inputs, raw, on_failure, one)
+    return raw, choice
+
+
+def _solve_mixed(inputs: Inputs, which: Any, shape: tuple[int, ...], threads: int, progress: Any) -> Any:
+    """The answer of a batch in which models are mixed."""
+    from .kernels.batch import precision
+    from .kernels.mixed import Part, solve_mixed
+
+    dtype = precision(inputs._numbers().values())
+    eps = float(np.finfo(dtype).eps)
+    parts = [Part(model.kernel, (*model.settings(inputs, True), eps), model.numbers(inputs)) for model in MODELS]
+    return solve_mixed(parts, which, value_checks(inputs, eps), shape, dtype, threads, progress)
+
+
+def _predicted(
+    inputs: Inputs, tolerance: Any, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any
+) -> tuple[Any, Any, Any]:
+    """Which model by number, and the errors of the central ones; infinite beside a pivot, which they cannot hold."""
+    a, b, placed = inputs.a, inputs.b, inputs.point is not None
+    known = Known(
+        places=(placed and a.x is not None and a.y is not None, placed and b.x is not None and b.y is not None),
+        inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
+        all=not missing,
+        pinned=(a.pivot is not None, b.pivot is not None),
+    )
+    numbers = (*MODELS[ECCENTRIC].numbers(inputs), tolerance)
+    if shape is None:
+        return least_model(*numbers, inputs.rule, inputs.law, known, EPS)
+    # As for batches of one model: single cases never come here.
+    from .kernels.batch import precision
+    from .kernels.mixed import least_models
+
+    dtype = precision(inputs._numbers().values())
+    eps = float(np.finfo(dtype).eps)
+    settings = inputs.rule, inputs.law, known, eps
+    # What is beyond float32 accepts every error that a float32 can have.
+    most = float(np.finfo(dtype).max)
+    limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
+    return least_models(settings, (*numbers[:-1], limit), value_checks(inputs, eps), shape, dtype, threads, progress)
+
+
+def _reason(inputs: Inputs, tolerance: Any, which: Any, linear: Any, oblique: Any, missing: tuple[str, ...], lacks: Any) -> str:
+    """Why, in a sentence."""
+    if not isinstance(which, int):
+        counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
+        listed = ", ".join(f"{count} {name}" for name, count in counts if count)
+        return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
+    model, errors = _NAMES[which], (linear, oblique)
+    predicted = [
+        f"{name} has no answer" if error == math.inf else f"{name} would err by {error:.3g} m/s"
+        for name, error in zip(_NAMES[:which], errors, strict=False)
+    ]
+    if which != ECCENTRIC:
+        others = f"; {predicted[0]}" if predicted else ""
+        return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
+    if tolerance == 0.0:
+        return f"{model}: a tolerance of 0 asks for the full model"
+    if inputs.a.pivot is not None or inputs.b.pivot is not None:
+        return f"{model}: a body that turns about a pivot is beyond the central models"
+    if math.isnan(oblique) and lacks:
+        return f"{model}: the error of a central model cannot be estimated without {', '.join(missing)}"
+    if math.isnan(oblique):
+        return f"{model}: there is no answer that a cheaper one could come near to"
+    accepted = "" if math.isinf(oblique) else f", and {tolerance:.3g} m/s are accepted"
+    return f"{model}: {predicted[1]}{accepted}"

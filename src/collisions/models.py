@@ -1,0 +1,197 @@
+"""The three models of an impact: what each needs, what it cannot hold, and the numbers that its kernel works with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError, MissingInputError
+from .inputs import Inputs, read_inputs
+from .kernels.contact_laws import BRACH, RULES
+from .kernels.eccentric import eccentric, from_contact_velocity
+from .kernels.linear import linear_central
+from .kernels.oblique import oblique_central
+from .kernels.status import Answer
+from .vehicle import Vehicle, missing
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Model:
+    """One model of an impact.
+
+    Parameters
+    ----------
+    name : str
+        That of its solver.
+    kernel : callable
+        Its formulas.
+    takes : tuple of str
+        The inputs that the kernel is called with, as they are reached from ``Inputs``.
+    settings : callable
+        What follows, none of it a number, from the inputs and whether motion that the model cannot hold is carried through, as
+        ``solve`` does, or refused.
+    assumptions : str
+        As a report says them.
+    """
+
+    name: str
+    kernel: Callable[..., Answer]
+    takes: tuple[str, ...]
+    settings: Callable[[Inputs, bool], tuple[Any, ...]]
+    assumptions: str
+
+    def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
+        """What the kernel is called with; what is not known is filled in so that it makes no torque."""
+        contact = inputs.point or (0.0, 0.0)
+        found = [inputs.restitution, *inputs.normal, inputs.rule_value, *contact]
+        for body in (inputs.a, inputs.b):
+            placed = inputs.point is not None and body.x is not None and body.y is not None
+            inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+            place = (body.x, body.y) if placed else contact
+            found += [body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, *(body.pivot or (0.0, 0.0))]
+        return tuple(map((*found, *(inputs.contact_velocity or ())).__getitem__, map(_ALL.__getitem__, self.takes)))
+
+
+_BODY = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")
+_CONTACT = ("restitution", "normal[0]", "normal[1]", "rule_value", "point[0]", "point[1]")
+_ALL = {
+    name: index
+    for index, name in enumerate(
+        (*_CONTACT, *(f"{label}.{name}" for label in "ab" for name in _BODY), "contact_velocity[0]", "contact_velocity[1]")
+    )
+}
+_POINT_MASS = ("mass", "vx", "vy", "yaw_rate")
+
+
+def _takes(*contact: str, body: tuple[str, ...]) -> tuple[str, ...]:
+    return ("restitution", "normal[0]", "normal[1]", *contact, *(f"{label}.{name}" for label in "ab" for name in body))
+
+
+LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
+    Model(
+        "linear_central",
+        linear_central,
+        _takes(body=_POINT_MASS),
+        lambda inputs, carrying: (carrying,),
+        "Linear central: momentum along the normal (2) with restitution, which gives (5) and (6). The vehicles are point "
+        "masses that move along one line; rotation and forces along the tangent are left out.",
+    ),
+    Model(
+        "oblique_central",
+        oblique_central,
+        _takes("rule_value", body=_POINT_MASS),
+        lambda inputs, carrying: (inputs.rule, inputs.law, carrying),
+        "Oblique central: restitution along the normal (9), friction along the tangent. The vehicles are point masses; "
+        "rotation is left out.",
+    ),
+    Model(
+        "eccentric",
+        eccentric,
+        _takes("rule_value", "point[0]", "point[1]", body=_BODY),
+        lambda inputs, carrying: (inputs.rule, inputs.law, inputs.a.pivot is not None, inputs.b.pivot is not None),
+        "Eccentric: momentum and angular momentum (10) to (19), with restitution along the normal and friction along the "
+        "tangent at one contact point; free, pinned and fixed bodies.",
+    ),
+)
+BY_NAME = {model.name: model for model in MODELS}
+# For reverse solvers, which find the closing speed and the slip to more digits than the rounded motions hold.
+FROM_CONTACT_VELOCITY = replace(
+    ECCENTRIC,
+    kernel=from_contact_velocity,
+    takes=("contact_velocity[0]", "contact_velocity[1]", *ECCENTRIC.takes),
+)
+
+
+def read(
+    model: str,
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    tangential: tuple[Any, ...],
+    law: Any,
+    problems: Sequence[InputError] = (),
+) -> tuple[Inputs, bool]:
+    """The arguments of a solver as its inputs, refused if the model lacks or cannot hold something; see ``read_inputs``."""
+    if model == "eccentric":
+        found = missing_numbers(a, b, point)
+    elif model == "solve" or (type(a) is type(b) is Vehicle and a.pivot is b.pivot is None):
+        found = ()
+    else:
+        found = pivots(model, a, b)
+    return read_inputs(model, a, b, restitution, normal, point, tangential, law, (*problems, *found) if found else problems)
+
+
+def checked(inputs: Inputs, found: bool = False) -> Inputs:
+    """The same inputs, read as a caller's arguments are, and refused where a number cannot be used.
+
+    Those that a reverse solver ``found`` may have a restitution of NaN, for which it looked in vain.
+    """
+    tangential = tuple(inputs.rule_value if name == inputs.rule else None for name in RULES)
+    e = inputs.restitution
+    unknown = found and type(e) is float and e != e
+    contact = 0.0 if unknown else e, inputs.normal, inputs.point
+    again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH)
+    kept = {name: getattr(inputs, name) for name in ("given", "tolerance", "contact_velocity")}
+    return again._changed(restitution=e if unknown else again.restitution, **kept)
+
+
+def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+    """Vehicle and field of what the eccentric model needs and the vehicles do not have; a fixed body needs no position."""
+    found: list[tuple[str, str]] = []
+    for label, body in (("a", a), ("b", b)):
+        if type(body) is not Vehicle or _is_complete(body):
+            continue
+        inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
+        # Element by element: beside an array without a case, a plain number still says that the body moves.
+        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and np.all(np.equal(body.yaw_rate, 0.0))
+        needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
+        found += [(label, name) for name in needed if getattr(body, name) is None]
+    return found
+
+
+def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
+    """The refusals of what the eccentric model needs and was not given."""
+    if point is not None and _is_complete(a) and _is_complete(b):
+        return ()
+    found: list[InputError] = []
+    if point is None:
+        found.append(
+            MissingInputError(
+                "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
+                code="missing_point",
+                argument="point",
+            )
+        )
+    bodies = {"a": a, "b": b}
+    return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
+
+
+def pivots(model: str, a: Any, b: Any) -> Sequence[InputError]:
+    """The refusals of pinned bodies, which the central models cannot hold."""
+    return [
+        InputError(
+            f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
+            code="pinned",
+            argument="pivot",
+        )
+        for label, vehicle in (("a", a), ("b", b))
+        if getattr(vehicle, "pivot", None) is not None
+    ]
+
+
+def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
+    """The numbers of one body; one without a position has no lever that matters."""
+    x, y = vehicle.x, vehicle.y
+    if x is None or y is None:
+        x, y = contact
+    return vehicle.mass, vehicle.yaw_inertia, vehicle.vx, vehicle.vy, vehicle.yaw_rate, x, y, *(vehicle.pivot or (0.0, 0.0))
+
+
+def _is_complete(body: Any) -> bool:
+    return type(body) is Vehicle and body.yaw_inertia is not None and body.x is not None and body.y is not None

@@ -1,0 +1,354 @@
+"""The solvers: linear central, oblique central, eccentric, and the least of them that a scene requires."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .amounts import amount
+from .door import Door
+from .impact import Impact
+from .inputs import Inputs, Law, OnFailure
+from .kernels.contact_laws import BRACH
+from .model_choice import ModelChoice, choose, refuse_first
+from .models import read
+from .progress import Progress
+from .units import Input, Pair
+from .vehicle import Vehicle
+
+
+def linear_central(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair = 0.0,
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve a linear central impact: from the states before and the restitution to the states after.
+
+    Momentum along the normal (eq 2 of "Application of Impulse Momentum Theory to Vehicle Collisions") and Newton's
+    restitution (eqs 5 and 6). The bodies are point masses: they do not turn, and all motion is along the normal through both
+    centres of mass. Valid for head-on and front-to-back collisions in line, against other vehicles or a barrier; a motion
+    across the normal of more than 8 eps of the speed is refused.
+
+    Parameters
+    ----------
+    a, b : Vehicle
+        States just before contact; only mass and velocity are used.
+    restitution : float, str, Quantity or array [-]
+        Coefficient of restitution e, 0 (plastic) to 1 (elastic).
+    normal : angle [rad] or tuple (nx, ny), optional
+        Direction from A into B; the x axis if not given.
+    on_failure : {None, "raise", "nan"}, optional
+        What to do with a case that cannot be answered. None: a single case raises, in a batch it is NaN with a status and one
+        warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a warning.
+    threads : int, optional
+        Threads for a batch.
+    progress : callable or True, optional
+        Called as ``progress(done, total)`` after each block of a batch; True shows a bar once a run takes over a second,
+        with tqdm where that is installed (extra ``progress``).
+
+    Returns
+    -------
+    Impact
+        Velocities, delta-V, impulse and energy; see its attributes.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, a body that turns, is pinned, or moves across the normal.
+    NoImpactError
+        The bodies do not approach; the message gives the closing speed.
+    NoSolutionError
+        Both masses are infinite.
+
+    Examples
+    --------
+    Example 2 of the paper: 1100 kg at 80 km/h into the back of 950 kg at rest, with the restitution found there.
+
+    >>> import collisions as col
+    >>> a = col.Vehicle(mass="1100 kg", vx="80 km/h")
+    >>> b = col.Vehicle(mass="950 kg")
+    >>> impact = col.linear_central(a, b, restitution=35 / 88)
+    >>> round(impact.a.after.q.vx.m_as("km/h"), 2), round(impact.b.after.q.vx.m_as("km/h"), 2)
+    (28.18, 60.0)
+    >>> round(impact.energy_loss / 1000, 1)
+    106.0
+    """
+    inputs, plain = read("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH)
+    return Impact._solved(inputs, plain, on_failure, threads, progress)
+
+
+def oblique_central(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair,
+    friction: Input | None = None,
+    impulse_ratio: Input | None = None,
+    critical_fraction: Input | None = None,
+    law: Law = "brach",
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve an oblique central impact: velocities at an angle to the normal, bodies that do not turn.
+
+    Along the normal as in a linear impact (eq 9 of "Application of Impulse Momentum Theory to Vehicle Collisions"); along the
+    tangent the paper's contact is frictionless (``friction=0``) and leaves the velocities as they are, otherwise friction
+    changes them. The bodies are point masses: the line of impact is taken to pass through both centres of mass. Valid where
+    the levers of the contact are small against the radii of gyration; else use ``eccentric``.
+
+    Parameters
+    ----------
+    a, b : Vehicle
+        States just before contact; only mass and velocity are used.
+    restitution : float, str, Quantity or array [-]
+        Coefficient of restitution e along the normal, 0 to 1.
+    normal : angle [rad] or tuple (nx, ny)
+        Direction from A into B. An array is taken as angles.
+    friction : float, str, Quantity or array [-]
+        Coulomb bound on the tangential over the normal impulse, >= 0; ``inf`` never slips.
+    impulse_ratio : float, str, Quantity or array [-]
+        Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
+    critical_fraction : float, str, Quantity or array [-]
+        Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
+    law : {"brach", "kudlich-slibar"}, optional
+        Whether a sticking contact is without slip at separation, or at the end of compression.
+    on_failure, threads, progress
+        As for ``linear_central``.
+
+    Returns
+    -------
+    Impact
+        Velocities, delta-V, impulse and energy; see its attributes.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or a body that turns or is pinned.
+    NoImpactError
+        The bodies do not approach along the normal.
+    NoSolutionError
+        Both masses are infinite.
+
+    Examples
+    --------
+    Two equal balls (eCourses Dynamics 4.3, K. Gramoll): A at 4 m/s, 30 degrees off the line, meets B at 3 m/s, elastic.
+
+    >>> import collisions as col
+    >>> a = col.Vehicle.from_speed(mass=1.0, speed=4.0, course="30 deg")
+    >>> b = col.Vehicle(mass=1.0, vx=-3.0)
+    >>> impact = col.oblique_central(a, b, 1.0, normal=0.0, friction=0.0)
+    >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
+    (3.464, -3.0, 2.0)
+    """
+    inputs, plain = read("oblique_central", a, b, restitution, normal, None, (friction, impulse_ratio, critical_fraction), law)
+    return Impact._solved(inputs, plain, on_failure, threads, progress)
+
+
+def eccentric(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair,
+    point: Pair,
+    friction: Input | None = None,
+    impulse_ratio: Input | None = None,
+    critical_fraction: Input | None = None,
+    law: Law = "brach",
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve an eccentric impact: the line of impact misses a centre of mass, so the bodies turn.
+
+    Impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the contact points
+    along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"), for free, pinned and
+    fixed bodies, and with friction along the tangent. The contact is one point with one normal, the impact takes no time and
+    no distance, and tyre forces during it are left out. Valid where the impulse of the contact is large against that of the
+    tyres, and where the damage can be given a point and a normal.
+
+    Parameters
+    ----------
+    a, b : Vehicle
+        States just before contact. Each needs ``yaw_inertia``, ``x`` and ``y``, unless its mass and inertia are infinite.
+    restitution : float, str, Quantity or array [-]
+        Coefficient of restitution e along the normal at the contact, 0 to 1.
+    normal : angle [rad] or tuple (nx, ny)
+        Direction from A into B at the contact. An array is taken as angles.
+    point : pair [m]
+        Scene point (x, y) at which the impulse acts, at the moment of maximum engagement.
+    friction : float, str, Quantity or array [-]
+        Coulomb bound on the tangential over the normal impulse, >= 0; 0 is the paper's contact, ``inf`` never slips.
+    impulse_ratio : float, str, Quantity or array [-]
+        Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
+    critical_fraction : float, str, Quantity or array [-]
+        Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
+    law : {"brach", "kudlich-slibar"}, optional
+        Whether a sticking contact is without slip at separation, or at the end of compression.
+    on_failure, threads, progress
+        As for ``linear_central``.
+
+    Returns
+    -------
+    Impact
+        Velocities, yaw rates, delta-V, impulse and energy; see its attributes.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used.
+    MissingInputError
+        A position, a yaw inertia or the contact point was not given. Nothing is taken as zero.
+    NoImpactError
+        The contact points do not approach along the normal.
+    NoSolutionError
+        Nothing can yield, the ratio jams, or no slip would need the bodies to pull.
+
+    Examples
+    --------
+    Example 3 of the paper: A, not turning, strikes B at one end; B turns about its other end O.
+
+    >>> import collisions as col
+    >>> a = col.Vehicle(mass=900, vx="60 km/h", yaw_inertia=float("inf"), x=-1.0, y=4.0)
+    >>> b = col.Vehicle(mass=1000, yaw_inertia=1000 * 4**2 / 12, x=0.0, y=2.0, pivot=(0.0, 0.0))
+    >>> impact = col.eccentric(a, b, 0.80, normal=0.0, point=(0.0, 4.0), friction=0.0)
+    >>> round(impact.b.after.yaw_rate, 3), round(impact.a.after.vx, 3)
+    (-5.473, 8.559)
+    >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
+    (3648.6, 12162)
+    """
+    inputs, plain = read("eccentric", a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law)
+    return Impact._solved(inputs, plain, on_failure, threads, progress)
+
+
+def required_model(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair,
+    point: Pair | None,
+    friction: Input | None = None,
+    impulse_ratio: Input | None = None,
+    critical_fraction: Input | None = None,
+    law: Law = "brach",
+    tolerance: Input = 0.0,
+) -> ModelChoice:
+    """The least model whose answer stays within a tolerance of the eccentric one.
+
+    Candidates are the linear central model (which carries through what moves across the normal), the oblique central model and
+    the eccentric one. The error of a candidate is, for the worse of both vehicles, hypot of the error of its delta-V vector and
+    of radius of gyration times the error of its change of yaw rate. It is worked out from the impulse at the contact, without
+    the rest of the eccentric answer, and a candidate is taken if 1.15 times its error is within the tolerance. What a lever
+    does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error. A lever
+    of 16 eps of the coordinates, and of 0.1 mm at most, is rounding, and does not matter.
+
+    Parameters
+    ----------
+    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law
+        As for ``eccentric``; yaw inertias, positions and the point may be left None.
+    tolerance : float, str, Quantity or array [m/s]
+        Largest error that is accepted, >= 0; 0 is always the eccentric model.
+
+    Returns
+    -------
+    ModelChoice
+        The model, the reason in a sentence, the error of each cheaper model, and what each model still needs.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used.
+
+    Examples
+    --------
+    A rear-end impact 0.4 m off the line of both centres. A delta-V alone would not show what the lever does:
+
+    >>> import collisions as col
+    >>> a = col.Vehicle(mass=1500, vx=10.0, yaw_inertia=2400, x=-2.0, y=0.4)
+    >>> b = col.Vehicle(mass=1200, yaw_inertia=1700, x=2.0, y=0.0)
+    >>> choice = col.required_model(a, b, 0.2, normal=0.0, point=(0.0, 0.4), friction=0.0, tolerance=0.5)
+    >>> choice.model, round(choice.errors["linear_central"], 2)
+    ('eccentric', 2.14)
+    """
+    inputs, plain = _read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law, tolerance)
+    return choose(inputs, plain)[0]
+
+
+def solve(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    *,
+    normal: Input | Pair,
+    point: Pair | None,
+    friction: Input | None = None,
+    impulse_ratio: Input | None = None,
+    critical_fraction: Input | None = None,
+    law: Law = "brach",
+    tolerance: Input = 0.0,
+    on_failure: OnFailure | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Impact:
+    """Solve an impact with the least model that stays within a tolerance of the eccentric one.
+
+    The model is chosen by ``required_model``, in a batch for every case by itself, and each case is solved by its model. What
+    that model cannot hold, such as spin or motion across the normal, is carried through. Bodies that are known not to approach
+    are refused whatever else is missing.
+
+    Parameters
+    ----------
+    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, on_failure, threads, progress
+        As for ``eccentric``; what the required model does not need may be left None.
+    tolerance : float, str, Quantity or array [m/s]
+        Largest error that is accepted, as for ``required_model``.
+
+    Returns
+    -------
+    Impact
+        With the model used in ``model`` and how it was chosen in ``choice``.
+
+    Raises
+    ------
+    InputError, NoImpactError, NoSolutionError
+        As for ``eccentric``; MissingInputError if a required model lacks something, in a batch for the first such case.
+
+    Examples
+    --------
+    Square from behind, along the line of both centres: nobody needs a yaw inertia for that.
+
+    >>> import collisions as col
+    >>> a, b = col.Vehicle(mass=1500, vx=10.0, x=-2.0, y=0.0), col.Vehicle(mass=1200, x=2.0, y=0.0)
+    >>> impact = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="0.1 km/h")
+    >>> impact.model, round(impact.b.delta_v, 3)
+    ('linear_central', 6.667)
+    """
+    inputs, plain = _read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law, tolerance)
+    return Impact._solved(inputs, plain, on_failure, threads, progress)
+
+
+def _read(
+    a: Vehicle,
+    b: Vehicle,
+    restitution: Input,
+    normal: Input | Pair,
+    point: Pair | None,
+    tangential: tuple[Input | None, ...],
+    law: Law,
+    tolerance: Input,
+) -> tuple[Inputs, bool]:
+    door = Door()
+    limit = amount(door, tolerance, "m/s", "tolerance")
+    if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
+        refuse_first(door, limit)
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, door.problems)
+    return inputs._changed(tolerance=limit), plain and isinstance(limit, float)

@@ -1,0 +1,238 @@
+"""Inputs solved: one case at once, or many in blocks, and what is said of those that were refused or gain energy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from .door import broadcast
+from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
+from .inputs import Inputs
+from .kernels.contact_laws import RULES
+from .kernels.elementwise import (
+    FINITE,
+    RESTITUTION,
+    Domain,
+    all_with_length,
+    either_infinite,
+    first_status,
+    not_about_pivot,
+    rounding,
+    without_length,
+)
+from .kernels.flat import flat
+from .kernels.status import Answer, Status
+from .models import BY_NAME, FROM_CONTACT_VELOCITY, Model, checked
+from .progress import reporter
+from .quiet import warn_of_cases
+from .units import shown
+from .vehicle import DOMAINS
+
+_REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
+
+
+def solve(
+    inputs: Inputs,
+    plain: bool = False,
+    on_failure: Any = None,
+    threads: Any = 1,
+    progress: Any = None,
+    model: Model | None = None,
+) -> Any:
+    """The answer of a model to one case or to a batch, with the warnings and errors that go with it.
+
+    ``plain`` says that the inputs hold no array but perhaps in the vehicles. ``model`` is that of the inputs, unless ``solve``
+    chose one, which then carries through the motion that it cannot hold.
+    """
+    carrying = model is not None
+    model = model or (BY_NAME[inputs.model] if inputs.contact_velocity is None else FROM_CONTACT_VELOCITY)
+    plain = plain and inputs.a._given is None and inputs.b._given is None
+    if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
+        raw = flat(model.kernel, model.takes, model.settings(inputs, carrying))(inputs)
+        if raw is not None:
+            return raw
+    check_options(on_failure, threads, progress)
+    if not plain:
+        shape = broadcast(inputs._numbers())
+        if shape is not None:
+            raw = solve_cases(inputs, model, carrying, shape, threads, progress)
+            say_of_cases(inputs, raw, on_failure)
+            return raw
+    return _solve_case(inputs, model, carrying, on_failure)
+
+
+def _solve_case(inputs: Inputs, model: Model, carrying: bool, on_failure: Any) -> Answer:
+    raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
+    if raw.status == Status.OK:
+        return raw
+    if raw.status == Status.ENERGY_GAIN:
+        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss)
+        return raw
+    if on_failure == "nan":
+        return _REFUSED._replace(status=raw.status)
+    raise refusal(inputs, raw)
+
+
+def solve_cases(inputs: Inputs, model: Model, carrying: bool, shape: tuple[int, ...], threads: int, progress: Any) -> Any:
+    """The answer of a model to the cases of a batch."""
+    # Adds a twentieth to the import of the package, and single cases never come here.
+    from .kernels.batch import precision, solve_cases
+
+    dtype = precision(inputs._numbers().values())
+    eps = float(np.finfo(dtype).eps)
+    settings = (*model.settings(inputs, carrying), eps)
+    checks = value_checks(inputs, eps)
+    return solve_cases(model.kernel, settings, model.numbers(inputs), checks, shape, dtype, threads, reporter(progress))
+
+
+def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
+    """Refuses an option that no solver knows."""
+    if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
+        raise InputError(
+            f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}", code="bad_option", argument="on_failure"
+        )
+    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
+        raise InputError(f"threads must be a whole number from 1, got {shown(threads)}", code="bad_option", argument="threads")
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise InputError(
+            f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}",
+            code="bad_option",
+            argument="progress",
+        )
+
+
+def refusal(inputs: Inputs, raw: Answer) -> CollisionsError:
+    """The error of a single case whose status is not an answer."""
+    for side, body in (("a", inputs.a), ("b", inputs.b)):
+        for name in DOMAINS:
+            if getattr(body, name) != getattr(body, name):
+                return InputError(
+                    f"{side}.{name} is NaN: the state of a case that was refused", code="not_finite", argument=name
+                )
+    status: Status = raw.status
+    nx, ny = inputs.normal
+    bodies = (("a", inputs.a), ("b", inputs.b))
+    values: dict[str, Any] = {"closing_speed": raw.closing_speed, "no_slip_normal": raw.no_slip_normal}
+    values |= {"model": inputs.model, "rule": inputs.rule, "value": inputs.rule_value}
+    values |= {"nx": nx, "ny": ny, "opposite_x": 0.0 - nx, "opposite_y": 0.0 - ny}
+    extra: dict[str, Any] = {}
+    match status:
+        case Status.SEPARATING | Status.GRAZING:
+            extra["closing_speed"] = raw.closing_speed
+        case Status.RATIO_JAMS:
+            coupling = raw.coupling
+            limit = -1.0 / (raw.effective_mass * coupling) if coupling else math.copysign(math.inf, inputs.rule_value)
+            values |= {"limit": limit, "side": "less" if limit > 0.0 else "greater"}
+            extra["limit"] = limit
+        case Status.SPINNING:
+            turning = [(f"{side}{f' ({body.name})' if body.name else ''}", body.yaw_rate) for side, body in bodies]
+            values["motion"] = " and ".join(f"{who} has yaw_rate = {rate:.6g} rad/s" for who, rate in turning if rate != 0.0)
+            extra["argument"] = "yaw_rate"
+        case Status.TRANSVERSE:
+            across = [(side, nx * body.vy - ny * body.vx) for side, body in bodies]
+            values["motion"] = ", ".join(f"{side} moves at {speed:.6g} m/s across it" for side, speed in across if speed != 0.0)
+            extra["argument"] = "normal"
+    return error_of(status, status.message.format(**values), **extra)
+
+
+def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
+    """The error of a status, in the family its label belongs to."""
+    outcome = Status(status)
+    kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[outcome.about]
+    return kind(text, code=outcome.label, **fields)
+
+
+def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Callable[[Any], Any]], Any] | None = None) -> None:
+    """Raises or warns of the refused cases of a batch, and warns of those that gain energy; ``one`` solves a single case."""
+    status = raw.status
+    if np.any(status > Status.ENERGY_GAIN):
+        if on_failure == "raise":
+            raise _first_refusal(inputs, status, one)
+        if on_failure is None:
+            warn_of_refusals(status)
+    gaining = status == Status.ENERGY_GAIN
+    if gaining.any():
+        most = float(-raw.energy_loss[gaining].min())
+        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
+
+
+def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
+    """Where in a batch the first refused case stands, and how a message says so."""
+    index = tuple(int(i) for i in np.argwhere(status > Status.ENERGY_GAIN)[0])
+    return index, f"case {index if len(index) != 1 else index[0]}: "
+
+
+def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
+    """One warning that counts the refused cases of a batch by their kind."""
+    refused = int(np.count_nonzero(status > Status.ENERGY_GAIN))
+    kinds = {
+        Status(int(code)).label: int(np.count_nonzero(status == code))
+        for code in np.unique(status[status > Status.ENERGY_GAIN])
+    }
+    listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
+    text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
+    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds))
+
+
+def value_checks(inputs: Inputs, eps: float) -> list[Any]:
+    """What the reader checks of scalars, for the arrays of the inputs: the vehicles first, which are made first."""
+    from .kernels.batch import Check
+
+    found: list[Check] = []
+
+    def add(holds: Callable[..., bool] | None, values: tuple[Any, ...], *faults: tuple[Callable[..., Any], Status]) -> None:
+        found.append(Check(lambda *block: first_status(*((fault(*block), code) for fault, code in faults)), values, holds))
+
+    def add_array(value: Any, domain: Domain) -> None:
+        if isinstance(value, np.ndarray):
+            add(domain.holds, (value,), *domain.faults)
+
+    for vehicle in (inputs.a, inputs.b):
+        for name, domain in DOMAINS.items():
+            add_array(getattr(vehicle, name), domain)
+        if vehicle.pivot is not None:
+            for part in vehicle.pivot:
+                add_array(part, FINITE)
+            inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
+            add(None, (vehicle.mass, *inertia), (either_infinite, Status.PINNED_INFINITE))
+            motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
+            if vehicle.x is not None and vehicle.y is not None:
+                # In float64, too, a velocity in float32 is no closer.
+                own = rounding(eps, vehicle.vx, vehicle.vy)
+                add(None, motion, (partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY))
+    add_array(inputs.restitution, RESTITUTION)
+    if any(isinstance(part, np.ndarray) for part in inputs.normal):
+        for part in inputs.normal:
+            add_array(part, FINITE)
+        add(all_with_length, inputs.normal, (without_length, Status.ZERO_NORMAL))
+    for part in inputs.point or ():
+        add_array(part, FINITE)
+    add_array(inputs.rule_value, RULES[inputs.rule].domain)
+    return found
+
+
+def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:
+    """The error of the first refused case, found by solving it by itself."""
+    index, place = first_refused(status)
+
+    def take(value: Any) -> Any:
+        return np.broadcast_to(value, status.shape)[index].item()
+
+    try:
+        solve(checked(inputs._part(take))) if one is None else one(take)
+    except CollisionsError as error:
+        return type(error)(place + str(error), code=error.code, **error.fields)
+    outcome = Status(status[index])
+    return InputError(place + outcome.sentence, code=outcome.label)
+
+
+def _warn_of_gain(what: str, gain: float) -> None:
+    text = (
+        f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
+        f"restitution or the ratio, or take law='kudlich-slibar' with friction="
+    )
+    warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))
