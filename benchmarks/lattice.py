@@ -2,7 +2,7 @@
 
     python benchmarks/lattice.py
 
-prints the vector in ``collisions/uncertainty/points.py`` and how evenly its points fill the cube against independent ones. The
+prints the vector in ``collisions/uncertainty/designs.py`` and how evenly its points fill the cube against independent ones. The
 construction is that of R. Cools, F. Y. Kuo, D. Nuyens, "Constructing embedded lattice rules for multivariate integration",
 SIAM J. Sci. Comput. 28 (2006): each component is the candidate with the least squared worst-case error in a weighted Korobov
 space of smoothness 2, here by the mean of its logarithm over the sizes below, so that every power of two is served. All inputs

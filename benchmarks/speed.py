@@ -192,7 +192,7 @@ def single_works() -> dict[str, Work]:
         ),
         "left_out": Work("`left_out` of an impact", lambda: col.left_out(impact)),
         **backwards(impact, contact),
-        **door_works(),
+        **reader_works(),
     }
     return works
 
@@ -221,7 +221,7 @@ def backwards(impact: col.Impact, contact: dict[str, Any]) -> dict[str, Work]:
     }
 
 
-def door_works() -> dict[str, Work]:
+def reader_works() -> dict[str, Work]:
     """A Vehicle from floats, Quantities and texts, and what each is measured against."""
     import pint
 

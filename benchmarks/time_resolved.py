@@ -30,7 +30,7 @@ if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
 import collisions as col
-from collisions.idealisation import left_out
+from collisions.contact_effects import left_out
 
 DURATION = 0.1
 DRAG = 0.7

@@ -19,7 +19,7 @@ import numpy as np
 from measuring import QUICK, speed
 
 from collisions.uncertainty import points
-from collisions.uncertainty.standard_normal import quantile
+from collisions.uncertainty.normal import quantile
 
 scenes = import_module("uncertainty_scenes")
 SEEDS, LENGTH = (4, 64) if QUICK else (32, 4096 // points.REPLICATES)

@@ -4,7 +4,7 @@
 # **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as from a plan with the tyre marks.
 #
 # Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from the south, course 90 degrees. The front of A struck
-# the left side of B at the driver's door. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
+# the left side of B at the driver's reader. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
 # damage. B spun to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
 #
 # Four steps: the run-out gives the motion at separation, the impact solved backwards the speeds before, the forward solver

@@ -31,12 +31,12 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions.contact_effects import LeftOut, LeftOutSide
 from collisions.derivation import explain
 from collisions.diagnostics.finding import Findings
-from collisions.fields import Quantities
-from collisions.idealisation import LeftOut, LeftOutSide
 from collisions.inputs import Inputs
 from collisions.model_choice import ByModel
+from collisions.quantities import Quantities
 from collisions.reconstruct.fit_parts import Direction, Estimate, Residual, Values
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.side import Side

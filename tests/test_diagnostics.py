@@ -573,7 +573,7 @@ def test_two_impacts_in_line_say_that_they_are_two():
 
 
 def bare(normal, **more):
-    """The ordinary impact with a normal whose number the door warns of."""
+    """The ordinary impact with a normal whose number the reader warns of."""
     with pytest.warns(col.SuspectUnitsWarning, match="normal"):
         return square(normal=normal, **more)
 
@@ -956,7 +956,7 @@ def test_the_outline_turns_with_the_vehicle():
     ],
 )
 def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
-    """The door takes bare numbers for metres and says so; a unit, and a long bus, are beyond suspicion."""
+    """The reader takes bare numbers for metres and says so; a unit, and a long bus, are beyond suspicion."""
     with pytest.warns(col.SuspectUnitsWarning) as caught:
         col.diagnose(square(), outline_a=outline)
     told = [str(one.message) for one in caught if one.message.code == "suspect_units"]
@@ -1034,7 +1034,7 @@ def test_the_corner_of_a_rectangle_is_no_odd_place():
 
 
 def test_a_drag_in_percent_is_found():
-    """Seventy for 70 percent: the door warns, and so does the finding; of planar momentum too."""
+    """Seventy for 70 percent: the reader warns, and so does the finding; of planar momentum too."""
     with pytest.warns(col.SuspectUnitsWarning, match="drag = 70"):
         (finding,) = of("suspect_drag", square(), drag=70)
     assert (finding.measured, finding.limit) == (70.0, 1.5)

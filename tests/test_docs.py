@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from collisions import Impact, Vehicle
-from collisions.fields import unit_of
+from collisions.quantities import unit_of
 from collisions.side import Side
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"

@@ -91,7 +91,7 @@ def test_readme_shows_real_output():
 
 
 def test_readme_has_the_two_commands_each_on_a_line():
-    """The commands of the front door stand verbatim on lines of their own."""
+    """The commands of the front reader stand verbatim on lines of their own."""
     lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
     assert "python -m pip install . && python examples/paper_examples.py" in lines
     assert 'python -m pip install ".[test]" && python -m pytest' in lines

@@ -24,7 +24,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import collisions as col
-from collisions.fields import attributes
+from collisions.quantities import attributes
 from strategies import (
     SHAPES,
     arrays,

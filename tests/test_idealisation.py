@@ -14,7 +14,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.idealisation import LeftOut, LeftOutSide
+from collisions.contact_effects import LeftOut, LeftOutSide
 from collisions.travel import GRAVITY
 
 ROOT = Path(__file__).resolve().parent.parent

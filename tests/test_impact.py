@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions.fields import attributes
+from collisions.quantities import attributes
 from collisions.reporting import replay
 from collisions.side import Side
 
@@ -61,7 +61,7 @@ def test_pickles_and_copies(impact):
 
 @pytest.mark.parametrize("impact", SCENES, ids=[f"{i}-{s.model}" for i, s in enumerate(SCENES)])
 def test_every_attribute_has_the_shape_of_the_batch(impact):
-    """Scalars stay Python floats from door to answer; in a batch every number has the broadcast shape or is an input."""
+    """Scalars stay Python floats from reader to answer; in a batch every number has the broadcast shape or is an input."""
     shape = np.shape(impact.status)
     for owner, kind in ((impact, col.Impact), (impact.a, Side), (impact.b, Side)):
         for name in attributes(kind):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import collisions as col
-from collisions.fields import unit_of
+from collisions.quantities import unit_of
 
 ROOT = Path(__file__).parents[1]
 

@@ -9,7 +9,7 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct, travel
-from collisions.quiet import quietly, warn_of_cases
+from collisions.warning import quietly, warn_of_cases
 
 A = col.Vehicle(mass=1500.0, vx=15.0)
 B = col.Vehicle(mass=1200.0)

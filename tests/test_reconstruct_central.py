@@ -632,7 +632,7 @@ def test_published_impacts_backwards():
     assert refusal(lambda: reconstruct.central(*masses, **printed)).code == "not_separating"
 
 
-def test_units_at_the_door():
+def test_units_of_arguments():
     """Texts, Quantities of another registry and bare SI numbers are one question."""
     other = pint.UnitRegistry()
     plain = reconstruct.central(1000.0, 1500.0, va=20.0, vb=0.0, energy_loss=50e3)

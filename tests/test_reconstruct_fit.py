@@ -20,7 +20,7 @@ from collisions import reconstruct, travel
 from collisions.reconstruct import fit
 from collisions.reconstruct.chi_squared import survival
 from collisions.reconstruct.least_squares import Problem, spread
-from collisions.uncertainty.inputs import Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from collisions.uncertainty.distributions import Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from collisions.uncertainty.propagation import propagate
 
 ROW = ("o0", "o1", "o2", "o3", "o4")

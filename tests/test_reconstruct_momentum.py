@@ -892,7 +892,7 @@ def test_single_precision():
 # The result
 
 
-def test_units_at_the_door():
+def test_units_of_arguments():
     """Quantities of another registry and texts are the same numbers."""
     ureg = pint.UnitRegistry()
     found = crossing(

@@ -288,7 +288,7 @@ def test_other_bodies_in_a_batch(ask, dtype):
     assert np.isnan(found).tolist() == [False, True, True, False]
     many[2] = many[2].replace(mass=1500.0, x=-2.0)
     assert found[[0, 3]].tolist() == ask(*many, **place)[[0, 3]].tolist()
-    # A single number that differs is refused for all of them, as at every door.
+    # A single number that differs is refused for all of them, as at every reader.
     error = refusal(lambda: ask(many[0].replace(mass=900.0), *many[1:], **place))
     assert error.code == "different_bodies"
 

@@ -420,7 +420,7 @@ def test_two_origins_in_a_batch():
     assert all(ends_there(one, end) for one in caught.value.solutions)
 
 
-# At the door, and what comes back
+# As arguments are read, and what comes back
 
 
 def test_units_single_precision_and_records():

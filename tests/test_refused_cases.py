@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 import collisions as col
 from collisions import reconstruct, reference, travel
-from collisions.fields import attributes
 from collisions.kernels.batch import BLOCK
+from collisions.quantities import attributes
 from collisions.side import Side
 
 INF, NAN = math.inf, math.nan

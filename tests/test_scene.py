@@ -444,7 +444,7 @@ def test_all_cases_of_one_model_and_no_case_at_all():
     assert tolerances.model.tolist() == ["eccentric", "linear_central"]
 
 
-def test_units_and_refusals_at_the_door():
+def test_units_and_refusals_of_arguments():
     """The tolerance takes units and is refused below zero."""
     a, b = col.Vehicle(mass=1500.0, vx=10.0, x=-2.0, y=0.0), col.Vehicle(mass=1200.0, x=2.0, y=0.0)
     scene = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}

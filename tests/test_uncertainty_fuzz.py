@@ -174,7 +174,7 @@ def _is_narrow(value: Any) -> bool:
 @examples(3)
 @given(calls(), st.sampled_from(("speed", "restitution", "mass")), st.data())
 def test_one_input_of_any_kind(call: dict[str, Any], name: str, data: Any) -> None:
-    """Anything at all in place of one input: refused at the door, or handed to the model as it is."""
+    """Anything at all in place of one input: refused when arguments are read, or handed to the model as it is."""
     call["inputs"][name] = data.draw(st.one_of(garbage(), texts(), extreme()).filter(is_shown))
     call["model"] = tame
     read_in_full(attempt(name, lambda: propagate(**call)))

@@ -25,7 +25,7 @@ from collisions.uncertainty import (
     kept,
     standard_normal,
 )
-from collisions.uncertainty.inputs import read_input
+from collisions.uncertainty.distributions import read_input
 from collisions.units import si_unit
 
 EPS = 2.0**-52

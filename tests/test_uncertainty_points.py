@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from collisions.uncertainty import points
-from collisions.uncertainty.points import DESIGNS, MOST_DIMENSIONS, REPLICATES
+from collisions.uncertainty.designs import DESIGNS, MOST_DIMENSIONS, REPLICATES
 
 every_design = pytest.mark.parametrize("name", DESIGNS)
 

@@ -1,4 +1,4 @@
-"""The door: every unit trap found while designing, each with its own test."""
+"""The reader: every unit trap found while designing, each with its own test."""
 
 import contextlib
 import math
@@ -14,7 +14,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.fields import unit_of
+from collisions.quantities import unit_of
 from collisions.units import si_unit
 
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}
@@ -129,7 +129,7 @@ def test_one_error_names_every_wrong_argument():
 
 
 def test_a_quantity_is_never_stripped(ureg):
-    """np.asarray(Quantity) drops the unit in silence; the door converts instead."""
+    """np.asarray(Quantity) drops the unit in silence; the reader converts instead."""
     assert col.Vehicle(mass=1.0, vx=ureg.Quantity(30, "mph")).vx == pytest.approx(30 * EXACT["mph"], rel=1e-15)
     many = col.Vehicle(mass=1.0, vx=ureg.Quantity(np.array([30.0, 60.0]), "mph")).vx
     np.testing.assert_allclose(many, [30 * EXACT["mph"], 60 * EXACT["mph"]], rtol=1e-15)
@@ -244,7 +244,7 @@ def test_an_application_registry_that_counts_in_decimal(decimal_registry):
 
 
 def test_the_default_system_of_a_registry_changes_nothing():
-    """to_base_units() follows the registry's default system; the door names its target."""
+    """to_base_units() follows the registry's default system; the reader names its target."""
     registry = pint.UnitRegistry(system="imperial")
     assert col.Vehicle(mass=registry.Quantity(1, "lb")).mass == pytest.approx(EXACT["lb"], rel=1e-15)
 
@@ -455,7 +455,7 @@ def test_pounds_and_grams_confused(field, given, hint):
     assert given in str(caught.value)
 
 
-def test_a_list_of_quantities_is_caught_at_the_door(ureg):
+def test_a_list_of_quantities_is_caught_as_it_is_read(ureg):
     """numpy would fail on it deep inside with a meaningless message."""
     with pytest.raises(col.UnitsError, match="put the unit on the whole"):
         col.Vehicle(mass=1.0, vx=[ureg.Quantity(1, "m/s"), ureg.Quantity(2, "m/s")])

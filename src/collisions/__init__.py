@@ -1,7 +1,7 @@
 """Vehicle impacts by impulse and momentum: linear central, oblique central and eccentric.
 
 Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted at
-the door. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
+the reader. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
 ``travel`` has what the ground takes, ``uncertainty`` says how sure an answer is.
 """
 
@@ -30,9 +30,9 @@ from .vehicle import Vehicle
 
 if TYPE_CHECKING:
     from . import plot, reconstruct, reference, travel, uncertainty
+    from .contact_effects import left_out
     from .derivation import explain
     from .diagnostics import diagnose
-    from .idealisation import left_out
     from .model_choice import ModelChoice
     from .reporting import report
     from .schema import impact_schema
@@ -81,7 +81,7 @@ _LATER = {
     "diagnose": "diagnostics",
     "explain": "derivation",
     "impact_schema": "schema",
-    "left_out": "idealisation",
+    "left_out": "contact_effects",
     "report": "reporting",
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")

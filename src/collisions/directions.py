@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .door import Door, broadcast, widened
 from .errors import InputError, ShapeError
 from .kernels.elementwise import select
+from .reading import ArgumentReader, broadcast, widened
 from .units import Value
 
 
@@ -39,29 +39,29 @@ class Angle(NamedTuple):
 _UNIT_LENGTH = 2.0**-52
 
 
-def direction(door: Door, value: Any, argument: str, beside: Iterable[Any] = ()) -> tuple[Any, Any]:
+def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterable[Any] = ()) -> tuple[Any, Any]:
     """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components.
 
     It is as precise as the question that the values beside it belong to: of a float32 beside float64 it is made in float64.
     """
     if isinstance(value, tuple):
         if len(value) != 2:
-            door.refuse(
+            reader.refuse(
                 ShapeError(f"{argument} must be an angle or a tuple (x, y), got {len(value)} components", code="bad_shape")
             )
             return math.nan, math.nan
-        count = len(door.problems)
-        vx, vy = (door.number(part, "", f"{argument}[{i}]") for i, part in enumerate(value))
+        count = len(reader.problems)
+        vx, vy = (reader.number(part, "", f"{argument}[{i}]") for i, part in enumerate(value))
         try:
             broadcast({f"{argument}[0]": vx, f"{argument}[1]": vy})
         except ShapeError as problem:
-            door.refuse(problem)
-        if len(door.problems) > count:
+            reader.refuse(problem)
+        if len(reader.problems) > count:
             return math.nan, math.nan
         vx, vy = widened((vx, vy), beside)
-        return normalised(door, vx, vy, argument)
+        return normalised(reader, vx, vy, argument)
     if isinstance(value, list):
-        door.refuse(
+        reader.refuse(
             ShapeError(
                 f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
                 f"np.array([...]) for angles",
@@ -70,13 +70,13 @@ def direction(door: Door, value: Any, argument: str, beside: Iterable[Any] = ())
             )
         )
         return math.nan, math.nan
-    return Angle(*door.angle(value, argument)).beside(beside).direction
+    return Angle(*reader.angle(value, argument)).beside(beside).direction
 
 
-def course(door: Door, value: Any, argument: str) -> Angle:
+def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
     """The angle of a course or a heading (number, text, Quantity or array); a vector is none."""
     if isinstance(value, (tuple, list)):
-        door.refuse(
+        reader.refuse(
             ShapeError(
                 f"{argument} is a {type(value).__name__}, and a {argument.partition('_')[0]} is an angle; many angles go in a "
                 f"numpy array",
@@ -85,7 +85,7 @@ def course(door: Door, value: Any, argument: str) -> Angle:
             )
         )
         return Angle(math.nan, False)
-    return Angle(*door.angle(value, argument))
+    return Angle(*reader.angle(value, argument))
 
 
 def between(one: Angle, other: Angle) -> tuple[Any, Any]:
@@ -96,13 +96,13 @@ def between(one: Angle, other: Angle) -> tuple[Any, Any]:
         return from_radians(np.asarray(other.radians - one.radians))
 
 
-def normalised(door: Door, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
+def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
     """The vector divided by its length; lanes without a length stay (0, 0), a single vector without one is refused."""
     if isinstance(vx, float) and isinstance(vy, float):
         # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
         scale = max(abs(vx), abs(vy))
         if scale == 0.0:
-            door.refuse(
+            reader.refuse(
                 InputError(
                     f"{argument} has no length: (0, 0); give the direction it points in", code="zero_normal", argument=argument
                 )

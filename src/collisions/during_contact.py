@@ -9,11 +9,11 @@ import numpy as np
 
 from . import pulse
 from .directions import from_radians
-from .fields import hypot, numeric
 from .impact import Impact
 from .kernels.contact_laws import BRACH
 from .kernels.elementwise import select, turning_velocity
 from .models import ECCENTRIC, MODELS
+from .quantities import hypot, numeric
 from .side import Side
 
 # Moments that weigh the same in time, as shares of the duration.

@@ -10,20 +10,20 @@ from typing import Any
 import numpy as np
 
 from .directions import angle_of
-from .door import Door, broadcast, widened
 from .errors import InputError, NoSolutionError, Status
-from .fields import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .inputs import Inputs, OnFailure, index_of, part_of
 from .kernels.contact_laws import FRICTION
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, solve_least
 from .models import checked
 from .provenance import Reconstruction
-from .quiet import quietly
+from .quantities import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
+from .reading import ArgumentReader, broadcast, widened
 from .side import Side
 from .solving import solve
 from .units import Input, Value
 from .vehicle import Vehicle
+from .warning import quietly
 
 
 class Impact:
@@ -232,11 +232,11 @@ class Impact:
         >>> impact.ees(0.5)
         (10.0, 10.0)
         """
-        door = Door()
-        share = door.number(share_a, "", "share_a", UNIT_INTERVAL)
+        reader = ArgumentReader()
+        share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
         if isinstance(share, np.ndarray) and not UNIT_INTERVAL.holds(share.ravel()):
-            door.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
-        door.close()
+            reader.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
+        reader.close()
         energy = self.energy_absorbed
         broadcast({"share_a": share, "energy_absorbed": energy})
         xp = numeric(energy, share)

@@ -11,11 +11,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from .directions import direction, from_radians
-from .door import Door, is_whole, largest
 from .errors import InputError, ShapeError
-from .fields import lock, same
 from .kernels.contact_laws import FRICTION, LAWS, RULES
 from .kernels.elementwise import RESTITUTION
+from .quantities import lock, same
+from .reading import ArgumentReader, is_whole, largest
 from .units import Value, has_unit, is_quantity, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, not_a_vehicle
 
@@ -207,22 +207,22 @@ def read_inputs(
     ):
         along = _ALONG_X if normal == 0.0 else from_radians(normal)
         return _made(model, a, b, restitution, along, FRICTION, friction, law_used, point), True
-    door = Door()
-    door.problems.extend(problems)
+    reader = ArgumentReader()
+    reader.problems.extend(problems)
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
-            door.refuse(not_a_vehicle(label, vehicle))
-    e = door.number(restitution, "", "restitution", RESTITUTION)
-    contact = None if point is None else door.pair(point, "m", "point")
-    rule, value = _tangential(door, tangential)
+            reader.refuse(not_a_vehicle(label, vehicle))
+    e = reader.number(restitution, "", "restitution", RESTITUTION)
+    contact = None if point is None else reader.pair(point, "m", "point")
+    rule, value = _tangential(reader, tangential)
     vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in vehicle._numbers())
-    unit: Any = direction(door, normal, "normal", chain((e, value, *(contact or ())), vehicles, beside))
+    unit: Any = direction(reader, normal, "normal", chain((e, value, *(contact or ())), vehicles, beside))
     if not isinstance(law, str) or law not in LAWS:
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
-        door.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
-    door.close()
+        reader.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
+    reader.close()
     # Of a vector only the direction counts.
-    given = {name: text for name, text in door.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
+    given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
     inputs = Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None)
     return inputs, np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
 
@@ -235,14 +235,14 @@ def _beyond_a_turn(normal: Any) -> dict[str, Any]:
     return {"normal": lock(radians) if radians.ndim else float(radians)} if largest(radians) > math.tau else {}
 
 
-def _tangential(door: Door, values: tuple[Any, ...]) -> tuple[str, Any]:
+def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, Any]:
     """Which of the ways to say what happens along the tangent was used, and its value."""
     given = [(rule, value) for rule, value in zip(RULES.values(), values, strict=True) if value is not None]
     if len(given) == 1:
         rule, value = given[0]
-        return rule.name, door.number(value, "", rule.name, rule.domain)
+        return rule.name, reader.number(value, "", rule.name, rule.domain)
     found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
-    door.refuse(
+    reader.refuse(
         InputError(
             f"give exactly one of {', '.join(f'{name}=' for name in RULES)}; got {found}. There is no default, because it "
             f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",

@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from .door import Door, broadcast
 from .errors import InputError
-from .fields import Shown, lock, same, show
 from .inputs import Inputs, part_of
 from .kernels.elementwise import select
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
 from .models import MODELS, checked, lacking, missing_numbers
 from .progress import halves, reporter
+from .quantities import Shown, lock, same, show
+from .reading import ArgumentReader, broadcast
 from .solving import check_options, say_of_cases, solve, solve_cases, value_checks
 from .units import Value, to_quantity
 
@@ -147,13 +147,13 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
     return choice, lacks
 
 
-def refuse_first(door: Door, tolerances: Any) -> None:
+def refuse_first(reader: ArgumentReader, tolerances: Any) -> None:
     """Refuses the first of these that would be refused alone."""
     at = tuple(int(i) for i in np.argwhere(~np.isfinite(tolerances) | (tolerances < 0.0))[0])
     value, place = float(tolerances[at]), at[0] if len(at) == 1 else at
     code = "negative_speed" if math.isfinite(value) else "not_finite"
     text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
-    door.refuse(InputError(text, code=code, argument="tolerance"))
+    reader.refuse(InputError(text, code=code, argument="tolerance"))
 
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
@@ -162,10 +162,10 @@ def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     if isinstance(lacks, np.ndarray):
         at = tuple(int(i) for i in np.unravel_index(int(np.argmax(lacks)), lacks.shape))
         place = f"case {at if len(at) != 1 else at[0]}: "
-    door = Door()
+    reader = ArgumentReader()
     for error in missing_numbers(inputs.a, inputs.b, inputs.point):
-        door.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
-    door.close()
+        reader.problems.append(type(error)(place + str(error), code=error.code, **error.fields))
+    reader.close()
 
 
 def solve_least(

@@ -1,4 +1,4 @@
-"""Outlines of vehicles: read at the door, placed in the scene, and how deep two of them overlap."""
+"""Outlines of vehicles: read as arguments, placed in the scene, and how deep two of them overlap."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .directions import from_radians
-from .door import Door, warn_if_large
 from .errors import InputError, ShapeError
 from .kernels.elementwise import POSITIVE
+from .reading import ArgumentReader, warn_if_large
 from .units import has_unit, is_quantity, shown
 from .vehicle import Vehicle
 
@@ -21,25 +21,25 @@ _STRAIGHT = 1e-9
 _LONGEST, _WIDEST = 30.0, 3.5
 
 
-def read_outline(door: Door, given: Any, argument: str) -> Any:
+def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or from corners."""
     whole = given.magnitude if is_quantity(given) else given
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
-        read = door.number(given, "m", argument)
-        polygon = _polygon(door, read, argument) if isinstance(read, np.ndarray) else None
+        read = reader.number(given, "m", argument)
+        polygon = _polygon(reader, read, argument) if isinstance(read, np.ndarray) else None
         return _of_likely_size(polygon, [] if is_quantity(given) else given.reshape(-1).tolist(), argument)
     if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
-        count = len(door.problems)
-        corners = [door.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
-        if len(door.problems) > count:
+        count = len(reader.problems)
+        corners = [reader.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
+        if len(reader.problems) > count:
             return None
         if any(isinstance(number, np.ndarray) for corner in corners for number in corner):
-            return _bad_shape(door, given, argument)
+            return _bad_shape(reader, given, argument)
         parts = [part for corner in given for part in corner]
-        return _of_likely_size(_polygon(door, np.array(corners), argument), parts, argument)
+        return _of_likely_size(_polygon(reader, np.array(corners), argument), parts, argument)
     if isinstance(given, tuple) and len(given) in (2, 3):
-        return _rectangle(door, given, argument)
-    return _bad_shape(door, given, argument)
+        return _rectangle(reader, given, argument)
+    return _bad_shape(reader, given, argument)
 
 
 def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
@@ -53,8 +53,8 @@ def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
     return corners
 
 
-def _bad_shape(door: Door, given: Any, argument: str) -> None:
-    door.refuse(
+def _bad_shape(reader: ArgumentReader, given: Any, argument: str) -> None:
+    reader.refuse(
         ShapeError(
             f"{argument} must be (length, width), (length, width, how far the centre of mass is ahead of the middle), or at "
             f"least three corners (forward, left) from the centre of mass; got {shown(given)}",
@@ -64,19 +64,19 @@ def _bad_shape(door: Door, given: Any, argument: str) -> None:
     )
 
 
-def _rectangle(door: Door, given: tuple[Any, ...], argument: str) -> Any:
-    count = len(door.problems)
+def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) -> Any:
+    count = len(reader.problems)
     length, width = (
-        door.number(value, "m", f"{argument}[{i}] ({name})", POSITIVE)
+        reader.number(value, "m", f"{argument}[{i}] ({name})", POSITIVE)
         for i, (name, value) in enumerate(zip(("length", "width"), given, strict=False))
     )
-    ahead = door.number(given[2], "m", f"{argument}[2] (offset)") if len(given) == 3 else 0.0
-    if len(door.problems) > count:
+    ahead = reader.number(given[2], "m", f"{argument}[2] (offset)") if len(given) == 3 else 0.0
+    if len(reader.problems) > count:
         return None
     if any(isinstance(value, np.ndarray) for value in (length, width, ahead)):
-        return _bad_shape(door, given, argument)
+        return _bad_shape(reader, given, argument)
     if not abs(ahead) < 0.5 * length < math.inf or math.isinf(width):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a length of {length:.6g} m "
                 f"and a width of {width:.6g} m; both must be finite, and the offset less than half the length",
@@ -91,7 +91,7 @@ def _rectangle(door: Door, given: tuple[Any, ...], argument: str) -> Any:
     return np.array([(front, side), (back, side), (back, -side), (front, -side)])
 
 
-def _polygon(door: Door, corners: Any, argument: str) -> Any:
+def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
     """The corners counter-clockwise; refused if there is a dent or no area."""
     problem = ""
     if len(corners) < 3:
@@ -102,7 +102,7 @@ def _polygon(door: Door, corners: Any, argument: str) -> Any:
         edges, lengths = _edges(corners)
         sines = _cross(edges, np.roll(edges, -1, axis=0))
         if np.all(sines <= _STRAIGHT) and np.any(sines < -_STRAIGHT):
-            return _polygon(door, corners[::-1], argument)
+            return _polygon(reader, corners[::-1], argument)
         angles = np.arctan2(edges[:, 1], edges[:, 0])
         around = np.sum((np.roll(angles, -1) - angles) % (2.0 * math.pi))
         if not np.any(sines > _STRAIGHT):
@@ -110,7 +110,7 @@ def _polygon(door: Door, corners: Any, argument: str) -> Any:
         elif np.any(sines < -_STRAIGHT) or not np.all(lengths) or around > 3.0 * math.pi:
             problem = "has a dent, a corner twice, or sides that cross"
     if problem:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{argument} {problem}; give corners (forward, left) one after another around a convex outline, such as "
                 f"[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",

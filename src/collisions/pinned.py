@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from .door import widened
 from .errors import InputError, MissingInputError
-from .fields import lock
 from .kernels.elementwise import not_about_pivot, turning_velocity
+from .quantities import lock
+from .reading import widened
 
 
 def pinned_velocity(

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .fields import lock, same_fields
 from .kernels.elementwise import select
 from .kernels.status import Status
+from .quantities import lock, same_fields
 from .units import Value
 
 

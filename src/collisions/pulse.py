@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .fields import numeric
 from .kernels.elementwise import safe_divisor, select
+from .quantities import numeric
 
 _QUARTER = 0.5 * math.pi
 

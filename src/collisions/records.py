@@ -11,14 +11,14 @@ import numpy as np
 
 from .amounts import amount
 from .directions import direction, from_radians
-from .door import Door
 from .errors import InputError, Status
-from .fields import attributes, lock
 from .inputs import Inputs
 from .kernels.contact_laws import RULES
 from .model_choice import ModelChoice
 from .models import MODELS, checked
 from .provenance import Reconstruction
+from .quantities import attributes, lock
+from .reading import ArgumentReader
 from .side import Side
 from .units import shown
 from .vehicle import NAMES, Vehicle
@@ -93,9 +93,9 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         for side in "ab":
             state = {name: _number(value) for name, value in found[side].items() if value is not None and name != "name"}
             vehicles.append(_vehicle({**_NOTHING, **state, "name": found[side]["name"]}, refused and origin is not None))
-        door = Door()
-        tolerance = None if choice is None else amount(door, _number(choice["tolerance"]), "m/s", "tolerance")
-        door.close()
+        reader = ArgumentReader()
+        tolerance = None if choice is None else amount(reader, _number(choice["tolerance"]), "m/s", "tolerance")
+        reader.close()
         point, law = question["point"], question["law"]
         a, b = vehicles
         contact = question["restitution"], question["normal"], rule, question["rule_value"]
@@ -133,17 +133,17 @@ def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, 
     for name, text in given.items():
         if name not in numbers:
             continue
-        door = Door()
+        reader = ArgumentReader()
         number, kind = numbers[name]
         unit = ""
         if name != "normal":
-            read: Any = door.number(text, kind, name)
+            read: Any = reader.number(text, kind, name)
         elif isinstance(text, str):
-            read = direction(door, text, name)
+            read = direction(reader, text, name)
         else:
             read, unit = from_radians(text), " rad"
         # A unit of another registry cannot be read here.
-        if door.problems:
+        if reader.problems:
             continue
         off = _SAME if name == "normal" else 0.0
         parts = zip(read, number, strict=True) if name == "normal" else [(read, number)]
@@ -153,7 +153,7 @@ def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, 
 
 
 def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
-    """A vehicle again; the door takes no NaN, which is the motion of one that was looked for and not found."""
+    """A vehicle again; the reader takes no NaN, which is the motion of one that was looked for and not found."""
     unknown = state.keys() - set(NAMES)
     if unknown:
         raise bad_record(f"a vehicle has no {min(unknown)!r}")

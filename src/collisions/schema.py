@@ -7,12 +7,12 @@ from inspect import getdoc
 from typing import Any
 
 from .errors import Status
-from .fields import attributes
 from .impact import Impact
 from .inputs import Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import MODELS
 from .provenance import Reconstruction
+from .quantities import attributes
 from .records import FORMAT
 from .side import Side
 from .vehicle import Vehicle

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from .directions import Angle, angle_of
-from .door import Door, broadcast, widened
 from .errors import MissingInputError
-from .fields import Quantities, attributes, derived, hypot, returns, show, table
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .model_choice import ModelChoice
+from .quantities import Quantities, attributes, derived, hypot, returns, show, table
+from .reading import ArgumentReader, broadcast, widened
 from .units import Pair, Value
 from .vehicle import Vehicle, missing
 
@@ -157,9 +157,9 @@ class Side:
 
         What an accelerometer there would have recorded, and not the delta-V of the centre of mass.
         """
-        door = Door()
-        px, py = door.pair(point, "m", "point")
-        door.close()
+        reader = ArgumentReader()
+        px, py = reader.pair(point, "m", "point")
+        reader.close()
         broadcast({"point[0]": px, "point[1]": py, "delta_vx": self.delta_vx})
         px, py, x, y = widened((px, py, self.before.x, self.before.y), (self.delta_vx,))
         with np.errstate(all="ignore"):

@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 from .amounts import amount
-from .door import Door
 from .impact import Impact
 from .inputs import Inputs, Law, OnFailure
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose, refuse_first
 from .models import read
 from .progress import Progress
+from .reading import ArgumentReader
 from .units import Input, Pair
 from .vehicle import Vehicle
 
@@ -346,9 +346,9 @@ def _read(
     law: Law,
     tolerance: Input,
 ) -> tuple[Inputs, bool]:
-    door = Door()
-    limit = amount(door, tolerance, "m/s", "tolerance")
+    reader = ArgumentReader()
+    limit = amount(reader, tolerance, "m/s", "tolerance")
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
-        refuse_first(door, limit)
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, door.problems)
+        refuse_first(reader, limit)
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, reader.problems)
     return inputs._changed(tolerance=limit), plain and isinstance(limit, float)

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from .door import broadcast
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
 from .inputs import Inputs
 from .kernels.contact_laws import RULES
@@ -28,9 +27,10 @@ from .kernels.flat import flat
 from .kernels.status import Answer, Status
 from .models import BY_NAME, FROM_CONTACT_VELOCITY, Model, checked
 from .progress import reporter
-from .quiet import warn_of_cases
+from .reading import broadcast
 from .units import shown
 from .vehicle import DOMAINS
+from .warning import warn_of_cases
 
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     class Quantity(Protocol):
-        """A pint Quantity of any registry, by what the door asks of it; the types of pint are not known to every checker."""
+        """A pint Quantity of any registry, by what the reader asks of it; the types of pint are not known to every checker."""
 
         @property
         def magnitude(self) -> Any: ...

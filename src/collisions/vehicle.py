@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from .directions import Angle, angle_of, direction
-from .door import Door, broadcast, widened
 from .errors import InputError, MissingInputError
-from .fields import Quantities, derived, hypot, lock, returns, same, show, table
 from .kernels.elementwise import FINITE, POSITIVE, select, turning_velocity
+from .quantities import Quantities, derived, hypot, lock, returns, same, show, table
+from .reading import ArgumentReader, broadcast, widened
 from .units import Input, Pair, Value, shown
 
 _isfinite = math.isfinite
@@ -94,7 +94,7 @@ class Vehicle(_Written):
         name: str = "",
     ) -> None:
         if not (
-            # Plain floats in order need none of the door; anything else goes through it.
+            # Plain floats in order need none of the reader; anything else goes through it.
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
             and mass > 0.0
             and _isfinite(vx + vy)
@@ -106,7 +106,7 @@ class Vehicle(_Written):
             and pivot is None
             and type(name) is str
         ):
-            _fill(self, _through_the_door(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
+            _fill(self, _read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
             return
         _set_mass(self, mass)
         _set_vx(self, vx)
@@ -149,31 +149,31 @@ class Vehicle(_Written):
         """
         if "vx" in rest or "vy" in rest:
             raise InputError("give either speed and course or vx and vy, not both", code="speed_twice", argument="speed")
-        door = Door()
-        magnitude = door.number(speed, "m/s", "speed")
+        reader = ArgumentReader()
+        magnitude = reader.number(speed, "m/s", "speed")
         if np.any(np.less(magnitude, 0.0)):
-            door.refuse(
+            reader.refuse(
                 InputError(
                     f"speed must be >= 0, got {shown(speed)}; turn the course by 180 deg to go the other way",
                     code="negative_speed",
                     argument="speed",
                 )
             )
-        cx, cy = direction(door, course, "course", (magnitude,))
-        door.close()
+        cx, cy = direction(reader, course, "course", (magnitude,))
+        reader.close()
         broadcast({"speed": magnitude, "course": cx})
         with np.errstate(all="ignore"):
             vx, vy = magnitude * cx + 0.0, magnitude * cy + 0.0
         vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
-            cx, cy = direction(Door(("course",)), course, "course", vehicle._numbers())
+            cx, cy = direction(ArgumentReader(("course",)), course, "course", vehicle._numbers())
             (magnitude,) = widened((magnitude,), vehicle._numbers())
             with np.errstate(all="ignore"):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
                 _set_vy(vehicle, lock(magnitude * cy + 0.0))
-        if door.texts:
-            _set_given(vehicle, {**(vehicle._given or {}), **door.texts})
+        if reader.texts:
+            _set_given(vehicle, {**(vehicle._given or {}), **reader.texts})
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -206,7 +206,7 @@ class Vehicle(_Written):
         """A vehicle from SI numbers that a vehicle held before, whose size is beyond suspicion, and some new values."""
         vehicle: Vehicle = object.__new__(cls)
         trusted = numbers.keys() - (changes or {}).keys()
-        _fill(vehicle, _through_the_door(**{**numbers, **(changes or {})}, trusted=trusted))
+        _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
         return vehicle
 
     def _moved(self, vx: Any, vy: Any, yaw_rate: Any) -> Vehicle:
@@ -300,21 +300,21 @@ class Vehicle(_Written):
         >>> Vehicle(mass=1100.0, x=10.0, y=5.0, heading=0.0).point(forward=2.0, left="-50 cm")
         (12.0, 4.5)
         """
-        door = Door()
+        reader = ArgumentReader()
         polar = distance is not _ABSENT, angle is not _ABSENT
         if (any(polar) and not all(polar)) or all(polar) != (forward is _ABSENT and left is _ABSENT):
             raise InputError("give forward= and left=, or distance= and angle=", code="bad_point", argument="point")
         x, y, heading = (self._need(name, "point") for name in ("x", "y", "heading"))
         if all(polar):
-            length = door.number(distance, "m", "distance")
-            c, s = direction(door, angle, "angle", (length, x, y, heading))
+            length = reader.number(distance, "m", "distance")
+            c, s = direction(reader, angle, "angle", (length, x, y, heading))
             broadcast({"distance": length, "angle": c})
             with np.errstate(all="ignore"):
                 ahead, aside = length * c, length * s
         else:
-            ahead = 0.0 if forward is _ABSENT else door.number(forward, "m", "forward")
-            aside = 0.0 if left is _ABSENT else door.number(left, "m", "left")
-        door.close()
+            ahead = 0.0 if forward is _ABSENT else reader.number(forward, "m", "forward")
+            aside = 0.0 if left is _ABSENT else reader.number(left, "m", "left")
+        reader.close()
         broadcast({"x": x, "y": y, "heading": heading, "forward": ahead, "left": aside})
         hx, hy = Angle(heading, False).beside((x, y, ahead, aside)).direction
         with np.errstate(all="ignore"):
@@ -334,9 +334,9 @@ class Vehicle(_Written):
         >>> Vehicle(mass=1100.0, vx=10.0, yaw_rate=0.5, x=0.0, y=0.0).velocity_at((2.0, 1.0))
         (9.5, 1.0)
         """
-        door = Door()
-        px, py = door.pair(point, "m", "point")
-        door.close()
+        reader = ArgumentReader()
+        px, py = reader.pair(point, "m", "point")
+        reader.close()
         own = {name: getattr(self, name) for name in ("vx", "vy", "yaw_rate", "x", "y")}
         kind = None
         if broadcast({"point[0]": px, "point[1]": py} | own) is not None:
@@ -460,7 +460,7 @@ def _product(weight: Value, motion: Value) -> Value:
     return product
 
 
-def _through_the_door(
+def _read_fields(
     mass: Any,
     vx: Any,
     vy: Any,
@@ -474,23 +474,23 @@ def _through_the_door(
     trusted: Any = (),
 ) -> tuple[Any, ...]:
     """Every field in SI, and the texts of those given with a unit; one error names all that cannot be used."""
-    door = Door(trusted)
+    reader = ArgumentReader(trusted)
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
     read = []
     for value, f in zip(raw, fields(Vehicle), strict=False):
         if value is not None:
-            value = door.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
+            value = reader.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
         elif f.name == "mass":
-            door.refuse(
+            reader.refuse(
                 MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
             )
         elif f.name in ("vx", "vy", "yaw_rate"):
-            door.refuse(InputError(f"{f.name} is None; leave it out for 0", code="not_a_number", argument=f.name))
+            reader.refuse(InputError(f"{f.name} is None; leave it out for 0", code="not_a_number", argument=f.name))
         read.append(value)
     if not isinstance(name, str):
-        door.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
-    pin = None if pivot is None else door.pair(pivot, "m", "pivot")
-    door.close()
+        reader.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
+    pin = None if pivot is None else reader.pair(pivot, "m", "pivot")
+    reader.close()
     named = dict(zip(NAMES, read, strict=False))
     broadcast(named if pin is None else {**named, "pivot[0]": pin[0], "pivot[1]": pin[1]})
     if pin is not None:
@@ -498,4 +498,4 @@ def _through_the_door(
         from .pinned import pinned_velocity
 
         read[1], read[2] = pinned_velocity(pin, *read[:7])
-    return (*read, pin, name, door.texts)
+    return (*read, pin, name, reader.texts)

@@ -10,8 +10,8 @@ from ..impact import Impact
 from ..kernels.contact_laws import RULES
 from ..vehicle import Vehicle
 from .expressions import Function
-from .letters import Contact, letter
 from .page import Page
+from .symbols import Contact, letter
 
 _SIDE = {
     "after.vx": ("velocity after, along x", "speed"),

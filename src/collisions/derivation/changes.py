@@ -6,8 +6,8 @@ import math
 
 from ..impact import Impact
 from .expressions import Direction, Expression, Function, Symbol, root, total
-from .letters import AFTER, Body, Contact, bodies, letter
 from .page import Page
+from .symbols import AFTER, Body, Contact, bodies, letter
 
 
 def changes(page: Page, impact: Impact) -> None:

@@ -7,13 +7,13 @@ import math
 from ..impact import Impact
 from ..kernels.eccentric import response
 from ..models import body_numbers
+from .contact import Mobility, impulses
 from .energy import energy
 from .expressions import Expression, Symbol, total
-from .letters import AFTER, BEFORE, COMPRESSED, Body, Contact, bodies, letter
 from .oblique import components, kept, scene_axes
 from .page import Page
 from .pinned import moments_about_pivot, turned
-from .tangential import Mobility, impulses
+from .symbols import AFTER, BEFORE, COMPRESSED, Body, Contact, bodies, letter
 
 
 class Lever:

@@ -7,8 +7,8 @@ import math
 from ..impact import Impact
 from ..vehicle import Vehicle
 from .expressions import HALF, Expression, total
-from .letters import AFTER, BEFORE, Body, Contact, bodies, letter
 from .page import Page
+from .symbols import AFTER, BEFORE, Body, Contact, bodies, letter
 
 
 def energy(page: Page, impact: Impact, contact: Contact) -> None:

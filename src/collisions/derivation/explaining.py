@@ -7,23 +7,23 @@ from collections.abc import Mapping
 from typing import Any, Literal, TypeAlias, get_args
 
 from ..amounts import at_least_zero
-from ..door import Door
 from ..errors import InputError, ShapeError, Status
 from ..impact import Impact
 from ..one_case import need_one_case
+from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution
 from ..solving import error_of
 from ..uncertainty.result import Propagation
 from ..unit_systems import SI_UNITS, UnitSystem, bad_system
 from ..units import shown
 from . import answers, momentum
+from .central import linear
 from .changes import changes
 from .eccentric import eccentric
 from .fit import fit
-from .linear import linear
 from .oblique import oblique
-from .origin import chosen, found
 from .page import Page
+from .reverse import chosen, found
 from .rounding import System
 
 Form: TypeAlias = Literal["markdown", "text"]
@@ -216,12 +216,12 @@ def _spread(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> tuple[dic
     stray = [shown(name) for name in uncertainty if name not in known]
     if stray:
         raise _unknown(", ".join(stray), names)
-    door = Door()
+    reader = ArgumentReader()
     found = {}
     for name, value in uncertainty.items():
-        read = door.number(value, SI_UNITS[kind_of(known[name])], name)
-        found[known[name]] = at_least_zero(door, read, value, name, "negative_deviation", "give the standard deviation")
-    door.close()
+        read = reader.number(value, SI_UNITS[kind_of(known[name])], name)
+        found[known[name]] = at_least_zero(reader, read, value, name, "negative_deviation", "give the standard deviation")
+    reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not math.isfinite(value):
             raise ShapeError(f"the standard deviation of {name} must be one number", code="bad_shape", argument=name)

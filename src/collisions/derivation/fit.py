@@ -7,8 +7,8 @@ import math
 from ..reconstruct import Fit
 from ..unit_systems import KIND_OF
 from .expressions import total
-from .letters import letter
 from .page import Page
+from .symbols import letter
 
 _HEAD = ("of", "quantity", "value")
 _SAME = 1e-9  # relative to a turn: an angle by the short way round differs by a whole one

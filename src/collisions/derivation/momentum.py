@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from ..reconstruct import MomentumSolution
 from .changes import alpha_of, delta, magnitude, seen_from
 from .expressions import Direction, Expression, Function, Symbol, total
-from .letters import letter
 from .page import Page
+from .symbols import letter
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 

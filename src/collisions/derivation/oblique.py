@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ..impact import Impact
+from .contact import Mobility, impulses
 from .energy import energy
 from .expressions import Expression
-from .letters import AFTER, Body, Contact, bodies
 from .page import Page
-from .tangential import Mobility, impulses
+from .symbols import AFTER, Body, Contact, bodies
 
 
 def oblique(page: Page, impact: Impact) -> None:

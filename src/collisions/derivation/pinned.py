@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from ..impact import Impact
 from .expressions import Expression, Symbol
-from .letters import AFTER, Body, Contact, letter
 from .page import Page
+from .symbols import AFTER, Body, Contact, letter
 
 
 def turned(page: Page, body: Body, inertia: Symbol, torque: Expression, contact: Contact) -> None:

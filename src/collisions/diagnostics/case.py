@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..idealisation import LeftOut
+from ..contact_effects import LeftOut
 from ..impact import Impact
 from ..kernels.status import EPS
 from ..reconstruct import MomentumSolution

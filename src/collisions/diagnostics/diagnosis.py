@@ -9,17 +9,17 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..amounts import at_least_zero
-from ..door import Door
+from ..contact_effects import left_out
 from ..errors import InputError, ShapeError
-from ..idealisation import left_out
 from ..impact import Impact
 from ..one_case import need_one_case
 from ..outlines import read_outline
+from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
-from ..travel.reading import one_value, read_drag
+from ..travel.surfaces import one_value, read_drag
 from ..unit_systems import UnitSystem
 from ..units import Input
-from . import balance, evidence, inputs, physics, robustness
+from . import balance, checks_evidence, checks_impact, inputs, robustness
 from .case import Balance, Case, Examined, Told, named
 from .finding import Finding, Findings, read_limits
 from .limits import LIMITS
@@ -27,30 +27,30 @@ from .words import read_words
 
 _Examined = TypeVar("_Examined", bound=Examined)
 _EVIDENCE: tuple[Callable[[Examined], Iterator[Finding]], ...] = (
-    evidence.momentum_energy,
-    evidence.pdof_off_damage,
-    evidence.delta_v_off_damage,
+    checks_evidence.momentum_energy,
+    checks_evidence.pdof_off_damage,
+    checks_evidence.delta_v_off_damage,
     inputs.suspect_drag,
     inputs.suspect_duration,
 )
 _IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
-    physics.energy_gain,
-    physics.rounding,
-    physics.restitution,
-    physics.impulse_ratio,
-    physics.friction_gain,
-    physics.jamming,
-    physics.contact_points,
-    physics.outlines,
-    physics.normal_against_positions,
-    evidence.yaw_against_lever,
-    physics.impulse_off_normal,
-    physics.heading_off_course,
-    physics.point_outside,
-    physics.ill_conditioned,
-    physics.not_unique,
-    physics.tyre_impulse,
-    physics.reference_range,
+    checks_impact.energy_gain,
+    checks_impact.rounding,
+    checks_impact.restitution,
+    checks_impact.impulse_ratio,
+    checks_impact.friction_gain,
+    checks_impact.jamming,
+    checks_impact.contact_points,
+    checks_impact.outlines,
+    checks_impact.normal_against_positions,
+    checks_evidence.yaw_against_lever,
+    checks_impact.impulse_off_normal,
+    checks_impact.heading_off_course,
+    checks_impact.point_outside,
+    checks_impact.ill_conditioned,
+    checks_impact.not_unique,
+    checks_impact.tyre_impulse,
+    checks_impact.reference_range,
     robustness.model,
     robustness.law,
     robustness.normal,
@@ -154,15 +154,15 @@ def diagnose(
     ()
     """
     # A limit beyond what is plausible is one on purpose.
-    door = Door(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
+    reader = ArgumentReader(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     outlines = {
-        label: read_outline(door, given, f"outline_{label}")
+        label: read_outline(reader, given, f"outline_{label}")
         for label, given in (("a", outline_a), ("b", outline_b))
         if given is not None
     }
     if isinstance(impact, MomentumSolution) and outlines:
-        door.refuse(
+        reader.refuse(
             InputError(
                 "outline_a and outline_b need positions, which a MomentumSolution has not; leave them out, or diagnose the "
                 "impact of collisions.eccentric at its speeds",
@@ -170,20 +170,20 @@ def diagnose(
                 argument="outline_a" if "a" in outlines else "outline_b",
             )
         )
-    words = read_words(door, units)
-    allowed = read_limits(limits, door)
-    found = evidence.read_evidence(
-        door,
+    words = read_words(reader, units)
+    allowed = read_limits(limits, reader)
+    found = checks_evidence.read_evidence(
+        reader,
         impact,
         crush_energy,
         {"a": damage_pdof_a, "b": damage_pdof_b},
         {"a": damage_delta_v_a, "b": damage_delta_v_b},
     )
     if isinstance(impact, MomentumSolution):
-        time = one_value(door, duration, "s", "duration")
-        time = at_least_zero(door, time, duration, "duration", "negative_duration", "it is the time from touching to parting")
-        pull = read_drag(door, drag, "drag")
-        door.close()
+        time = one_value(reader, duration, "s", "duration")
+        time = at_least_zero(reader, time, duration, "duration", "negative_duration", "it is the time from touching to parting")
+        pull = read_drag(reader, drag, "drag")
+        reader.close()
         _check_single(time, pull)
         solved = Balance(
             solution=impact,
@@ -199,7 +199,7 @@ def diagnose(
             words=words,
         )
         return _sorted([*_each(_EVIDENCE, solved), *_each(_BALANCE, solved)], solved)
-    door.close()
+    reader.close()
     left = left_out(impact, duration=duration, drag=drag)
     _check_single(left.duration, left.drag)
     case = Case(

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError, ShapeError
-from ..fields import OWN, Quantities
 from ..kernels.elementwise import UNCHECKED
+from ..quantities import OWN, Quantities
+from ..reading import ArgumentReader
 from ..units import shown
 from .limits import LIMITS
 
-# The door's word for a number that no domain bounds: an infinite limit switches a finding off.
+# The reader's word for a number that no domain bounds: an infinite limit switches a finding off.
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,13 +65,13 @@ class Findings(tuple[Finding, ...]):
         return made
 
 
-def read_limits(given: Any, door: Door) -> dict[str, float | None]:
+def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
     """The limits of a call: the defaults, and what the caller has instead; units allowed."""
     limits = {code: limit.default for code, limit in LIMITS.items()}
     if given is None:
         return limits
     if not isinstance(given, Mapping):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {type(given).__name__}",
                 code="bad_limit",
@@ -82,7 +82,7 @@ def read_limits(given: Any, door: Door) -> dict[str, float | None]:
     for code, value in given.items():
         name = f"limits[{code!r}]"
         if code not in LIMITS:
-            door.refuse(
+            reader.refuse(
                 InputError(
                     f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}",
                     code="unknown_finding",
@@ -90,14 +90,14 @@ def read_limits(given: Any, door: Door) -> dict[str, float | None]:
                 )
             )
             continue
-        count = len(door.problems)
-        read = door.number(value, LIMITS[code].unit, name, UNCHECKED)
-        if len(door.problems) > count:
+        count = len(reader.problems)
+        read = reader.number(value, LIMITS[code].unit, name, UNCHECKED)
+        if len(reader.problems) > count:
             continue
         if isinstance(read, np.ndarray):
-            door.refuse(ShapeError(f"{name} takes one value", code="bad_shape", argument="limits"))
+            reader.refuse(ShapeError(f"{name} takes one value", code="bad_shape", argument="limits"))
         elif not read >= 0.0:
-            door.refuse(
+            reader.refuse(
                 InputError(
                     f"{name} must be >= 0 (inf switches it off), got {shown(value)}", code="bad_limit", argument="limits"
                 )

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..reference import INTER_VEHICLE_FRICTION
-from ..travel.reading import HIGHEST_DRAG
+from ..travel.surfaces import HIGHEST_DRAG
 
 _HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
 _MESSAGES = f"EDCRASH manual, chapter 6 ({_HVE}/06-messages.md)"
@@ -271,7 +271,7 @@ LIMITS: Mapping[str, Limit] = {
         default=20.0,
         unit="rad/s",
         measured="yaw rate before: above",
-        source=f"{_OWN}: three turns a second, as for a bare number at the door; deg/s as rad/s",
+        source=f"{_OWN}: three turns a second, as for a bare number that is read; deg/s as rad/s",
     ),
     "suspect_inertia_low": Limit(
         default=0.3,
@@ -307,7 +307,7 @@ LIMITS: Mapping[str, Limit] = {
         default=math.tau,
         unit="rad",
         measured="heading or course, or normal that was given as a number without a unit: above",
-        source=f"{_OWN}: a full turn, as for a bare number at the door; degrees as rad",
+        source=f"{_OWN}: a full turn, as for a bare number that is read; degrees as rad",
     ),
     "suspect_friction": Limit(
         default=5.0,
@@ -319,7 +319,7 @@ LIMITS: Mapping[str, Limit] = {
         default=HIGHEST_DRAG,
         unit="",
         measured="drag of the tyres: above",
-        source=f"{_OWN}: no road tyre holds more, as for a bare number at the door; percent or m/s2 as a fraction of gravity",
+        source=f"{_OWN}: no road tyre holds more, as for a bare number that is read; percent or m/s2 as a fraction of gravity",
     ),
     "suspect_duration": Limit(
         default=10.0,

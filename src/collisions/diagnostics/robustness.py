@@ -9,9 +9,9 @@ from typing import Any
 from ..directions import from_degrees
 from ..impact import Impact
 from ..kernels.contact_laws import BRACH, LAWS
-from ..quiet import quietly
 from ..side import Side
 from ..solvers import required_model
+from ..warning import quietly
 from .case import Case, named, share
 from .finding import Finding
 

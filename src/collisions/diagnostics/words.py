@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..door import Door
-from ..fields import in_words
+from ..quantities import in_words
+from ..reading import ArgumentReader
 from ..unit_systems import bad_system, decimals_of, scale_of, unit_of
 
 _FIGURES = 4  # of what has no decimals of its own: an energy
@@ -60,10 +60,10 @@ class Words:
         return self._told(value, "energy")
 
 
-def read_words(door: Door, units: Any) -> Words:
+def read_words(reader: ArgumentReader, units: Any) -> Words:
     """The words of a system of units, which must be one of the known ones."""
     problem = bad_system(units)
     if problem is not None:
-        door.refuse(problem)
+        reader.refuse(problem)
         return Words("metric")
     return Words(units)

@@ -6,11 +6,11 @@ on the ``axes`` given, or on a new figure, and returns the Axes. ``units`` is "s
 """
 
 from .contributions import contributions
-from .distribution import distribution
 from .energy import energy
 from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
 from .scene import scene
+from .uncertainty import distribution
 
 __all__ = ["contributions", "distribution", "energy", "force_time", "impulse_plane", "momentum", "scene"]

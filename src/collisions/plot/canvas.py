@@ -7,9 +7,9 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
-from ..fields import in_words
 from ..impact import Impact
 from ..one_case import need_one_case
+from ..quantities import in_words
 from ..unit_systems import KIND_OF, SI_UNITS, bad_system, decimals_of, scale_of, unit_of
 from ..units import shown
 from ..vehicle import Vehicle

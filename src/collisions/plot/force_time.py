@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import pulse
-from ..door import Door, warn_if_large
 from ..errors import InputError
 from ..impact import Impact
-from ..travel.reading import one_value
+from ..reading import ArgumentReader, warn_if_large
+from ..travel.surfaces import one_value
 from ..unit_systems import UnitSystem
 from ..units import Input, shown
 from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, tidy
@@ -68,9 +68,9 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     """
     labels = Units(units)
     impact = answered(impact, "force_time")
-    door = Door()
-    time = one_value(door, duration, "s", "duration")
-    door.close()
+    reader = ArgumentReader()
+    time = one_value(reader, duration, "s", "duration")
+    reader.close()
     if not isinstance(time, float):
         raise InputError(
             f"duration must be one finite time, got {shown(duration)}; write '100 ms'", code="bad_shape", argument="duration"

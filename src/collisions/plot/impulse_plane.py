@@ -10,8 +10,8 @@ import numpy as np
 from ..impact import Impact
 from ..kernels.contact_laws import IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..kernels.status import EPS
-from ..quiet import quietly
 from ..unit_systems import UnitSystem
+from ..warning import quietly
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError
 from ..impact import Impact
 from ..outlines import placed, read_outline
+from ..reading import ArgumentReader
 from ..side import Side
 from ..unit_systems import UnitSystem
 from ..units import shown
@@ -220,9 +220,9 @@ def _corners(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Pla
     """The outline of a vehicle in the scene, from its front edge on; empty without one."""
     if outline is None:
         return []
-    door = Door()
-    read = read_outline(door, outline, name)
-    door.close()
+    reader = ArgumentReader()
+    read = read_outline(reader, outline, name)
+    reader.close()
     forward = read[:, 0] + np.roll(read[:, 0], -1)
     x, y, corners = placed(np.roll(read, -int(np.argmax(forward)), axis=0), vehicle, letter)
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]

@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..door import Door
 from ..errors import AmbiguousSolutionError, CollisionsError
-from ..fields import show
 from ..impact import Impact, found_by
 from ..inputs import Inputs, OnFailure
 from ..kernels.contact_laws import FRICTION
@@ -20,10 +18,12 @@ from ..kernels.linear import shares
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import EPS, Status
 from ..provenance import Reconstruction
+from ..quantities import show
+from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle
-from .outcome import Cases, exactly, input_faults, settle
+from .common import Cases, exactly, input_faults, settle
 
 _ALONG: Any = (1.0, 0.0)
 _NONE: Any = 0.0
@@ -101,11 +101,11 @@ def central(
         3,
         "central",
     )
-    door = Door()
-    masses = door.number(mass_a, "kg", "mass_a", POSITIVE), door.number(mass_b, "kg", "mass_b", POSITIVE)
-    known = {name: _read(door, value, name) for name, value in given.items()}
-    door.close()
-    texts = door.texts
+    reader = ArgumentReader()
+    masses = reader.number(mass_a, "kg", "mass_a", POSITIVE), reader.number(mass_b, "kg", "mass_b", POSITIVE)
+    known = {name: _read(reader, value, name) for name, value in given.items()}
+    reader.close()
+    texts = reader.texts
     written = [
         {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts} for label in "ab"
     ]
@@ -175,12 +175,12 @@ def central(
     return settle(partial(asked, found), status, origin, on_failure, error)
 
 
-def _read(door: Door, value: Any, name: str) -> Any:
+def _read(reader: ArgumentReader, value: Any, name: str) -> Any:
     if name == "restitution":
-        return door.number(value, "", name, RESTITUTION)
+        return reader.number(value, "", name, RESTITUTION)
     if name != "energy_loss":
-        return door.number(value, "m/s", name)
-    return amount(door, value, "J", name)
+        return reader.number(value, "m/s", name)
+    return amount(reader, value, "J", name)
 
 
 def _named(masses: tuple[Any, Any]) -> dict[str, Any]:

@@ -10,12 +10,12 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle
-from ..door import Door, largest, warn_if_large
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels.status import Status
-from ..quiet import warn
+from ..reading import ArgumentReader, largest, warn_if_large
 from ..units import Input, Value, has_unit, is_quantity, shown
-from .outcome import ASK_ALONE, Cases, input_faults, raise_or_warn
+from ..warning import warn
+from .common import ASK_ALONE, Cases, input_faults, raise_or_warn
 
 _NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
 # In metres: no car is crushed so deep, and no damage is so wide.
@@ -81,10 +81,10 @@ def crush_energy(
     >>> round(reconstruct.crush_energy("1.5 m", [0.3, 0.3, 0.3], "40 kN/m", "600 kN/m**2"))
     60500
     """
-    door = Door()
-    crush = _profile(door, depths, "depths")
+    reader = ArgumentReader()
+    crush = _profile(reader, depths, "depths")
     if isinstance(depths, np.ndarray) or is_quantity(depths):
-        door.close()
+        reader.close()
     if not isinstance(crush, list) or len(crush) < 2:
         got = type(depths).__name__ + (f" of {len(crush)}" if isinstance(crush, list) else "")
         raise ShapeError(
@@ -92,7 +92,7 @@ def crush_energy(
             code="bad_shape",
             argument="depths",
         )
-    whole = gaps = _profile(door, widths, "widths")
+    whole = gaps = _profile(reader, widths, "widths")
     if not isinstance(gaps, list):
         gaps = [whole / (len(crush) - 1)] * (len(crush) - 1)
     elif len(gaps) != len(crush) - 1:
@@ -102,30 +102,30 @@ def crush_energy(
             code="bad_shape",
             argument="widths",
         )
-    a = amount(door, stiffness_a, "N/m", "stiffness_a")
-    b = door.number(stiffness_b, "N/m**2", "stiffness_b")
+    a = amount(reader, stiffness_a, "N/m", "stiffness_a")
+    b = reader.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
-        door.refuse(
+        reader.refuse(
             InputError(f"stiffness_b must be > 0, got {shown(stiffness_b)}", code="not_positive", argument="stiffness_b")
         )
-    angle = Angle(*door.angle(force_angle, "force_angle"))
+    angle = Angle(*reader.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
     if isinstance(cosine, float) and not (cosine > _NO_WORK or math.isnan(cosine)):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {shown(force_angle)}",
                 code="bad_angle",
                 argument="force_angle",
             )
         )
-    door.close()
+    reader.close()
     _warn_if_large(depths, crush, _DEEPEST, "depths", max)
     _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
     numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
     numbers["stiffness_a"] = a
     cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
     cosine = angle.beside((*numbers.values(), b)).direction[0]
-    # What the door has looked at in single numbers; nothing is left of a cosine of 90 degrees.
+    # What the reader has looked at in single numbers; nothing is left of a cosine of 90 degrees.
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _NO_WORK)
     if np.any(oblique):
         warn(
@@ -163,11 +163,11 @@ def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_
         warn_if_large(None, max(bare), 0.0, name, "metres", "cm", "in")
 
 
-def _profile(door: Door, value: Any, name: str) -> Any:
+def _profile(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A list of one number for each point or gap, each with an array if it is of many cases; a number that is one alone."""
     if isinstance(value, (list, tuple)):
-        return [amount(door, part, "m", f"{name}[{i}]") for i, part in enumerate(value)]
-    read = amount(door, value, "m", name)
+        return [amount(reader, part, "m", f"{name}[{i}]") for i, part in enumerate(value)]
+    read = amount(reader, value, "m", name)
     if not isinstance(read, np.ndarray):
         return read
     if read.ndim > 1:
@@ -177,7 +177,7 @@ def _profile(door: Door, value: Any, name: str) -> Any:
             code="bad_shape",
             argument=name,
         )
-    return [amount(door, part, "m", f"{name}[{i}]") for i, part in enumerate(read.tolist())]
+    return [amount(reader, part, "m", f"{name}[{i}]") for i, part in enumerate(read.tolist())]
 
 
 def _too_large(index: tuple[int, ...] = ()) -> InputError:

@@ -15,10 +15,10 @@ from ..errors import (
     NoSolutionError,
     SuspectUnitsWarning,
 )
-from ..quiet import warn
+from ..warning import warn
 from .fit_answer import answer_at, turns
 from .fit_place import SAME, TWICE, Place, agreed, on_bounds, seen_closely, told_at
-from .fit_question import Question, read_question, refused_everywhere
+from .fit_problem import Question, read_question, refused_everywhere
 from .fit_result import BENT, CONTRADICTION, Fit
 from .least_squares import AT_REFUSAL, CONVERGED, REFUSED, SEARCHING, STALLED, Ends, minimise, spread
 
@@ -96,7 +96,7 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
 
     >>> import numpy as np
     >>> import collisions as col
-    >>> from collisions.uncertainty.inputs import Interval, Normal
+    >>> from collisions.uncertainty.distributions import Interval, Normal
     >>> def momentum(speed_golf, speed_pinto):
     ...     east, south = 1800 * speed_pinto, 1200 * speed_golf
     ...     return {"east": east, "south": south}

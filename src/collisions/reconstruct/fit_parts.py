@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from ..errors import InputError
-from ..fields import OWN, Shown, show
-from ..uncertainty.standard_normal import score_of_coverage
+from ..quantities import OWN, Shown, show
+from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
 
 TWO_ERRORS = 2.0

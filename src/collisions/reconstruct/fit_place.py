@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .determination import Determination, determination
-from .fit_question import Question
+from .fit_problem import Question
 from .least_squares import CONVERGED, FLAT, REFUSED, Ends, minimise
 
 SAME = 1e-3  # of chi-squared: searches that ended within this met the same misfit

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, NoSolutionError
-from ..fields import Shown, derived, show
-from ..uncertainty.inputs import Normal
+from ..quantities import Shown, derived, show
+from ..uncertainty.distributions import Normal
 from .fit_parts import Direction, Estimate, Residual, Values
 
 BENT = 0.2  # of the half-width of a 95 percent interval

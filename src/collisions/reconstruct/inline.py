@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..door import Door
 from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
 from ..kernels.elementwise import POSITIVE, RESTITUTION
 from ..kernels.linear import shares
 from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
 from ..kernels.status import Status
+from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input, Value
-from .outcome import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn
-from .self_consistent import RestitutionOf, crossings
+from .common import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn
+from .crossings import RestitutionOf, crossings
 
 _SPEEDS = ("delta_v", "ees")
 
@@ -90,14 +90,17 @@ def inline_closing_speed(
         "inline_closing_speed",
     )
     (kind,) = given
-    door = Door()
-    numbers = {"mass_a": door.number(mass_a, "kg", "mass_a", POSITIVE), "mass_b": door.number(mass_b, "kg", "mass_b", POSITIVE)}
+    reader = ArgumentReader()
+    numbers = {
+        "mass_a": reader.number(mass_a, "kg", "mass_a", POSITIVE),
+        "mass_b": reader.number(mass_b, "kg", "mass_b", POSITIVE),
+    }
     for name, value in (given | ({"ees_b": ees_b} if kind == "ees_a" else {})).items():
-        numbers[name] = amount(door, value, "J" if kind == "energy_loss" else "m/s", name)
+        numbers[name] = amount(reader, value, "J" if kind == "energy_loss" else "m/s", name)
     function = restitution if callable(restitution) else None
     if function is None:
-        numbers["restitution"] = door.number(restitution, "", "restitution", RESTITUTION)
-    door.close()
+        numbers["restitution"] = reader.number(restitution, "", "restitution", RESTITUTION)
+    reader.close()
     cases = Cases.of(numbers)
     if function is None:
         return _closing(cases, kind, numbers)

@@ -9,18 +9,18 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle, between, course, direction
-from ..door import Door
 from ..errors import InputError, MissingInputError
-from ..fields import show
 from ..inputs import OnFailure
 from ..kernels.elementwise import POSITIVE
 from ..kernels.reverse import Term
 from ..kernels.status import EPS
+from ..quantities import show
+from ..reading import ArgumentReader
 from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
+from .common import Cases, exactly
 from .momentum_balance import Question, blur, solve
 from .momentum_solution import MomentumSolution
-from .outcome import Cases, exactly
 
 
 def momentum(
@@ -115,28 +115,28 @@ def momentum(
         "course_a_after": course_a_after,
         "course_b_after": course_b_after,
     }
-    door = Door()
-    masses = {name: door.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    reader = ArgumentReader()
+    masses = {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
     known = {
-        name: amount(door, value, "m/s", name, "turn its course by 180 deg")
+        name: amount(reader, value, "m/s", name, "turn its course by 180 deg")
         for name, value in speeds.items()
         if value is not None
     }
-    angles = {name: course(door, value, name) for name, value in courses.items() if value is not None}
+    angles = {name: course(reader, value, name) for name, value in courses.items() if value is not None}
     headings = {
-        name: course(door, value, name)
+        name: course(reader, value, name)
         for name, value in (("heading_a", heading_a), ("heading_b", heading_b))
         if value is not None
     }
-    impulse = None if outside_impulse is None else door.pair(outside_impulse, "N*s", "outside_impulse")
+    impulse = None if outside_impulse is None else reader.pair(outside_impulse, "N*s", "outside_impulse")
     numbers = {
         **masses,
         **known,
         **{name: angle.value for name, angle in (*angles.items(), *headings.items())},
         **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
     }
-    along = None if normal is None else direction(door, normal, "normal", numbers.values())
-    door.close()
+    along = None if normal is None else direction(reader, normal, "normal", numbers.values())
+    reader.close()
     cases = Cases.of({**numbers, **{f"normal[{i}]": part for i, part in enumerate(along or ())}})
     numbers = cases.alike(numbers)
     masses, known = ({name: numbers[name] for name in names} for names in (masses, known))
@@ -148,9 +148,9 @@ def momentum(
     given: dict[str, Any] | None = None
     if cases.shape is None:
         read = masses | known | {name: angle.value for name, angle in (angles | headings).items()}
-        given = {name: door.texts.get(name, value) for name, value in read.items()} | ({"together": True} if together else {})
+        given = {name: reader.texts.get(name, value) for name, value in read.items()} | ({"together": True} if together else {})
         if impulse is not None:
-            given["outside_impulse"] = [door.texts.get(f"outside_impulse[{i}]", part) for i, part in enumerate(impulse)]
+            given["outside_impulse"] = [reader.texts.get(f"outside_impulse[{i}]", part) for i, part in enumerate(impulse)]
         if normal is not None:
             given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
     with np.errstate(all="ignore"):

@@ -9,11 +9,11 @@ import numpy as np
 
 from ..directions import Angle, angle_of, between
 from ..errors import CollisionsError, InputError, NoSolutionError, Status
-from ..fields import hypot
 from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
+from ..quantities import hypot
+from .common import Cases, raise_or_warn
 from .momentum_solution import MomentumSolution, Sensitivity
 from .momentum_warnings import warn_of_physics, warn_of_speeds
-from .outcome import Cases, raise_or_warn
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
@@ -106,7 +106,7 @@ def blur(one: Angle, other: Angle, eps: float) -> Any:
 
 
 def _faults(question: Question) -> list[tuple[Any, int]]:
-    """What is wrong with values that the door does not look into: those of arrays."""
+    """What is wrong with values that the reader does not look into: those of arrays."""
     masses, vectors = question.masses, [] if question.along is None else [question.along]
     speeds = [term.speed for term in question.terms.values() if term.speed is not None]
     everything = [

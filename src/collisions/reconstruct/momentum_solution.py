@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import MissingInputError
-from ..fields import Shown, derived
 from ..kernels.status import Status
+from ..quantities import Shown, derived
 from ..units import Value, to_quantity
 
 # Of the attributes that may be None the arguments that give them.

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import EnergyGainWarning, IllConditionedWarning, OutOfRangeWarning
-from ..quiet import warn, warn_of_cases
+from ..warning import warn, warn_of_cases
+from .common import Cases
 from .momentum_solution import Sensitivity
-from .outcome import Cases
 
 _NEARLY_COLLINEAR = math.radians(10.0)
 

@@ -20,11 +20,11 @@ from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
 from ..kernels.status import EPS
 from ..models import body_numbers
-from ..quiet import warn
 from ..solving import error_of
 from ..units import Input, Pair, Value
 from ..vehicle import DOMAINS, Vehicle, not_a_vehicle
-from .outcome import ASK_ALONE, NUMBERS, Cases, forward, input_faults, raise_or_warn
+from ..warning import warn
+from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults, raise_or_warn
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 _KEPT = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # what no impulse changes

@@ -13,7 +13,6 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from ..amounts import amount
-from ..door import Door
 from ..errors import CollisionsError, InputError
 from ..impact import Impact, found_by
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
@@ -21,11 +20,12 @@ from ..kernels.contact_laws import CRITICAL_FRACTION, IMPULSE_RATIO
 from ..kernels.status import EPS, Status
 from ..models import body_numbers, missing_numbers
 from ..provenance import Reconstruction
-from ..quiet import quietly
+from ..reading import ArgumentReader
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
+from ..warning import quietly
+from .common import NUMBERS, Cases, exactly, input_faults, parted, settle
 from .origins import End, Origin
-from .outcome import NUMBERS, Cases, exactly, input_faults, parted, settle
 from .planar_refusals import plain_refusal, refusal, warn
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
@@ -121,10 +121,10 @@ def planar(
     """
     given = exactly({"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss}, 1, "planar")
     ((kind, value),) = given.items()
-    door = Door()
-    known = value if kind == "restitution" else _amount(door, kind, value)
+    reader = ArgumentReader()
+    known = value if kind == "restitution" else _amount(reader, kind, value)
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"regime must be one of {', '.join(map(repr, _REGIMES))}, got {shown(regime)}",
                 code="bad_regime",
@@ -140,7 +140,7 @@ def planar(
         point,
         (friction, impulse_ratio, critical_fraction),
         law,
-        [*door.problems, *missing_numbers(a_after, b_after, point)],
+        [*reader.problems, *missing_numbers(a_after, b_after, point)],
         (known,),
     )
     e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
@@ -165,14 +165,14 @@ def planar(
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
         end = End(arrays, kind, rule, law, pinned, EPS if cases.shape is None else float(np.finfo(cases.dtype).eps))
-        told = {**door.texts, **(inputs.given or {})}
+        told = {**reader.texts, **(inputs.given or {})}
         return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact, told), regime, on_failure)
 
 
-def _amount(door: Door, kind: str, value: Any) -> Any:
-    number = amount(door, value, "m/s" if kind == "closing_speed" else "J", kind)
+def _amount(reader: ArgumentReader, kind: str, value: Any) -> Any:
+    number = amount(reader, value, "m/s" if kind == "closing_speed" else "J", kind)
     if kind == "closing_speed" and isinstance(number, float) and number == 0.0:
-        door.refuse(
+        reader.refuse(
             InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
         )
     return number

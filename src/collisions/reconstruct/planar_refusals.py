@@ -11,10 +11,10 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, OutOfRangeWarning, Status
 from ..impact import Impact
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
-from ..quiet import callers_level
 from ..solving import error_of
+from ..warning import callers_level
+from .common import Cases
 from .origins import End, Origin
-from .outcome import Cases
 
 _FREE = "give a finite friction=, or impulse_ratio="
 

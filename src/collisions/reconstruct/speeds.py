@@ -10,22 +10,22 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle, course
-from ..door import Door
 from ..errors import InputError, MissingInputError, OutOfRangeWarning
 from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
 from ..kernels.status import Status
 from ..models import body_numbers, missing_numbers
 from ..provenance import Reconstruction
-from ..quiet import warn
+from ..reading import ArgumentReader
 from ..solving import warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle
-from .outcome import ASK_ALONE, NUMBERS, Cases, answered, exactly, input_faults, parted
-from .self_consistent import RestitutionOf
+from ..warning import warn
+from .common import ASK_ALONE, NUMBERS, Cases, answered, exactly, input_faults, parted
+from .crossings import RestitutionOf
+from .speeds_algebra import Root, Scene
 from .speeds_found import in_order, joint
 from .speeds_refusals import refusal
-from .speeds_scene import Root, Scene
 
 
 def speeds(
@@ -131,16 +131,16 @@ def speeds(
         2,
         "speeds",
     )
-    door = Door()
-    known = {name: amount(door, value, "J" if name == "energy_loss" else "m/s", name) for name, value in given.items()}
+    reader = ArgumentReader()
+    known = {name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name) for name, value in given.items()}
     if "ees_a" in known:
-        known["ees_b"] = amount(door, ees_b, "m/s", "ees_b")
+        known["ees_b"] = amount(reader, ees_b, "m/s", "ees_b")
     courses = {}
     for label, angle in (("a", course_a), ("b", course_b)):
         if angle is not None:
-            courses[label] = course(door, angle, f"course_{label}")
+            courses[label] = course(reader, angle, f"course_{label}")
         elif np.any(np.not_equal(known.get(f"speed_{label}", np.nan), 0.0)):
-            door.refuse(
+            reader.refuse(
                 MissingInputError(
                     f"course_{label} is None, and speeds needs the course of every vehicle that moves; only a known speed of 0 "
                     f"needs none",
@@ -153,7 +153,7 @@ def speeds(
     function = RestitutionOf(restitution) if callable(restitution) else None
     for label, body in (("a", a), ("b", b)):
         if isinstance(body, Vehicle) and body.pivot is not None:
-            door.refuse(
+            reader.refuse(
                 InputError(
                     f"{label} has a pivot, so its velocity has no course of its own; use planar",
                     code="pinned",
@@ -169,7 +169,7 @@ def speeds(
         point,
         (friction, impulse_ratio, critical_fraction),
         law,
-        [*door.problems, *missing_numbers(a, b, point)],
+        [*reader.problems, *missing_numbers(a, b, point)],
         (*known.values(), *(angle.value for angle in courses.values())),
     )
     e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
@@ -190,7 +190,7 @@ def speeds(
     with np.errstate(all="ignore"):
         _refuse_pairs(given, known, a, b)
         scene = Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
-        told = {**door.texts, **(inputs.given or {})} or None
+        told = {**reader.texts, **(inputs.given or {})} or None
         roots = scene.roots() if function is None else joint(scene, cases, function)
         return _answers(cases, scene, in_order(cases, scene, roots), a, b, (n, rule, bound, law, contact, e, told), function)
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from .outcome import Cases
-from .self_consistent import RestitutionOf, crossings
+from .common import Cases
+from .crossings import RestitutionOf, crossings
+from .speeds_algebra import REDUNDANT, Root, Scene
 from .speeds_open import SAME, untold
-from .speeds_scene import REDUNDANT, Root, Scene
 
 _GRID = np.linspace(0.0, 1.0, 129)
 

@@ -11,7 +11,7 @@ from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO
 from ..kernels.status import EPS, Status
 
 if TYPE_CHECKING:
-    from .speeds_scene import Root, Scene
+    from .speeds_algebra import Root, Scene
 
 STICK = "stick"
 # Part of the closing speed by which two roots that are one may be apart.

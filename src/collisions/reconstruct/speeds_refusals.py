@@ -14,8 +14,8 @@ import numpy as np
 
 from ..errors import NoSolutionError, Status
 from ..kernels.status import EPS
-from .self_consistent import RestitutionOf
-from .speeds_scene import Scene
+from .crossings import RestitutionOf
+from .speeds_algebra import Scene
 
 # Magnitudes that are tried around each place where something changes, and how often the best place is looked at more closely.
 _SIZES = np.logspace(-9.0, 9.0, 721)

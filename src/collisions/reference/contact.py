@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError
+from ..reading import ArgumentReader
 from ..units import Input, Value, shown
 from .published import Fit, Outside, Published, check_outside, settle
 from .ratios import OBLIQUE_TESTS, SMALL_OVERLAP_TESTS
@@ -156,18 +156,18 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, fit, delta_v_a="5 km/h"), 1)
     7.2
     """
-    door = Door()
-    speed: Any = door.number(closing_speed, "m/s", "closing_speed")
-    check_outside(door, outside)
+    reader = ArgumentReader()
+    speed: Any = reader.number(closing_speed, "m/s", "closing_speed")
+    check_outside(reader, outside)
     if isinstance(speed, float) and speed <= 0.0:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"closing_speed must be > 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
                 code="not_positive",
                 argument="closing_speed",
             )
         )
-    door.close()
+    reader.close()
     if isinstance(speed, float):
         e = _fitted(math.log10(speed))
         if not 0.0 <= e <= 1.0:
@@ -213,17 +213,17 @@ def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     >>> [round(restitution_range(speed)[1], 2) for speed in ("1 mph", "3 mph", "10 mph", "40 mph")]
     [1.0, 0.54, 0.39, 0.3]
     """
-    door = Door()
-    speed: Any = door.number(closing_speed, "m/s", "closing_speed")
+    reader = ArgumentReader()
+    speed: Any = reader.number(closing_speed, "m/s", "closing_speed")
     if isinstance(speed, float) and speed < 0.0:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"closing_speed must be >= 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
                 code="negative_speed",
                 argument="closing_speed",
             )
         )
-    door.close()
+    reader.close()
     slowest, fastest, _ = RESTITUTION_FIT.ranges["closing_speed"]
     if isinstance(speed, float):
         fitted: Any = 1.0 if speed < slowest else -1.0 if speed > fastest else _fitted(math.log10(speed)) + _SCATTER

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError, ShapeError
+from ..reading import ArgumentReader
 from ..units import Input, shown
 from .published import Published
 
@@ -89,14 +89,14 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
     >>> row.low, row.high
     (0.55, 0.7)
     """
-    door = Door()
-    fast: Any = door.number(speed, "m/s", "speed")
+    reader = ArgumentReader()
+    fast: Any = reader.number(speed, "m/s", "speed")
     if isinstance(fast, np.ndarray):
-        door.refuse(ShapeError("speed takes one value; ask for each", code="bad_shape", argument="speed"))
+        reader.refuse(ShapeError("speed takes one value; ask for each", code="bad_shape", argument="speed"))
     elif fast < 0.0:
-        door.refuse(InputError(f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"))
+        reader.refuse(InputError(f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"))
     if not isinstance(surface, str) or surface not in _BY_SURFACE:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"surface must be one of {', '.join(map(repr, _BY_SURFACE))}, got {shown(surface)}; for any other there is no "
                 f"value here that could be checked: measure it",
@@ -104,5 +104,5 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
                 argument="surface",
             )
         )
-    door.close()
+    reader.close()
     return _BY_SURFACE[surface][int(fast >= _THIRTY)]

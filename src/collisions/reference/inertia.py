@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door, broadcast, widened
 from ..errors import InputError
 from ..kernels.elementwise import POSITIVE
+from ..reading import ArgumentReader, broadcast, widened
 from ..units import Input, Value
 from .published import Fit, Outside, check_outside, settle
 
@@ -90,19 +90,19 @@ def yaw_inertia(
     >>> round(yaw_inertia(**size, wheelbase="2.718 m")), round(yaw_inertia(**size, width="1.829 m"))
     (2699, 3598)
     """
-    door = Door()
+    reader = ArgumentReader()
     if (wheelbase is None) == (width is None):
         found = "none" if wheelbase is None else "both"
-        door.refuse(
+        reader.refuse(
             InputError(f"give exactly one of wheelbase= and width=, got {found}", code="one_form", argument="wheelbase")
         )
     other = "wheelbase" if width is None else "width"
-    numbers: dict[str, Any] = {"mass": door.number(mass, "kg", "mass", POSITIVE)}
+    numbers: dict[str, Any] = {"mass": reader.number(mass, "kg", "mass", POSITIVE)}
     for name, value in (("length", length), ("wheelbase", wheelbase), ("width", width)):
         if value is not None or name == "length":
-            numbers[name] = door.number(value, "m", name, POSITIVE)
-    check_outside(door, outside)
-    door.close()
+            numbers[name] = reader.number(value, "m", name, POSITIVE)
+    check_outside(reader, outside)
+    reader.close()
     shape = broadcast(numbers)
     weight, over_all, second = widened([numbers[name] for name in ("mass", "length", other)])
     with np.errstate(all="ignore"):

@@ -8,10 +8,10 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..quiet import warn_of_cases
+from ..reading import ArgumentReader
 from ..units import Input, shown, to_quantity
+from ..warning import warn_of_cases
 
 Outside: TypeAlias = Literal["warn", "refuse"]
 
@@ -62,11 +62,11 @@ class Published:
 
     def __contains__(self, value: Input) -> bool:
         """Whether a number in the SI unit, or with its unit, lies in the range."""
-        door = Door()
-        number: Any = door.number(value, self.unit, "value")
+        reader = ArgumentReader()
+        number: Any = reader.number(value, self.unit, "value")
         if isinstance(number, np.ndarray):
-            door.refuse(ShapeError("value must be one number; ask of each", code="bad_shape", argument="value"))
-        door.close()
+            reader.refuse(ShapeError("value must be one number; ask of each", code="bad_shape", argument="value"))
+        reader.close()
         return bool(self.low <= number <= self.high)
 
 
@@ -105,10 +105,10 @@ class Fit:
         return replace(self, ranges=ranges)
 
 
-def check_outside(door: Door, outside: Any) -> None:
+def check_outside(reader: ArgumentReader, outside: Any) -> None:
     """Refuses a choice that is none."""
     if not isinstance(outside, str) or outside not in ("warn", "refuse"):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"outside must be 'warn' (a value with a warning) or 'refuse', got {shown(outside)}",
                 code="bad_option",

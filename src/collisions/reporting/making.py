@@ -9,19 +9,19 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from ..contact_effects import left_out
 from ..derivation.explaining import NOT_EXPLAINED, explain, no_uncertainty
 from ..derivation.fit import fit
 from ..derivation.page import Page
 from ..derivation.rounding import System
 from ..diagnostics import diagnose
-from ..door import Door
 from ..errors import InputError, ShapeError
-from ..idealisation import left_out
 from ..impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
+from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
 from ..unit_systems import UnitSystem, bad_system
@@ -33,7 +33,7 @@ from .known import Known
 from .markdown import markdown
 from .options import EVIDENCE, kept, plain_options
 from .record import record
-from .web import html
+from .render import html
 
 Form: TypeAlias = Literal["html", "markdown"]
 _FORMS = get_args(Form)
@@ -131,18 +131,18 @@ def report(
     readable = _readable(impact) if isinstance(impact, Impact) else impact
     options = plain_options(given)
     duration, drag, limits, share_a = (options[name] for name in ("duration", "drag", "limits", "share_a"))
-    door = Door()
-    _option(door, "form", form, _FORMS)
+    reader = ArgumentReader()
+    _option(reader, "form", form, _FORMS)
     problem = bad_system(units)
     if problem is not None:
-        door.refuse(problem)
-    heading = "" if title is None else _text(door, "title", title)
-    words = [_text(door, "notes", note) for note in ([notes] if isinstance(notes, str) else _listed(door, notes))]
+        reader.refuse(problem)
+    heading = "" if title is None else _text(reader, "title", title)
+    words = [_text(reader, "notes", note) for note in ([notes] if isinstance(notes, str) else _listed(reader, notes))]
     for name, value in (("figures", figures), ("derivation", derivation)):
         if not isinstance(value, bool):
-            door.refuse(InputError(f"{name} must be True or False, got {shown(value)}", code="bad_option", argument=name))
+            reader.refuse(InputError(f"{name} must be True or False, got {shown(value)}", code="bad_option", argument=name))
     if uncertainty is not None and not isinstance(uncertainty, Propagation):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"uncertainty must be what uncertainty.propagate returned, got {type(uncertainty).__name__}; standard "
                 f"deviations by name go to explain(impact, uncertainty=...)",
@@ -150,15 +150,15 @@ def report(
                 argument="uncertainty",
             )
         )
-    _refuse_other_parts(door, impact, options)
+    _refuse_other_parts(reader, impact, options)
     outlines = {
-        label: read_outline(door, options[f"outline_{label}"], f"outline_{label}")
+        label: read_outline(reader, options[f"outline_{label}"], f"outline_{label}")
         for label in "ab"
         if options[f"outline_{label}"] is not None
     }
-    if share_a is not None and isinstance(door.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
-        door.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
-    door.close()
+    if share_a is not None and isinstance(reader.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
+        reader.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
+    reader.close()
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
     known = Known(impact, uncertainty)
@@ -212,16 +212,16 @@ _OTHER_PARTS: dict[type, tuple[str, ...]] = {
 }
 
 
-def _refuse_other_parts(door: Door, impact: Any, options: Mapping[str, Any]) -> None:
+def _refuse_other_parts(reader: ArgumentReader, impact: Any, options: Mapping[str, Any]) -> None:
     kind = type(impact)
     for name in _OTHER_PARTS.get(kind, ()):
         if options[name] != _USUAL[name]:
             told = (
                 f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself"
             )
-            door.refuse(InputError(told, code="bad_option", argument=name))
+            reader.refuse(InputError(told, code="bad_option", argument=name))
     if kind is Fit and isinstance(options["uncertainty"], Propagation):
-        door.refuse(no_uncertainty())
+        reader.refuse(no_uncertainty())
 
 
 def _title(impact: Impact | MomentumSolution | Fit) -> str:
@@ -241,9 +241,9 @@ def _readable(impact: Impact) -> Impact:
     return named
 
 
-def _option(door: Door, argument: str, value: Any, allowed: tuple[str, ...]) -> None:
+def _option(reader: ArgumentReader, argument: str, value: Any, allowed: tuple[str, ...]) -> None:
     if not isinstance(value, str) or value not in allowed:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{argument} must be one of {', '.join(map(repr, allowed))}, got {shown(value)}",
                 code="bad_option",
@@ -252,11 +252,11 @@ def _option(door: Door, argument: str, value: Any, allowed: tuple[str, ...]) -> 
         )
 
 
-def _listed(door: Door, notes: Any) -> Sequence[Any]:
+def _listed(reader: ArgumentReader, notes: Any) -> Sequence[Any]:
     if notes is None:
         return []
     if not isinstance(notes, (list, tuple)):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"notes must be a text, or a list of texts, got {type(notes).__name__}", code="not_a_text", argument="notes"
             )
@@ -265,9 +265,9 @@ def _listed(door: Door, notes: Any) -> Sequence[Any]:
     return notes
 
 
-def _text(door: Door, argument: str, text: Any) -> str:
+def _text(reader: ArgumentReader, argument: str, text: Any) -> str:
     if not isinstance(text, str) or not plain(text):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{argument} must be a text that says something, got {shown(text)}", code="not_a_text", argument=argument
             )

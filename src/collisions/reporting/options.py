@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..diagnostics import LIMITS
-from ..door import Door
 from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
+from ..reading import ArgumentReader
 
 # What makes another page, and in which unit it is read; None for what is no number.
 UNITS: dict[str, str | None] = {
@@ -46,9 +46,9 @@ def plain_options(options: Mapping[str, Any]) -> dict[str, Any]:
             for code, value in options["limits"].items()
         }
     for name in ("outline_a", "outline_b"):
-        door = Door()
-        corners = None if options[name] is None else read_outline(door, options[name], name)
-        if corners is not None and not door.problems:
+        reader = ArgumentReader()
+        corners = None if options[name] is None else read_outline(reader, options[name], name)
+        if corners is not None and not reader.problems:
             found[name] = [tuple(map(float, corner)) for corner in corners]
     return found
 
@@ -57,12 +57,12 @@ def _number(value: Any, unit: str, name: str) -> Any:
     """A float, or a text that reads as the same number here."""
     if isinstance(value, str):
         return value
-    door = Door(trusted=(name,))
-    read = door.number(value, unit, name, UNCHECKED)
-    if door.problems or not isinstance(read, float):
+    reader = ArgumentReader(trusted=(name,))
+    read = reader.number(value, unit, name, UNCHECKED)
+    if reader.problems or not isinstance(read, float):
         return value
-    text = door.texts.get(name)
-    again = Door()
+    text = reader.texts.get(name)
+    again = ArgumentReader()
     # A unit of another registry may be another here, or none.
     return text if text is not None and again.number(text, unit, name, UNCHECKED) == read and not again.problems else read
 

@@ -11,18 +11,18 @@ from dataclasses import fields
 from html.parser import HTMLParser
 from typing import Any
 
-from ..door import Door
 from ..errors import CollisionsError, CollisionsWarning, InputError
-from ..fields import unit_of
 from ..impact import Impact
+from ..quantities import unit_of
+from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution, momentum
 from ..uncertainty import Propagation
 from ..units import shown
 from ..vehicle import NAMES, Vehicle
 from .markdown import FENCE
 from .options import UNITS, given_again, strict
+from .render import RECORD
 from .told import unlike
-from .web import RECORD
 
 _FORMAT = "collisions report 1"
 # What may have been given as a text.
@@ -275,10 +275,10 @@ def _told(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
         if name not in _NAMES or not isinstance(number := _value(vehicle, name), float):
             raise _bad(f"{label} has no {shown(name)} that could have been given")
         unit = unit_of(Vehicle, name.partition("[")[0]) or ""
-        door = Door()
-        read = door.number(text, unit, name)
+        reader = ArgumentReader()
+        read = reader.number(text, unit, name)
         # A unit of another registry cannot be read here, and somebody at rest has no course.
-        if door.problems or math.isnan(number) or read == number:
+        if reader.problems or math.isnan(number) or read == number:
             continue
         apart = math.remainder(read - number, 2.0 * math.pi) if unit == "rad" else read - number
         size = {"rad": 2.0 * math.pi, "m/s": vehicle.speed}.get(unit, abs(number))

@@ -8,17 +8,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from .. import reference
-from ..derivation import answers, origin
+from ..contact_effects import LeftOut, LeftOutSide
+from ..derivation import answers, reverse
 from ..derivation import momentum as derivation
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import Findings, read_limits
-from ..door import Door
 from ..errors import Status
-from ..idealisation import LeftOut, LeftOutSide
 from ..impact import Impact
 from ..kernels.contact_laws import LAWS
 from ..models import BY_NAME
 from ..plot.canvas import who
+from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
 from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import Input
@@ -111,9 +111,9 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
         "only its direction; it stands here in the units of this page. The record has all digits."
     )
-    origin.chosen(sheet, impact)
+    reverse.chosen(sheet, impact)
     if impact.reconstruction is not None:
-        origin.told(sheet, impact.reconstruction)
+        reverse.told(sheet, impact.reconstruction)
         told = knowns(sheet, impact)
         if told:
             sheet.table(_HEAD, told)
@@ -163,7 +163,7 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
     """What the damage shows."""
     for name, (of, what, kind) in _EVIDENCE.items():
         if evidence[name] is not None:
-            read = Door(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
+            read = ArgumentReader(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
             given_as = evidence[name] if isinstance(evidence[name], str) else None
             yield of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)
 
@@ -213,7 +213,7 @@ def assumptions(
     for label, corners in outlines.items():
         told = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
         lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {told}."))
-    for code, value in read_limits(limits, Door()).items():
+    for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
     sheet.blocks.append(Items(tuple(lines)))
@@ -257,8 +257,8 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     answers.answers(aside, impact)
     rows = _rows(aside)
     if share_a is not None:
-        door = Door()
-        share = door.number(share_a, "", "share_a")
+        reader = ArgumentReader()
+        share = reader.number(share_a, "", "share_a")
         for label, speed in zip("AB", impact.ees(share_a), strict=True):
             held = f"EES, if A took up {100.0 * share:.6g} percent of the energy absorbed"
             last = max(at for at, row in enumerate(rows) if row[0] == label) + 1

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..directions import course
-from ..door import Door
 from ..impact import Impact
+from ..reading import ArgumentReader
 from ..unit_systems import SI_UNITS
 from .blocks import Sheet
 
@@ -79,10 +79,10 @@ def _texts(impact: Impact, every: bool = False) -> Iterator[tuple[str, str]]:
 
 def _read(text: str, name: str) -> float | None:
     """The number of a text; None where its unit is of another registry."""
-    door = Door()
+    reader = ArgumentReader()
     kind = _KNOWN[name][1]
-    number = float(course(door, text, name).radians) if kind == "angle" else door.number(text, SI_UNITS[kind], name)
-    return None if door.problems or not isinstance(number, float) else number
+    number = float(course(reader, text, name).radians) if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
+    return None if reader.problems or not isinstance(number, float) else number
 
 
 def _allowed(impact: Impact, kind: str) -> float:

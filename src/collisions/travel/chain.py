@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import CollisionsError, InputError, NoSolutionError
-from ..fields import hypot, numeric
 from ..kernels.elementwise import select
+from ..quantities import hypot, numeric
 
 GRAVITY = 9.80665
 """Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half of that."""

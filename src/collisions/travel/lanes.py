@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import CollisionsWarning
 from ..kernels.elementwise import select
-from ..quiet import warn_of_cases
+from ..warning import warn_of_cases
 
 
 def settle(found: Sequence[Any], checks: Iterable[tuple[str, Any]], shape: tuple[int, ...]) -> list[Any]:

@@ -12,19 +12,19 @@ import numpy as np
 
 from ..amounts import at_least_zero
 from ..directions import angle_of
-from ..door import Door, broadcast, warn_if_large, widened
 from ..errors import InputError, OutOfRangeWarning
-from ..fields import Shown, derived, hypot, numeric
-from ..fields import lock as write_locked
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, safe_divisor, select
-from ..quiet import warn
+from ..quantities import Shown, derived, hypot, numeric
+from ..quantities import lock as write_locked
+from ..reading import ArgumentReader, broadcast, warn_if_large, widened
 from ..units import Input, Pair, Value, shown
+from ..warning import warn
 from .chain import durations_along, out_of_range, speeds_along
 from .lanes import settle
 from .places import in_radians, read_headings, read_points, turns_too_far
-from .reading import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
+from .surfaces import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
 
-# For the friction of a tyre, which is checked here: the door lets it be infinite, as between vehicles.
+# For the friction of a tyre, which is checked here: the reader lets it be infinite, as between vehicles.
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 
 
@@ -168,15 +168,15 @@ def path(
     >>> round(speed(run.distance, drag=0.7) * 3.6, 1)
     60.0
     """
-    door = Door()
-    places = read_points(door, points)
-    angles = read_headings(door, headings, None if places is None else len(places))
+    reader = ArgumentReader()
+    places = read_points(reader, points)
+    angles = read_headings(reader, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
-    frictions = for_each(door, friction, "friction", legs, _read_friction)
-    locks = for_each(door, lock, "lock", legs, _read_lock)
-    grades = for_each(door, grade, "grade", legs, read_grade)
-    end = read_speed(door, end_speed, "end_speed")
-    door.close()
+    frictions = for_each(reader, friction, "friction", legs, _read_friction)
+    locks = for_each(reader, lock, "lock", legs, _read_lock)
+    grades = for_each(reader, grade, "grade", legs, read_grade)
+    end = read_speed(reader, end_speed, "end_speed")
+    reader.close()
     places = places or []
     named = {f"points[{i}][{axis}]": part for i, point in enumerate(places) for axis, part in enumerate(point)}
     of_segments = {"friction": frictions, "lock": locks, "grade": grades}
@@ -248,7 +248,7 @@ def _length(step: tuple[Any, Any]) -> Any:
 def _lane_checks(
     places: Sequence[tuple[Any, Any]], turned: Sequence[Any], named: dict[str, Any], answers: Sequence[Any]
 ) -> Iterator[tuple[str, Any]]:
-    """What the door asks of single numbers, of the cases of a batch; then what came of them."""
+    """What the reader asks of single numbers, of the cases of a batch; then what came of them."""
     below = {"friction": "bad_friction", "lock": "bad_fraction", "end_speed": "negative_speed"}
     for value in named.values():
         yield "not_finite", ~np.isfinite(value)
@@ -302,20 +302,20 @@ def _leg(i: int) -> str:
     return f"points[{i}] to points[{i + 1}]"
 
 
-def _read_friction(door: Door, value: Any, name: str) -> Any:
-    wrong = len(door.problems)
-    read = one_value(door, value, "", name, UNCHECKED)
-    if len(door.problems) > wrong:
+def _read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
+    wrong = len(reader.problems)
+    read = one_value(reader, value, "", name, UNCHECKED)
+    if len(reader.problems) > wrong:
         return read
     if isinstance(read, float) and not math.isfinite(read):
-        return door.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
-    read = at_least_zero(door, read, value, name, "bad_friction", "its direction is worked out")
+        return reader.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
+    read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read
 
 
-def _read_lock(door: Door, value: Any, name: str) -> Any:
-    return one_value(door, value, "", name, UNIT_INTERVAL)
+def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
+    return one_value(reader, value, "", name, UNIT_INTERVAL)
 
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door, broadcast, widened
 from ..errors import NoSolutionError, ShapeError
 from ..kernels.elementwise import select
+from ..reading import ArgumentReader, broadcast, widened
 from ..units import Input, Value
 from .chain import GRAVITY, durations_along, out_of_range, speeds_along
 from .lanes import settle
-from .reading import Segments, for_each, read_drag, read_grade, read_length, read_speed
+from .surfaces import Segments, for_each, read_drag, read_grade, read_length, read_speed
 
 
 def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
@@ -123,12 +123,12 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     >>> round(distance("50 mph", drag=0.7) / 0.3048, 1)
     119.4
     """
-    door = Door()
-    start = read_speed(door, speed, "speed")
-    slowing = read_drag(door, drag, "drag")
-    slope = read_grade(door, grade, "grade")
-    end = read_speed(door, end_speed, "end_speed")
-    door.close()
+    reader = ArgumentReader()
+    start = read_speed(reader, speed, "speed")
+    slowing = read_drag(reader, drag, "drag")
+    slope = read_grade(reader, grade, "grade")
+    end = read_speed(reader, end_speed, "end_speed")
+    reader.close()
     named = {"speed": start, "drag": slowing, "grade": slope, "end_speed": end}
     broadcast(named)
     start, slowing, slope, end = widened(named.values())
@@ -192,19 +192,19 @@ class _Run:
     """The arguments of ``speed`` and ``time`` as numbers, one entry a segment."""
 
     def __init__(self, length: Any, drag: Any, grade: Any, end_speed: Any) -> None:
-        door = Door()
+        reader = ArgumentReader()
         listed = isinstance(length, (list, tuple))
         if listed and not length:
-            door.refuse(
+            reader.refuse(
                 ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance")
             )
         count = (len(length) or None) if listed else 0
         self.listed = listed
-        self.lengths = for_each(door, length, "distance", count, read_length)
-        drags = for_each(door, drag, "drag", count, read_drag)
-        self.grades = for_each(door, grade, "grade", count, read_grade)
-        self.end = read_speed(door, end_speed, "end_speed")
-        door.close()
+        self.lengths = for_each(reader, length, "distance", count, read_length)
+        drags = for_each(reader, drag, "drag", count, read_drag)
+        self.grades = for_each(reader, grade, "grade", count, read_grade)
+        self.end = read_speed(reader, end_speed, "end_speed")
+        reader.close()
         self.named = {"end_speed": self.end}
         for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", self.grades, grade)):
             self.named |= {f"{name}[{i}]" if isinstance(given, (list, tuple)) else name: part for i, part in enumerate(values)}
@@ -253,7 +253,7 @@ def _settle(found: Any, named: dict[str, Any]) -> Any:
 
 
 def _lane_checks(found: Any, named: dict[str, Any]) -> list[tuple[str, Any]]:
-    """What the door asks of single numbers, of the lanes of arrays; then what came of them."""
+    """What the reader asks of single numbers, of the lanes of arrays; then what came of them."""
     arrays = [(name.partition("[")[0], value) for name, value in named.items() if isinstance(value, np.ndarray)]
     negative = {
         "distance": "negative_distance",

@@ -1,6 +1,6 @@
 """How sure an answer is: what is known of every input, and what follows for what is asked."""
 
-from .inputs import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from .distributions import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from .output import Histogram, Output, Shares
 from .propagation import propagate
 from .result import Propagation

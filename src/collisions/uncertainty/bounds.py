@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..fields import OWN, derived, returns
+from ..quantities import OWN, derived, returns
 from . import angles
 from .output import COVERAGE, Output, Shares
 

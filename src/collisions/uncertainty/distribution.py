@@ -9,11 +9,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..door import Door, is_whole
 from ..errors import InputError, ShapeError, UnitsError
 from ..kernels.elementwise import FINITE, UNCHECKED
+from ..reading import ArgumentReader, is_whole
 from ..units import has_unit, is_quantity, shown, si_unit
-from .standard_normal import both_tails
+from .normal import both_tails
 
 
 class Stated:
@@ -25,7 +25,7 @@ class Stated:
 
     @classmethod
     def _of(cls, unit: str, *parts: Any) -> Self:
-        """One made of SI numbers, past the door."""
+        """One made of SI numbers, past the reader."""
         made: Self = object.__new__(cls)
         made._make(unit, *parts)
         return made
@@ -129,9 +129,9 @@ class Distribution(Stated):
         InputError
             A score that is NaN, or no number.
         """
-        door = Door()
-        z = _bare(door, z, "z")
-        door.close()
+        reader = ArgumentReader()
+        z = _bare(reader, z, "z")
+        reader.close()
         if np.any(np.isnan(z)):
             raise InputError("z must be a number, got NaN", code="not_finite", argument="z")
         return self._scored(z)
@@ -164,22 +164,22 @@ def _again(kind: type[Stated], unit: str, *parts: Any) -> Stated:
 
 def probability(given: Any, argument: str = "p") -> Any:
     """A probability, or an array of them, as float64; a text or a Quantity is none."""
-    door = Door()
-    found = _bare(door, given, argument)
-    if door.problems or not np.all((found >= 0.0) & (found <= 1.0)):
+    reader = ArgumentReader()
+    found = _bare(reader, given, argument)
+    if reader.problems or not np.all((found >= 0.0) & (found <= 1.0)):
         raise InputError(
             f"{argument} must be a probability from 0 to 1, got {shown(given)}", code="bad_fraction", argument=argument
         )
     return found
 
 
-def _bare(door: Door, given: Any, argument: str) -> Any:
+def _bare(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """A float64 or an array of them, from what has no unit."""
     if isinstance(given, str) or is_quantity(given):
-        return door.refuse(
+        return reader.refuse(
             InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
         )
-    found = door.number(given, "", argument, UNCHECKED)
+    found = reader.number(given, "", argument, UNCHECKED)
     return found.astype(np.float64) if isinstance(found, np.ndarray) else found
 
 
@@ -209,16 +209,18 @@ def read_alike(
             code="bad_units",
             argument=bare[0],
         )
-    door = Door()
-    numbers = {name: door.number(value, unit, name, UNCHECKED if name in optional else FINITE) for name, value in given.items()}
+    reader = ArgumentReader()
+    numbers = {
+        name: reader.number(value, unit, name, UNCHECKED if name in optional else FINITE) for name, value in given.items()
+    }
     for name, number in numbers.items():
         if name in optional and isinstance(number, float) and not math.isfinite(number):
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
-            door.refuse(InputError(f"{name} {what}; write None for an end that is open", code="not_finite", argument=name))
+            reader.refuse(InputError(f"{name} {what}; write None for an end that is open", code="not_finite", argument=name))
         if isinstance(number, np.ndarray) is not arrays:
             what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
-            door.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
-    door.close()
+            reader.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
+    reader.close()
     return [numbers.get(name) for name in (*needed, *optional)], unit
 
 

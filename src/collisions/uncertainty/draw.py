@@ -8,11 +8,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..door import is_whole
 from ..errors import InputError
+from ..reading import is_whole
 from ..units import shown
-from . import standard_normal
-from .inputs import Distribution, Samples
+from . import normal
+from .distributions import Distribution, Samples
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
 Correlation: TypeAlias = Mapping[tuple[str, str], float]
@@ -49,7 +49,7 @@ class Joint:
                     column = self._together[name]
                     found[name] = column[(points[rows[0]] * len(column)).astype(np.intp)]
             elif group in self._factors:
-                independent = [standard_normal.quantile(points[row]) for row in rows]
+                independent = [normal.quantile(points[row]) for row in rows]
                 for name, weights in zip(group, self._factors[group], strict=True):
                     # Term by term: a matrix product adds in an order that depends on how many cases there are.
                     scores = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
@@ -84,7 +84,7 @@ class Joint:
 def _nodes(stepped: bool) -> tuple[Any, Any]:
     """Standard normal scores and their weights, for the mean of a function of them."""
     if stepped:
-        return standard_normal.quantile((np.arange(_STEPS) + 0.5) / _STEPS), np.full(_STEPS, 1.0 / _STEPS)
+        return normal.quantile((np.arange(_STEPS) + 0.5) / _STEPS), np.full(_STEPS, 1.0 / _STEPS)
     nodes, weights = np.polynomial.hermite_e.hermegauss(_NODES)
     return nodes, weights / weights.sum()
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .standard_normal import density, quantile
+from .normal import density, quantile
 
 # Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from eigenvalues, which leaves the
 # weights 40 roundings off and the last digits to the machine.

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..door import Door
 from ..errors import CollisionsError, InputError, ShapeError
-from ..quiet import quietly
+from ..reading import ArgumentReader
 from ..units import is_quantity, shown, si_unit
+from ..warning import quietly
 from .alone import check_alone
-from .inputs import pair_hints
+from .distributions import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -91,9 +91,9 @@ class Model:
             raise InputError(f"model must name its outputs by texts, got {shown(name)}", code="bad_model", argument="model")
         if isinstance(value, np.ndarray) and value.dtype == np.bool_:
             value = value.astype(np.float64)
-        door = Door(trusted=(name,))
-        read = door.number(value, unit or "", name)
-        door.close()
+        reader = ArgumentReader(trusted=(name,))
+        read = reader.number(value, unit or "", name)
+        reader.close()
         if np.shape(read) != (count,) and not np.size(read) == count == 1:
             raise ShapeError(
                 f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it must answer every case by "

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..fields import OWN, Quantities, derived, returns, show
+from ..quantities import OWN, Quantities, derived, returns, show
 from ..units import shown
 from .distribution import probability
 

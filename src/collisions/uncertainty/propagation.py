@@ -12,13 +12,13 @@ import numpy as np
 from ..errors import InputError, NoSolutionError
 from ..progress import reporter
 from .bounds import Bounds, Known
+from .derivatives import differences, local_output, slopes
+from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
+from .distributions import Distribution, pair_hints
 from .draw import Correlation, Joint
-from .inputs import Distribution, pair_hints
-from .local import differences, local_output, slopes
+from .intervals import extremes
 from .model import Function, Model, check_names
-from .points import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .question import LOCAL, check_options, read_inputs, read_tolerances
-from .ranges import extremes
 from .result import Propagation
 from .sampled import Sampled
 from .sampling import MOST_SAMPLES, Sample, enough

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ..door import Door, is_whole
 from ..errors import InputError
+from ..reading import ArgumentReader, is_whole
 from ..units import shown
-from .inputs import Distribution, Interval, read_input
-from .points import DESIGNS, REPLICATES
+from .designs import DESIGNS, REPLICATES
+from .distributions import Distribution, Interval, read_input
 from .sampling import MOST_SAMPLES
 
 LOCAL = ("first_order", "second_order")
@@ -76,7 +76,7 @@ def read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str
         raise InputError(
             f"tolerance names no output; the model returned {', '.join(units)}", code="bad_tolerance", argument="tolerance"
         )
-    door = Door(trusted=tuple(f"tolerance[{name!r}]" for name in given))
+    reader = ArgumentReader(trusted=tuple(f"tolerance[{name!r}]" for name in given))
     found: dict[str, float] = {}
     for name, value in given.items():
         if name not in units:
@@ -85,8 +85,8 @@ def read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str
                 code="bad_tolerance",
                 argument="tolerance",
             )
-        found[name] = door.number(value, units[name] or "", f"tolerance[{name!r}]")
-    door.close()
+        found[name] = reader.number(value, units[name] or "", f"tolerance[{name!r}]")
+    reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:
             raise InputError(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..fields import table
+from ..quantities import table
 from ..units import shown
 from .output import Output
 from .sampled import Sampled

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..door import is_whole
 from ..errors import InputError
-from ..fields import OWN, derived, returns
+from ..quantities import OWN, derived, returns
+from ..reading import is_whole
 from ..units import shown
 from . import angles
+from .designs import REPLICATES
 from .distribution import probability
 from .output import Histogram, Output, Shares, average, deviation
-from .points import REPLICATES
 
 _MOST_BINS = 10000
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
-from ..fields import lock
+from ..quantities import lock
 from .distribution import Distribution, read_alike, show
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from .designs import REPLICATES, Design
 from .draw import Joint
 from .model import Model
-from .points import REPLICATES, Design
 from .sampled import Sampled
 
 BLOCK = 16384

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from . import angles
+from .designs import REPLICATES, Design
 from .draw import Joint
 from .model import Model
 from .output import Shares, average, deviation
-from .points import REPLICATES, Design
 
 
 def label(group: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import CollisionsWarning, OutOfRangeWarning
-from ..quiet import warn
+from ..warning import warn
 from .output import Output
 
 

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..door import Door
 from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
+from ..reading import ArgumentReader
 from ..uncertainty.distribution import read_alike
-from ..uncertainty.inputs import Distribution, Interval, Normal, Uniform, pair_hints
+from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, pair_hints
 from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
@@ -90,14 +90,14 @@ class Question(NamedTuple):
 
 
 def read_question(model: Any, unknowns: Any, observed: Any) -> Question:
-    """The question through the door: one error names every wrong argument."""
-    door = Door()
-    seen = {name: _unknown(door, name, given) for name, given in _entries(unknowns, "unknowns", "20.0").items()}
+    """The question through the reader: one error names every wrong argument."""
+    reader = ArgumentReader()
+    seen = {name: _unknown(reader, name, given) for name, given in _entries(unknowns, "unknowns", "20.0").items()}
     told = {
-        name: _observation(door, name, given)
+        name: _observation(reader, name, given)
         for name, given in _entries(observed, "observed", "Normal('30 km/h', '2 km/h')").items()
     }
-    door.close()
+    reader.close()
     sought = tuple(unknown for unknown in seen.values() if unknown)
     measured = {name: value for name, value in told.items() if value}
     low, high, scale = (np.array([getattr(unknown, part) for unknown in sought]) for part in ("low", "high", "scale"))
@@ -151,7 +151,7 @@ def _entries(given: Any, argument: str, value: str) -> Mapping[str, Any]:
     return given
 
 
-def _unknown(door: Door, name: str, given: Any) -> Unknown | None:
+def _unknown(reader: ArgumentReader, name: str, given: Any) -> Unknown | None:
     label = f"unknowns[{name!r}]"
     if isinstance(given, Normal):
         low, high = (
@@ -163,7 +163,7 @@ def _unknown(door: Door, name: str, given: Any) -> Unknown | None:
         low, high = given.support if isinstance(given, Uniform) else (given.low, given.high)
         return Unknown(name, given.unit, 0.5 * (low + high), high - low, low, high, None)
     if isinstance(given, Distribution) or not (isinstance(given, (int, float, str, np.number)) or is_quantity(given)):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform "
                 f"or an Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is "
@@ -174,22 +174,22 @@ def _unknown(door: Door, name: str, given: Any) -> Unknown | None:
             )
         )
         return None
-    number = _told(door, label, lambda: read_alike({label: given}))
+    number = _told(reader, label, lambda: read_alike({label: given}))
     if number is None:
         return None
     (start,), unit = number
     return Unknown(name, unit, start, abs(start) or 1.0, -math.inf, math.inf, None)
 
 
-def _observation(door: Door, name: str, given: Any) -> Normal | None:
+def _observation(reader: ArgumentReader, name: str, given: Any) -> Normal | None:
     label = f"observed[{name!r}]"
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        given = _told(door, label, lambda: Normal(*given))
+        given = _told(reader, label, lambda: Normal(*given))
         if given is None:
             return None
     if not isinstance(given, Normal):
         kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. "
                 f"Of a range write Normal.between(low, high, coverage)",
@@ -199,7 +199,7 @@ def _observation(door: Door, name: str, given: Any) -> Normal | None:
         )
         return None
     if given.truncate is not None:
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, "
                 f"bounds belong to unknowns",
@@ -211,13 +211,13 @@ def _observation(door: Door, name: str, given: Any) -> Normal | None:
     return given
 
 
-def _told(door: Door, label: str, read: Callable[[], Any]) -> Any:
+def _told(reader: ArgumentReader, label: str, read: Callable[[], Any]) -> Any:
     """What reading gives, or None after its refusal with the place where it stands."""
     try:
         return read()
     except InputError as problem:
         text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
-        door.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
+        reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
         return None
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
 from ..kernels.reverse import PLACES, absorbed_energy, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
-from .outcome import NUMBERS, forward
+from .common import NUMBERS, forward
 from .speeds_open import ROUNDING, SAME, STICK, any_speed, blur, every_slip, reaches
 
 REDUNDANT = 1e-9

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError, ShapeError
+from ..reading import ArgumentReader
 from ..units import Input, shown
 from .distribution import Distribution, check_order, read_alike, show
 from .kept import Moments, kept_score, moments
-from .standard_normal import cdf, quantile, score_of_coverage, survival
+from .normal import cdf, quantile, score_of_coverage, survival
 
 _LEAST_KEPT = 1e-12
 _FARTHEST = 8.0  # less than the least share is kept beyond this many standard deviations
@@ -304,9 +304,9 @@ def parts_of(truncate: Any) -> dict[str, Any]:
 def read_range(low: Input, high: Input, coverage: Input, truncate: Bounds | None) -> tuple[list[Any], float, str]:
     """A range, the bounds of a truncation, and the share of the probability that the range is to hold."""
     numbers, unit = read_alike({"low": low, "high": high}, parts_of(truncate))
-    door = Door()
-    share = door.number(coverage, "", "coverage")
-    door.close()
+    reader = ArgumentReader()
+    share = reader.number(coverage, "", "coverage")
+    reader.close()
     if not isinstance(share, float) or not 0.0 < share < 1.0:
         raise InputError(
             f"coverage must be more than 0 and less than 1, such as 0.95, got {shown(coverage)}; a range that cannot be left "

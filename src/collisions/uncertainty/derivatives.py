@@ -15,11 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import NoSolutionError
-from . import angles, standard_normal
+from . import angles, normal
+from .designs import Design
 from .draw import Joint
 from .model import Model
 from .output import Output, Shares, average, deviation
-from .points import Design
 from .shares import label
 
 # Of a step, in standard deviations: the differences below err by its fourth power and by rounding over its square.
@@ -66,7 +66,7 @@ class Local(Output):
         return self._figures[1]
 
     def _quantile(self, p: Any) -> Any:
-        z = standard_normal.quantile(p)
+        z = normal.quantile(p)
         mean, std = self._figures
         if std == 0.0:
             return mean + 0.0 * np.asarray(p) if np.ndim(p) else mean

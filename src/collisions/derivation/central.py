@@ -5,8 +5,8 @@ from __future__ import annotations
 from ..impact import Impact
 from .energy import kinetic_energies
 from .expressions import HALF
-from .letters import AFTER, COMPRESSED, Contact, bodies, letter
 from .page import Page
+from .symbols import AFTER, COMPRESSED, Contact, bodies, letter
 
 
 def linear(page: Page, impact: Impact) -> None:

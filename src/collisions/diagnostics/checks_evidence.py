@@ -10,9 +10,9 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import from_radians
-from ..door import Door
 from ..errors import MissingInputError, ShapeError
 from ..impact import Impact
+from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
 from ..vehicle import missing
 from .case import Case, Evidence, Examined, off_by, share
@@ -23,37 +23,41 @@ _READ_TO = math.sin(math.radians(10.0))
 
 
 def read_evidence(
-    door: Door, answer: Impact | MomentumSolution, crush_energy: Any, pdof: Mapping[str, Any], delta_v: Mapping[str, Any]
+    reader: ArgumentReader,
+    answer: Impact | MomentumSolution,
+    crush_energy: Any,
+    pdof: Mapping[str, Any],
+    delta_v: Mapping[str, Any],
 ) -> Evidence:
     """What was given of the damage, in SI."""
-    energy = None if crush_energy is None else _one(door, amount(door, crush_energy, "J", "crush_energy"), "crush_energy")
+    energy = None if crush_energy is None else _one(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
     angles, changes = {}, {}
     for label, value in pdof.items():
         if value is not None:
             name = f"damage_pdof_{label}"
-            angles[label] = _one(door, door.number(value, "rad", name), name)
-            _need_heading(door, answer, name, label)
+            angles[label] = _one(reader, reader.number(value, "rad", name), name)
+            _need_heading(reader, answer, name, label)
     for label, value in delta_v.items():
         if value is not None:
             name = f"damage_delta_v_{label}"
-            changes[label] = _one(door, amount(door, value, "m/s", name), name)
+            changes[label] = _one(reader, amount(reader, value, "m/s", name), name)
     return Evidence(crush_energy=energy, pdof=angles, delta_v=changes)
 
 
-def _one(door: Door, read: Any, name: str) -> float:
+def _one(reader: ArgumentReader, read: Any, name: str) -> float:
     if isinstance(read, np.ndarray):
-        return door.refuse(ShapeError(f"{name} takes one value: diagnose takes one case", code="bad_shape", argument=name))
+        return reader.refuse(ShapeError(f"{name} takes one value: diagnose takes one case", code="bad_shape", argument=name))
     return float(read)
 
 
-def _need_heading(door: Door, answer: Impact | MomentumSolution, name: str, label: str) -> None:
+def _need_heading(reader: ArgumentReader, answer: Impact | MomentumSolution, name: str, label: str) -> None:
     """A PDOF is seen from the vehicle."""
     if isinstance(answer, Impact):
         vehicle = (answer.a if label == "a" else answer.b).before
         if vehicle.heading is None:
-            door.refuse(missing(vehicle, "heading", name, label))
+            reader.refuse(missing(vehicle, "heading", name, label))
     elif getattr(answer, f"pdof_{label}") is None:
-        door.refuse(
+        reader.refuse(
             MissingInputError(
                 f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 deg' (where the vehicle "
                 f"points) to reconstruct.momentum",

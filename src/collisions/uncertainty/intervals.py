@@ -16,9 +16,9 @@ import numpy as np
 
 from ..errors import InputError, NoSolutionError
 from . import angles
+from .designs import REPLICATES, Design
 from .draw import Joint
 from .model import Model
-from .points import REPLICATES, Design
 
 _MOST = {True: 10, False: 14}  # intervals, beside distributions and alone: each doubles the corners
 _GRID = {True: 400, False: 20000}  # places to begin with, corners always among them

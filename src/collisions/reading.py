@@ -1,4 +1,4 @@
-"""The door: the arguments of a call in, SI numbers out, and one error that names every argument that cannot be used.
+"""The reader: the arguments of a call in, SI numbers out, and one error that names every argument that cannot be used.
 
 Nothing behind it ever sees a unit.
 """
@@ -13,15 +13,15 @@ import numpy as np
 
 from .errors import InputError, ShapeError, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
-from .quiet import warn
 from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
+from .warning import warn
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
 _MOST_DIMENSIONS = 24  # numpy itself stops at 32 in places, and some solvers add a few of their own
 
 
-class Door:
+class ArgumentReader:
     """Reads the arguments of one call; ``close`` raises one error that names every wrong one."""
 
     def __init__(self, trusted: Collection[str] = ()) -> None:

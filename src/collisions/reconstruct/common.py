@@ -7,9 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..door import broadcast
 from ..errors import CollisionsError, InputError, Status
-from ..fields import lock
 from ..impact import Impact, found_by
 from ..inputs import Inputs
 from ..kernels.batch import precision
@@ -17,6 +15,8 @@ from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
 from ..provenance import Reconstruction
+from ..quantities import lock
+from ..reading import broadcast
 from ..solving import check_options, first_refused, warn_of_refusals
 from ..vehicle import Vehicle
 
@@ -102,7 +102,7 @@ class Cases(NamedTuple):
 
 
 def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
-    """What is wrong with values that the door does not look into: those of arrays."""
+    """What is wrong with values that the reader does not look into: those of arrays."""
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():

@@ -8,8 +8,8 @@ from typing import NamedTuple
 from ..impact import Impact
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
 from .expressions import Expression, Symbol, over
-from .letters import Contact, letter
 from .page import Page
+from .symbols import Contact, letter
 
 
 class Mobility(NamedTuple):

@@ -10,18 +10,18 @@ import numpy as np
 
 from . import pulse
 from .amounts import at_least_zero
-from .door import Door, broadcast, warn_if_large, widened
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
-from .fields import Shown, lock, numeric
 from .impact import Impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
-from .quiet import quietly, warn_of_cases
+from .quantities import Shown, lock, numeric
+from .reading import ArgumentReader, broadcast, warn_if_large, widened
 from .travel.chain import GRAVITY, out_of_range
-from .travel.reading import one_value, read_drag
+from .travel.surfaces import one_value, read_drag
 from .units import Input, Value
 from .vehicle import Vehicle
+from .warning import quietly, warn_of_cases
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
@@ -183,18 +183,18 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}")
     -10 deg, delta-V moves by 9%
     """
-    door = Door()
+    reader = ArgumentReader()
     if not isinstance(impact, Impact):
-        door.refuse(
+        reader.refuse(
             InputError(
                 f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))",
                 code="not_an_impact",
                 argument="impact",
             )
         )
-    time = _read_duration(door, duration)
-    pull = read_drag(door, drag, "drag")
-    door.close()
+    time = _read_duration(reader, duration)
+    pull = read_drag(reader, drag, "drag")
+    reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())
     time, pull = widened((time, pull), given.values())
@@ -286,9 +286,9 @@ def _assembled(found: dict[str, Any]) -> LeftOut:
     return LeftOut(**{name: lock(value) for name, value in found.items() if "." not in name}, a=a, b=b)
 
 
-def _read_duration(door: Door, duration: Any) -> Any:
-    read = one_value(door, duration, "s", "duration")
-    read = at_least_zero(door, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
+def _read_duration(reader: ArgumentReader, duration: Any) -> Any:
+    read = one_value(reader, duration, "s", "duration")
+    read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
     warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")
     return read
 

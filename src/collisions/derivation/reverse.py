@@ -7,9 +7,9 @@ from ..kernels.linear import shares
 from ..provenance import Reconstruction
 from .eccentric import Lever
 from .expressions import HALF, Expression, Symbol, root
-from .letters import AFTER, Body, Contact, bodies, letter
 from .page import Page
 from .pinned import impulse_in_scene_axes
+from .symbols import AFTER, Body, Contact, bodies, letter
 
 _CENTRAL = {
     "va": "velocity of A before",

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..door import Door
 from ..errors import InputError, ShapeError, UnitsError
 from ..kernels.elementwise import UNCHECKED
+from ..reading import ArgumentReader
 from ..units import Input, is_quantity, si_unit
-from .bell import LogNormal, Normal
 from .distribution import Distribution, Stated, check_order, read_alike
+from .normal_family import LogNormal, Normal
 from .samples import Samples
 
 __all__ = ["Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform", "read_input"]
@@ -210,9 +210,9 @@ def read_input(name: str, value: Any) -> Any:
             code=error.code,
             **error.fields,
         ) from None
-    door = Door()
-    number = door.number(value, unit, name, UNCHECKED)
-    door.close()
+    reader = ArgumentReader()
+    number = reader.number(value, unit, name, UNCHECKED)
+    reader.close()
     if isinstance(number, np.ndarray):
         raise ShapeError(
             f"{name} is an array of shape {number.shape}; measured values are given as Samples(values), and what the model "
