@@ -7,6 +7,7 @@ import pickle
 import re
 import signal
 import threading
+import warnings
 
 import numpy as np
 import pint
@@ -428,6 +429,21 @@ def test_directions_to_all_sides():
             method="quasi_random",
             seed=1,
         )
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.5, True), (0.8, True), (0.95, False)])
+@pytest.mark.parametrize("spread", [0.0, 0.2])
+def test_directions_to_opposite_sides(share, told, spread):
+    """A share p ahead, the others behind: (1 - p) 180 deg to the left is as good a mean as to the right, and none goes there."""
+
+    def model(side, about):
+        turned = np.where(side < share, 0.0, math.pi) + spread * about
+        return {"y": np.remainder(turned + math.pi, 2.0 * math.pi) * ureg.radian - math.pi * ureg.radian}
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        propagate(model, {"side": Uniform(0.0, 1.0), "about": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
+    assert [warning.message.code for warning in caught] == ["may_wrap"] * told
 
 
 @pytest.mark.parametrize("stated", [Normal(7.0, 3.0), Uniform(0.0, 6.0), Uniform(-1.0, 2.5), Uniform(-20.0, 20.0)])

@@ -84,3 +84,16 @@ def point_everywhere(values: Any) -> bool:
     The error of the mean then is twice what their spread makes it (Hotz and Huckemann), and the mean soon without meaning.
     """
     return bool(values.size) and float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
+
+
+def point_to_opposite_sides(values: Any) -> bool:
+    """Whether of counted directions another mean, an eighth of a turn away or more, is as good to a tenth of their variance."""
+    count = values.size
+    if not count:
+        return False
+    first = np.arange(1, count + 1)
+    ahead = np.cumsum(np.sort(values - np.mean(values)))
+    # With a turn more for the first so many the mean moves by that share of a turn.
+    change = (2.0 * _TURN / count) * (ahead + math.pi * first * (1.0 - first / count))
+    far = (first >= 0.125 * count) & (first <= 0.875 * count)
+    return bool(np.any(change[far] < 0.1 * np.var(values)))

@@ -38,7 +38,7 @@ class Sampled(Output):
         """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
         found = self._answered()
         if self._directions is not None:
-            return angles.point_everywhere(found)
+            return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
         return self.unit is None and angles.jump(found)
 
     @derived(OWN)
