@@ -18,30 +18,30 @@ from importlib import import_module
 import numpy as np
 from measuring import QUICK, speed
 
-from collisions.uncertainty import points
+from collisions.uncertainty import designs
 from collisions.uncertainty.normal import quantile
 
 scenes = import_module("uncertainty_scenes")
-SEEDS, LENGTH = (4, 64) if QUICK else (32, 4096 // points.REPLICATES)
+SEEDS, LENGTH = (4, 64) if QUICK else (32, 4096 // designs.REPLICATES)
 REFERENCE = 2**10 if QUICK else 2**16
 
 
 def design(name):
     """Points (dimensions, cases) of a design of the package."""
-    return lambda d, seed, length: points.DESIGNS[name](d, seed, length)(0, length).reshape(d, -1)
+    return lambda d, seed, length: designs.DESIGNS[name](d, seed, length)(0, length).reshape(d, -1)
 
 
 def unfolded(d, seed, length):
     """The lattice without the tent map."""
-    shift = np.random.default_rng(seed).random((d, 1, points.REPLICATES))
+    shift = np.random.default_rng(seed).random((d, 1, designs.REPLICATES))
     place = np.arange(length).reshape(1, -1, 1) / length
-    return ((place * np.array(points._VECTOR[:d], dtype=float).reshape(d, 1, 1) + shift) % 1.0).reshape(d, -1)
+    return ((place * np.array(designs._VECTOR[:d], dtype=float).reshape(d, 1, 1) + shift) % 1.0).reshape(d, -1)
 
 
 def sobol(d, seed, length):
     """Scrambled Sobol' points, as many sequences side by side."""
     qmc = import_module("scipy.stats.qmc")
-    found = [qmc.Sobol(d, rng=np.random.default_rng([seed, k])).random(length) for k in range(points.REPLICATES)]
+    found = [qmc.Sobol(d, rng=np.random.default_rng([seed, k])).random(length) for k in range(designs.REPLICATES)]
     return np.clip(np.concatenate(found).T, 2.0**-53, 1.0 - 2.0**-53)
 
 
@@ -58,13 +58,13 @@ def figures(made):
 
 
 if __name__ == "__main__":
-    ways = {name: design(name) for name in points.DESIGNS}
+    ways = {name: design(name) for name in designs.DESIGNS}
     ways["the lattice without the tent map"] = unfolded
     if speed.speed_rivals.installed("scipy") is not None:
         ways["Sobol', scrambled (scipy)"] = sobol
     d = len(scenes.SIDE)
     true = figures(design("quasi_random")(d, 10_000, REFERENCE))
-    print(f"{LENGTH * points.REPLICATES} cases:       delta-V: mean, deviation      yaw rate: mean, deviation")
+    print(f"{LENGTH * designs.REPLICATES} cases:       delta-V: mean, deviation      yaw rate: mean, deviation")
     for name, way in ways.items():
         off = np.array([(figures(way(d, seed, LENGTH)) - true) / true[:, 1:] for seed in range(SEEDS)])
         worst = np.sqrt((off**2).mean(axis=0))

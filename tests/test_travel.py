@@ -960,7 +960,7 @@ def test_what_is_documented_of_each_function(function):
 
 def test_every_function_of_travel_has_a_docstring():
     """Also those that are not public, where a name is shared between the files."""
-    for module in (travel.chain, travel.places, travel.reading, travel.run_out, travel.straight):
+    for module in (travel.chain, travel.places, travel.run_out, travel.surfaces, travel.straight):
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__ and not name.startswith("_"):
                 assert member.__doc__, name

@@ -23,7 +23,7 @@ from collisions.uncertainty import (
     Triangular,
     Uniform,
     kept,
-    standard_normal,
+    normal,
 )
 from collisions.uncertainty.distributions import read_input
 from collisions.units import si_unit
@@ -54,7 +54,7 @@ def exact_score(lower, upper):
     """The z with these probabilities below and above: Newton's method on the logarithm of the smaller one, in 40 digits."""
     tail, side = (lower, -1) if lower <= upper else (upper, 1)
     tail = mp.mpf(tail)
-    distance = mp.mpf(abs(standard_normal.quantile(float(min(tail, 0.5)) or 5e-324)))
+    distance = mp.mpf(abs(normal.quantile(float(min(tail, 0.5)) or 5e-324)))
     for _ in range(60):
         found = below(-distance)
         step = mp.log(found / tail) * found / mp.npdf(distance)
@@ -84,33 +84,33 @@ QUANTILE = 8 * EPS
 @pytest.mark.parametrize("p", PROBABILITIES)
 def test_quantile_against_forty_digits(p):
     exact = exact_score(mp.mpf(p), 1 - mp.mpf(p))
-    assert abs(standard_normal.quantile(p) - exact) <= QUANTILE * abs(exact)
-    assert abs(standard_normal.quantile(np.array([p]))[0] - exact) <= QUANTILE * abs(exact)
+    assert abs(normal.quantile(p) - exact) <= QUANTILE * abs(exact)
+    assert abs(normal.quantile(np.array([p]))[0] - exact) <= QUANTILE * abs(exact)
 
 
 def test_quantile_against_the_standard_library():
     """The same algorithm by other hands: every coefficient, with what rounding may differ in."""
     given = np.array([p for p in PROBABILITIES if p > 1e-323])
     theirs = np.array([statistics.NormalDist().inv_cdf(p) for p in given])
-    np.testing.assert_allclose(standard_normal.quantile(given), theirs, rtol=QUANTILE, atol=0.0)
+    np.testing.assert_allclose(normal.quantile(given), theirs, rtol=QUANTILE, atol=0.0)
 
 
 def test_quantile_at_and_outside_the_ends():
     for p, expected in ((0.0, -INF), (1.0, INF), (0.5, 0.0)):
-        assert standard_normal.quantile(p) == expected
+        assert normal.quantile(p) == expected
     for p in (-1e-9, 1 + 1e-9, 2.0, -INF, INF, math.nan):
-        assert math.isnan(standard_normal.quantile(p))
-    found = standard_normal.quantile(np.array([[0.0, 1.0, 0.5], [-1e-9, 1 + 1e-9, math.nan]]))
+        assert math.isnan(normal.quantile(p))
+    found = normal.quantile(np.array([[0.0, 1.0, 0.5], [-1e-9, 1 + 1e-9, math.nan]]))
     np.testing.assert_array_equal(found, [[-INF, INF, 0.0], [math.nan] * 3])
 
 
 def test_quantile_keeps_shape_and_leaves_its_argument():
     p = np.linspace(0.01, 0.99, 12).reshape(3, 4)[:, ::2]
     before = p.copy()
-    found = standard_normal.quantile(p)
+    found = normal.quantile(p)
     assert found.shape == (3, 2)
     np.testing.assert_array_equal(p, before)
-    np.testing.assert_allclose(found, [[standard_normal.quantile(float(x)) for x in row] for row in p], rtol=QUANTILE)
+    np.testing.assert_allclose(found, [[normal.quantile(float(x)) for x in row] for row in p], rtol=QUANTILE)
 
 
 SCORES = [
@@ -124,20 +124,20 @@ SCORES = [
 def test_both_tails_against_forty_digits(z):
     """The rounding of z**2 / 2 and of z over the root of two shows z**2-fold; 4 more are those of the rest."""
     within = (4 + z * z) * EPS
-    for side, function in ((z, standard_normal.cdf), (-z, standard_normal.survival)):
+    for side, function in ((z, normal.cdf), (-z, normal.survival)):
         exact = below(side)
         assert abs(function(z) - exact) <= within * exact
         assert abs(function(np.array([z]))[0] - exact) <= within * exact
     for given in (z, np.array([z])):
-        for found, side in zip(standard_normal.both_tails(given), (z, -z), strict=True):
+        for found, side in zip(normal.both_tails(given), (z, -z), strict=True):
             assert abs(mp.mpf(float(np.squeeze(found))) - below(side)) <= within * below(side)
-    assert standard_normal.density(z) == pytest.approx(float(mp.npdf(z)), rel=within)
+    assert normal.density(z) == pytest.approx(float(mp.npdf(z)), rel=within)
 
 
 def test_tails_beyond_the_smallest_number():
     for z, low, high in ((-40.0, 0.0, 1.0), (40.0, 1.0, 0.0), (-INF, 0.0, 1.0)):
-        assert standard_normal.both_tails(z) == (low, high)
-    lower, upper = standard_normal.both_tails(np.array([[-40.0, 40.0]]))
+        assert normal.both_tails(z) == (low, high)
+    lower, upper = normal.both_tails(np.array([[-40.0, 40.0]]))
     np.testing.assert_array_equal([lower, upper], [[[0.0, 1.0]], [[1.0, 0.0]]])
 
 
@@ -145,7 +145,7 @@ def test_tails_beyond_the_smallest_number():
 def test_score_of_a_coverage(coverage):
     """The root of two times the inverse error function; the width of nearly nothing keeps its digits."""
     exact = mp.sqrt(2) * mp.erfinv(mp.mpf(coverage))
-    assert abs(standard_normal.score_of_coverage(coverage) - exact) <= QUANTILE * exact
+    assert abs(normal.score_of_coverage(coverage) - exact) <= QUANTILE * exact
 
 
 # Moments
@@ -304,7 +304,7 @@ def test_moments_are_those_of_what_is_drawn(distribution):
     Steps of 1/16 leave exp(-2 pi**2 16**2), nothing; 1e-12 is the rounding of 400 values of up to 12 deviations, fourth power.
     """
     z = np.arange(-12, 12.01, 1 / 16)
-    weight = standard_normal.density(z) / 16
+    weight = normal.density(z) / 16
     value = distribution.scored(z)
     away = (value - distribution.mean) / distribution.sd
     moments = [float(np.sum(weight * away**k)) for k in range(5)]
@@ -368,7 +368,7 @@ def test_a_score_is_the_quantile_of_its_probability(distribution):
     The probability is good to z**2 + 4 roundings and the quantile changes by its own reciprocal of them: 64 deviations' worth.
     """
     z = np.linspace(-8.0, 0.5, 52)
-    scored, through = distribution.scored(z), distribution.quantile(standard_normal.cdf(z))
+    scored, through = distribution.scored(z), distribution.quantile(normal.cdf(z))
     within = 64 * EPS * (np.abs(scored) * (1 + 4 * distribution.sd / abs(distribution.mean)) + abs(distribution.mean))
     assert np.all(np.abs(scored - through) <= within)
     one_by_one = np.array([distribution.scored(float(x)) for x in z])
@@ -431,19 +431,19 @@ def test_between_gives_the_range_back(kind, low, high, coverage):
     """The tails hold (1 - coverage) / 2 each, a p whose own rounding moves the ends by less than a rounding of the range."""
     found = kind.between(low, high, coverage)
     tail = 0.5 * (1 - coverage)
-    half = standard_normal.score_of_coverage(coverage)
+    half = normal.score_of_coverage(coverage)
     within = 16 * EPS * (high if kind is Normal else 1 + math.log(high / low))
     for score, p, end in ((-half, tail, low), (half, 1 - tail, high)):
         tolerance = within if kind is Normal else within * end
         assert abs(found.scored(score) - end) <= tolerance
-        slope = EPS / standard_normal.density(half) * (found.sd if kind is Normal else end * math.log(high / low) / half)
+        slope = EPS / normal.density(half) * (found.sd if kind is Normal else end * math.log(high / low) / half)
         assert abs(found.quantile(p) - end) <= tolerance + slope
 
 
 def test_between_with_a_truncation():
     """The coverage is that of the whole, of which the truncation then keeps a part."""
     found = Normal.between("-1 m/s", "3 m/s", 0.95, truncate=("0 m/s", None))
-    assert found == Normal("1 m/s", f"{2 / standard_normal.score_of_coverage(0.95)!r} m/s", truncate=(0, None))
+    assert found == Normal("1 m/s", f"{2 / normal.score_of_coverage(0.95)!r} m/s", truncate=(0, None))
     assert found.mean > 1.0
     assert Normal.between(-1, 3, "95 percent").sd == pytest.approx(found.given_sd, rel=8 * EPS)
     assert LogNormal.between(1, 4, 0.9, truncate=(None, 3)).support == (0.0, 3.0)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collisions.uncertainty import points
+from collisions.uncertainty import designs
 from collisions.uncertainty.designs import DESIGNS, MOST_DIMENSIONS, REPLICATES
 
 every_design = pytest.mark.parametrize("name", DESIGNS)
@@ -27,7 +27,7 @@ def test_one_row_for_each_input(name, dimensions):
 
 def test_the_ends_of_the_whole_numbers_stay_inside():
     """The least and the greatest of 52 bits, beside which a float64 still has room on both sides."""
-    found = points._between(np.array([0, 2**52 - 1], dtype=np.uint64))
+    found = designs._between(np.array([0, 2**52 - 1], dtype=np.uint64))
     assert found.tolist() == [2.0**-53, 1.0 - 2.0**-53]
 
 
@@ -81,18 +81,18 @@ def test_every_beginning_of_the_lattice_has_two_points_in_every_other_share(leng
 
 def test_an_unfolded_lattice_has_one_point_in_every_share():
     """Every component is odd, so that a power of two of points meets every share of every row exactly once."""
-    assert all(z % 2 == 1 for z in points._VECTOR)
-    assert len(points._VECTOR) == len(set(points._VECTOR)) == MOST_DIMENSIONS
+    assert all(z % 2 == 1 for z in designs._VECTOR)
+    assert len(designs._VECTOR) == len(set(designs._VECTOR)) == MOST_DIMENSIONS
     for size in (64, 4096):
-        places = points._reversed_bits(np.arange(size, dtype=np.uint64))
-        for z in points._VECTOR:
+        places = designs._reversed_bits(np.arange(size, dtype=np.uint64))
+        for z in designs._VECTOR:
             at = (places * np.uint64(z)) & np.uint64(2**52 - 1)
             assert len(set((at >> np.uint64(52 - size.bit_length() + 1)).tolist())) == size
 
 
 def test_bits_in_reverse():
     """The van der Corput sequence: 0, 1/2, 1/4, 3/4, 1/8, ..."""
-    found = points._reversed_bits(np.arange(9, dtype=np.uint64)) / 2.0**52
+    found = designs._reversed_bits(np.arange(9, dtype=np.uint64)) / 2.0**52
     assert found.tolist() == [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875, 0.0625]
 
 
@@ -125,7 +125,7 @@ def test_the_vector_is_what_its_script_builds():
     spec = importlib.util.spec_from_file_location("lattice", source)
     lattice = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(lattice)
-    assert tuple(lattice.build(4)) == points._VECTOR[:4]
+    assert tuple(lattice.build(4)) == designs._VECTOR[:4]
 
 
 @pytest.mark.parametrize(("dimensions", "gain"), [(2, 300.0), (6, 30.0), (12, 5.0)])
