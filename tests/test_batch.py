@@ -356,3 +356,31 @@ def test_float32_alone_stays_float32():
         assert value.dtype == np.float32
     assert col.Vehicle.from_speed(mass=900.0, speed=20.0, course=TURN).vx.dtype == np.float32
     assert col.travel.path([(0.0, 0.0), (9.0 + TURN, 1.0)], [TURN, TURN], friction=0.7, lock=0.4).speed.dtype == np.float32
+
+
+def test_a_share_of_no_cases_gives_no_speeds():
+    """An empty batch is answered by an empty one."""
+    none = np.array([])
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=none), col.Vehicle(mass=1200.0), 0.1)
+    assert [ees.shape for ees in impact.ees(none)] == [(0,), (0,)]
+
+
+def test_a_float32_tolerance_beside_float64():
+    """Is taken as it is: the largest float64 is no limit that float32 could hold."""
+    a = col.Vehicle(mass=WIDE, vx=20.0, x=-2.0, y=0.3, yaw_inertia=2400.0)
+    b = col.Vehicle(mass=1200.0, x=2.0, y=0.0, yaw_inertia=1800.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.3), "friction": 0.3}
+    wanted = col.required_model(a, b, 0.2, **contact, tolerance=np.array([0.0, 0.25, 50.0]))
+    found = col.required_model(a, b, 0.2, **contact, tolerance=np.array([0.0, 0.25, 50.0], dtype=np.float32))
+    assert list(found.model) == list(wanted.model)
+
+
+def test_a_pinned_vehicle_has_one_precision():
+    """Worked out from float32 beside plain numbers, the velocity is float32 in both parts, and its record is the same vehicle."""
+    x = np.array([2.8, 3.3, 1.9], dtype=np.float32)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, yaw_rate=-3.0, x=x, y=-3.06, pivot=(1.4, -4.9))
+    assert a.vx.dtype == a.vy.dtype == np.float32
+    b = col.Vehicle(mass=WIDE, vx=-17.0, vy=-4.0, yaw_inertia=1800.0, x=6.0, y=-4.0)
+    impact = col.eccentric(a, b, 0.3, normal=-0.4, point=(4.0, -1.5), friction=0.1)
+    assert not impact.refused.any()
+    assert col.Impact.from_dict(impact.to_dict()) == impact

@@ -49,7 +49,7 @@ OPEN = frozenset(
         "Vehicle.mass", "Vehicle.yaw_inertia", "Vehicle.course", "Vehicle.momentum", "Vehicle.kinetic_energy",
         "Side.impulse_direction", "Side.pdof", "Side.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
-        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel", "ModelChoice.errors",
+        "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel", "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
 

@@ -234,7 +234,7 @@ class Impact:
         """
         reader = ArgumentReader()
         share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
-        if isinstance(share, np.ndarray) and not UNIT_INTERVAL.holds(share.ravel()):
+        if isinstance(share, np.ndarray) and UNIT_INTERVAL.faults[0][0](share).any():
             reader.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
         reader.close()
         energy = self.energy_absorbed

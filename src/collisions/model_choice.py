@@ -236,9 +236,11 @@ def _predicted(
     dtype = precision(inputs._numbers().values())
     eps = float(np.finfo(dtype).eps)
     settings = inputs.rule, inputs.law, known, eps
-    # What is beyond float32 accepts every error that a float32 can have.
-    most = float(np.finfo(dtype).max)
-    limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
+    limit = tolerance
+    if dtype == np.float32:
+        # What is beyond float32 accepts every error that a float32 can have.
+        most = float(np.finfo(dtype).max)
+        limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
     return least_models(settings, (*numbers[:-1], limit), value_checks(inputs, eps), shape, dtype, threads, progress)
 
 

@@ -50,9 +50,14 @@ def pinned_velocity(
                     argument="vx",
                 )
             return wanted_x, wanted_y
-        # In the precision they are kept in: what is too small for it counts as not given.
-        vx, vy = (np.asarray(v, dtype=np.result_type(v, wanted)) for v, wanted in ((vx, wanted_x), (vy, wanted_y)))
+        # Single cases never come here, and the import of the package need not wait for it.
+        from .kernels.batch import precision
+
+        # Both in the precision of the vehicle: what is too small for it counts as not given.
+        given = (part for part in (vx, vy) if isinstance(part, np.ndarray))
+        kind = precision(value for value in (mass, yaw_inertia, yaw_rate, x, y, *pin, *given) if value is not None)
+        vx, vy = (np.asarray(v, dtype=kind) for v in (vx, vy))
         resting = np.equal(vx, 0.0) & np.equal(vy, 0.0)
-        moved_x, moved_y = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
-    moved: tuple[Any, Any] = lock((moved_x.copy(), moved_y.copy()))
-    return moved
+        moved = np.broadcast_arrays(np.where(resting, wanted_x, vx), np.where(resting, wanted_y, vy))
+    found: tuple[Any, Any] = lock(tuple(part.astype(kind) for part in moved))
+    return found
