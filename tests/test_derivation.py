@@ -2,6 +2,7 @@
 
 import math
 import re
+import sys
 import warnings
 
 import numpy as np
@@ -1151,3 +1152,10 @@ def test_a_fit_on_a_bound_where_the_model_turns_shares_no_variance_on_its_page()
     for page in (explain(found), col.report(found, form="markdown").partition("```")[0]):
         assert "estimate" in page
         assert not re.search(r"\bnan\b", page)
+
+
+def test_a_deviation_as_large_as_floats_can_be():
+    """It is written out: a digit before the point could round beyond the range of floats."""
+    assert f"{sys.float_info.max:.0f}"[:15] in explain(example_2(), uncertainty={"energy_loss": sys.float_info.max}).replace(
+        ",", ""
+    )

@@ -1426,3 +1426,34 @@ def test_an_outline_of_dates_is_refused():
     for kind in ("M8[s]", "m8[s]", "U3"):
         with pytest.raises(col.InputError, match="outline_a is an array of"):
             diagnose(impact, outline_a=np.zeros((2, 2), dtype=kind))
+
+
+@pytest.mark.parametrize("outline", [(1.7e308, 1e9), [(5.0, 1.0), (-0.7, -3.4e237), (-1.7e308, -4.8)], (1e151, 2.0)])
+def test_an_outline_beyond_floats_is_refused(outline):
+    """Its squares would leave their range."""
+    impact, _ = CASES["law"][0]()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.SuspectUnitsWarning)
+        with pytest.raises(col.InputError, match=r"outline_a has a corner .* at most; give metres") as caught:
+            diagnose(impact, outline_a=outline)
+    assert caught.value.code == "out_of_range"
+
+
+def test_a_contact_of_endless_time_is_refused():
+    """What a vehicle turned by then is no angle, and nothing can be said of what is left out."""
+    a = col.Vehicle(mass=1500.0, vx=1e42, yaw_rate=0.1, yaw_inertia=2400.0, x=-2.0, y=0.4, heading=0.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, x=2.0, y=0.0, heading=0.0)
+    impact = col.eccentric(a, b, 0.4, normal=0.0, point=(0.0, 0.2), friction=0.3)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        with pytest.raises(col.InputError, match="not a finite number"):
+            col.left_out(impact, duration=1e308, drag=0.7)
+
+
+def test_nothing_is_left_out_of_what_has_no_answer():
+    """``solve`` refuses a pinned vehicle without a yaw inertia that moves apart, and has no tyre forces of it."""
+    a = col.Vehicle(mass=1500.0, vx=-10.0, x=-2.0, y=0.0)
+    b = col.Vehicle(mass=1200.0, x=2.0, y=1.0, pivot=(2.0, -1.0))
+    impact = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.3, on_failure="nan")
+    assert impact.refused
+    assert math.isnan(col.left_out(impact, duration=0.1, drag=0.7).b.tyre_delta_v)

@@ -145,7 +145,7 @@ def angle_of(x: Any, y: Any) -> Value:
 def from_radians(angle: Any) -> tuple[Any, Any]:
     """Cosine and sine of an angle in radians."""
     if isinstance(angle, float):
-        return math.cos(angle), math.sin(angle)
+        return (math.cos(angle), math.sin(angle)) if math.isfinite(angle) else (math.nan, math.nan)
     with np.errstate(invalid="ignore"):
         return np.cos(angle), np.sin(angle)
 

@@ -53,7 +53,9 @@ class Kick(NamedTuple):
             return cls(x, y, 0.0, x, y, pull, most)
         arm_x, arm_y = before._need("x", "left_out") - before.pivot[0], before._need("y", "left_out") - before.pivot[1]
         square = arm_x * arm_x + arm_y * arm_y
-        turning = before.mass / (before.yaw_inertia + before.mass * square)
+        # One without an inertia has no answer either.
+        inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
+        turning = before.mass / (inertia + before.mass * square)
         yaw = turning * (arm_x * y - arm_y * x)
         # Without a point no case has an answer, nor a contact that could move.
         place = before.pivot if point is None else point

@@ -19,10 +19,16 @@ from .vehicle import Vehicle
 _STRAIGHT = 1e-9
 # In metres: no road vehicle is larger, so a bare number beyond is in another unit.
 _LONGEST, _WIDEST = 30.0, 3.5
+# In metres: the squares of larger ones leave the range of floats.
+_LARGEST = 1e150
 
 
 def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or from corners."""
+    return _within_range(reader, _read(reader, given, argument), argument)
+
+
+def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
     whole = given.magnitude if is_quantity(given) else given
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = reader.number(given, "m", argument)
@@ -40,6 +46,22 @@ def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
     if isinstance(given, tuple) and len(given) in (2, 3):
         return _rectangle(reader, given, argument)
     return _bad_shape(reader, given, argument)
+
+
+def _within_range(reader: ArgumentReader, corners: Any, argument: str) -> Any:
+    """The corners, refused if their squares leave the range of floats."""
+    largest = 0.0 if corners is None else float(np.max(np.abs(corners)))
+    if largest <= _LARGEST:
+        return corners
+    reader.refuse(
+        InputError(
+            f"{argument} has a corner {largest:.3g} m from the centre of mass, and may be {_LARGEST:g} m large at most; give "
+            f"metres, such as (4.5, 1.8)",
+            code="out_of_range",
+            argument=argument,
+        )
+    )
+    return None
 
 
 def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:

@@ -143,7 +143,8 @@ def _places(shown: float, least: int | None) -> int:
 
 def _plain(value: float, places: int) -> str:
     """A number with so many decimals, or rounded to a power of ten, and never -0."""
-    rounded = round(value, places)
+    # Above this a digit before the point can round beyond the range of floats.
+    rounded = value if abs(value) > 1e300 else round(value, places)
     text = f"{rounded:.{max(places, 0)}f}"
     return text.lstrip("-") if float(text) == 0.0 else text
 

@@ -111,7 +111,7 @@ def jamming(case: Case) -> Iterator[Finding]:
     if impact.regime not in ("given", "sliding"):
         return
     plain = impact.effective_mass * impact.closing_speed
-    if not plain > 0.0:
+    if not plain > 0.0 or impact.compression_impulse == 0.0:
         return
     part = 1.0 - plain / impact.compression_impulse
     yield from case.above(
