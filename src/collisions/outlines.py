@@ -19,8 +19,8 @@ from .vehicle import Vehicle
 _STRAIGHT = 1e-9
 # In metres: no road vehicle is larger, so a bare number beyond is in another unit.
 _LONGEST, _WIDEST = 30.0, 3.5
-# In metres: the squares of larger ones leave the range of floats.
-_LARGEST = 1e150
+# In metres: sums of larger ones leave the range of floats.
+_LARGEST = 1e306
 
 
 def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
@@ -49,7 +49,7 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
 
 
 def _within_range(reader: ArgumentReader, corners: Any, argument: str) -> Any:
-    """The corners, refused if their squares leave the range of floats."""
+    """The corners, refused if their sums could leave the range of floats."""
     largest = 0.0 if corners is None else float(np.max(np.abs(corners)))
     if largest <= _LARGEST:
         return corners
