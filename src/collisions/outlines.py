@@ -116,6 +116,8 @@ def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) ->
 def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
     """The corners counter-clockwise; refused if there is a dent or no area."""
     problem = ""
+    if np.any(np.abs(corners) > _LARGEST):
+        return corners  # refused for its size
     if len(corners) < 3:
         problem = "has fewer than three corners"
     elif not np.all(np.isfinite(corners)):
