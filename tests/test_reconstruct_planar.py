@@ -681,3 +681,18 @@ def test_no_friction_by_a_fraction_is_no_friction(law):
             )
             assert distance(one, other) == 0.0
             assert distance(other, end) < 1e-13
+
+
+def test_a_refused_answer_of_two_barriers_is_read_again():
+    """What was looked for is NaN, yaw rates too, and a barrier needs no position for that."""
+    impact = planar(
+        col.Vehicle.barrier(),
+        col.Vehicle.barrier(),
+        normal=0.0,
+        point=(0.0, 0.0),
+        closing_speed=1.0,
+        friction=0.0,
+        on_failure="nan",
+    )
+    assert impact.status.label == "immovable"
+    assert col.Impact.from_dict(impact.to_dict()) == impact
