@@ -207,6 +207,7 @@ class Case(random.Random):
 
     last_name = ""
     _call: tuple[Any, ...] = ()
+    _within: frozenset[int] = frozenset()  # what is being looked at: a fixed input, given back as it was, may hold itself
 
     def __init__(self, seed: str) -> None:
         super().__init__(seed)
@@ -273,8 +274,11 @@ class Case(random.Random):
             return
         if kind.__module__.partition(".")[0] == "collisions" and kind is not col.Status:
             self._look_at(value, kind, documented, thorough)
-        for part in value.values() if isinstance(value, Mapping) else value if isinstance(value, tuple | list) else ():
-            self._look(part, label, documented, thorough)
+        if isinstance(value, Mapping | tuple | list) and id(value) not in self._within:
+            around, self._within = self._within, self._within | {id(value)}
+            for part in value.values() if isinstance(value, Mapping) else value:
+                self._look(part, label, documented, thorough)
+            self._within = around
 
     def _look_at(self, value: Any, kind: type, documented: Open, thorough: bool) -> None:
         names = _names_of(kind)

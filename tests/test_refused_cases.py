@@ -467,6 +467,7 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
             try:
                 value = getattr(found, key)
             except col.MissingInputError:
+                assert isinstance(found, col.Vehicle), f"{dot}{key} is not given"
                 continue
             yield from outputs(value, dot + key)
         for key, member in vars(kind).items():
@@ -669,6 +670,30 @@ def test_columns_of_refused_cases(name: str) -> None:
                 last = key.rpartition(".")[2]
                 if key not in allowed and last not in (*WHOLE, *RULES, "status", "ok", "refused", "answers"):
                     assert all(is_nothing(column[case]) for case in refused), f"{name}: {key}"
+
+
+@pytest.mark.parametrize("place", [{}, {"x": 2.0}])
+@pytest.mark.parametrize("answered", [0, 1])
+def test_a_refused_case_may_lack_a_position(place: dict[str, float], answered: int) -> None:
+    """A central model needs none, and what is refused for its restitution never comes to need one."""
+    a = col.Vehicle(mass=1000.0, vx=10.0, yaw_inertia=1500.0, x=-2.0, y=0.0)
+    spins, e = np.array([0.0, 1.0])[1 - answered :], np.array([0.2, NAN])[1 - answered :]
+    b = col.Vehicle(mass=1000.0, yaw_inertia=INF, yaw_rate=spins, **place)
+    contact = {"normal": 0.0, "friction": 0.2, "point": (0.0, 0.0), "tolerance": 1.0}
+    impact = col.solve(a, b, e, **contact, on_failure="nan")
+    assert impact.refused.tolist() == [False, True][1 - answered :]
+    needs = (f"choice.missing.eccentric[{i}]" for i in range(2))
+    check_case("solve", impact, (answered + 1,), answered, (*FORWARD, "choice.tolerance", *needs))
+    check_case("left_out", quietly(lambda: col.left_out(impact)), (answered + 1,), answered, ("duration", "drag"))
+    columns = impact.to_columns()
+    for name in ("common_velocity", "a.kinetic_energy_change", "b.kinetic_energy_change"):
+        assert math.isnan(columns[name][answered])
+    assert "common_velocity" in impact._repr_html_()
+    assert col.Impact.from_dict(impact.to_dict()) == impact
+    if answered:
+        # Momentum: both masses are 1000 kg, and B takes up half of (1 + e) 10 m/s; e is 0.2.
+        assert impact.common_velocity[0] == pytest.approx(5.0, rel=1e-15)
+        assert impact.b.kinetic_energy_change[0] == pytest.approx(0.5 * 1000.0 * 6.0**2, rel=1e-15)
 
 
 def test_every_reason_of_refusal_is_met() -> None:

@@ -16,6 +16,7 @@ import pytest
 import collisions as col
 from collisions import travel
 from collisions.uncertainty import Interval, Normal, Samples, Uniform, angles, propagate, propagation, sampling
+from fuzzing import Case
 from uncertain_scenes import SCENES
 
 METHODS = ("quasi_random", "latin_hypercube", "monte_carlo")
@@ -786,6 +787,26 @@ def test_fixed_inputs_that_are_none(value, code):
     found = refused(lambda x, k: {"y": x}, X | {"k": value})
     assert found.code == code
     assert "k" in str(found)
+
+
+@pytest.mark.parametrize("method", ["first_order", "monte_carlo", "interval"])
+def test_a_fixed_input_that_holds_itself_reaches_the_model(method):
+    """What is no number is the model's own affair; its answer can be read and written down all the same."""
+    loop = [1.0]
+    loop.append(loop)
+    seen = []
+
+    def model(x, own):
+        seen.append(own is loop)
+        return {"y": 2.0 * x}
+
+    x = Interval(1.0, 2.0) if method == "interval" else Normal(1.5, 0.1)
+    found = propagate(model, {"x": x, "own": loop}, method=method)
+    assert seen
+    assert all(seen)
+    assert found.inputs["own"] is loop
+    assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["inputs"]["own"] == "[1.0, [...]]"
+    Case("looked at").look(found, None, thorough=True)
 
 
 def test_fixed_inputs_reach_the_model_in_si():

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .directions import Angle, angle_of
-from .errors import MissingInputError
+from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .model_choice import ModelChoice
@@ -174,8 +174,8 @@ class Side:
         """Velocity before, and its change, of what the impulse acts on: the contact point, in a central model the centre."""
         before, place = self.before, self._inputs.point
         motion = before.vx, before.vy, self.delta_vx, self.delta_vy
-        # ``solve`` keeps the point it was given, also where it took a central model.
-        turns = True if self._choice is None else self._choice.model == "eccentric"
+        # ``solve`` keeps the point it was given, also where it took a central model; cases that it refused may lack a position.
+        turns = True if self._choice is None else (self._choice.model == "eccentric") & (self._raw.status <= Status.ENERGY_GAIN)
         if place is None or not np.any(turns):
             return motion
         own = before.vx, before.vy, before.yaw_rate, before.x, before.y
