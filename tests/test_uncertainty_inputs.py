@@ -538,7 +538,9 @@ def test_si_unit(given, unit):
     [
         ("1 Hz", "turns or as radians"), ("3 count", "turns or as radians"), ("5 dB", "turns"), ("0.7 g", "drag factor is a plain"),
         ("80 kmh", "'80 km/h' or '1100 kg'"), ("80 km/h 5", "one plain number and one unit"), ("", "one plain number"), ("abc", "abc"),
-        ("5 pixel", "'5 pixel' cannot be taken as a number with a unit"),
+        ("5 pixel", "'5 pixel' cannot be taken as a number with a unit"), ("5 m/s/deg", "plain number in SI"),
+        ("5 m/s/rad", "plain number in SI"), ("5 N*m/rad", "plain number in SI"), ("5 m*deg/s", "plain number in SI"),
+        ("90 deg*deg", "plain number in SI"), (pint.Quantity(5.0, "m/s/turn"), "plain number in SI"),
     ],
 )  # fmt: skip
 def test_si_unit_refuses(given, says):
@@ -800,12 +802,39 @@ def test_a_score_far_out_is_at_the_end_of_the_range():
 
 
 def test_a_lognormal_with_a_deviation_far_smaller_than_its_mean():
-    """Bounds that cut nothing off leave it as it is; where half is cut off, rounding leaves no spread, and that is refused."""
+    """Bounds that cut nothing off leave it as it is; where half is cut off, it is half a normal, whose variance is 1 - 2/pi of it."""
     mean, sd = 6.885814622919143e305, 2.5402266878585364
     whole = LogNormal(mean, sd, truncate=(30.0, None))
     assert (whole.mean, whole.sd) == (mean, sd)
-    with pytest.raises(col.InputError) as refused:
-        LogNormal(mean, sd, truncate=(mean, None))
+    for factor in (1.0, 1e-306 / sd):
+        # The quadrature is good to some roundings.
+        half = LogNormal(mean * factor, sd * factor, truncate=(mean * factor, None))
+        assert half.sd == pytest.approx(sd * factor * math.sqrt(1.0 - 2.0 / math.pi), rel=1e-12)
+        assert half.kurtosis == pytest.approx(3.8691773, rel=1e-7)  # (3 pi^2 - 4 pi - 12)/(pi - 2)^2
+    few = LogNormal(1.0, 1e-200, truncate=(1.0, 2.0))
+    assert few.sd == pytest.approx(1e-200 * math.sqrt(1.0 - 2.0 / math.pi), rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [2.4e-189, 1e-160, 1e-300, 1e200, 1e307])
+def test_samples_whose_squares_leave_the_range_of_floats(size):
+    """Moments against those of the same values in 40 digits, without a warning of numpy's; the skewness has no unit."""
+    values = [0.0, -size, 3.0 * size, 0.5 * size]
+    found = Samples(values)
+    exact = [mp.mpf(value) for value in values]
+    mean = mp.fsum(exact) / 4
+    sd = mp.sqrt(mp.fsum((value - mean) ** 2 for value in exact) / 4)
+    # A few roundings of sums of four numbers.
+    assert found.mean == pytest.approx(float(mean), rel=8 * EPS)
+    assert found.sd == pytest.approx(float(sd), rel=8 * EPS)
+    assert found.skewness == pytest.approx(float(mp.fsum(((value - mean) / sd) ** 3 for value in exact) / 4), rel=32 * EPS)
+    assert found.kurtosis == pytest.approx(float(mp.fsum(((value - mean) / sd) ** 4 for value in exact) / 4), rel=32 * EPS)
+
+
+@pytest.mark.parametrize("make", [Uniform, lambda *ends: Samples(ends)])
+def test_a_deviation_below_all_floats_is_refused(make):
+    """As 0 it would be divided by, and say that the quantity is known exactly."""
+    with pytest.raises(col.InputError, match="deviation is too small for a float64") as refused:
+        make(0.0, 5e-324)
     assert refused.value.code == "out_of_range"
 
 

@@ -15,6 +15,7 @@ import pytest
 
 import collisions as col
 from collisions.quantities import unit_of
+from collisions.uncertainty.distributions import read_input
 from collisions.units import si_unit
 
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}
@@ -421,21 +422,37 @@ def test_units_that_hold_the_angle_they_should(field, given, expected):
     assert getattr(col.Vehicle(**{"mass": 1.0, field: given}), field) == pytest.approx(expected, rel=4 * 2**-52)
 
 
-def test_speeds_per_degree_go_out_and_come_back_as_inputs_of_a_model(ureg):
-    """Sensitivities have angles below the line: .q gives them, and an input of a model may be one."""
+def test_speeds_per_degree_go_out_and_are_no_input_of_a_model(ureg):
+    """Sensitivities have angles below the line: .q gives them, and a model may answer them. As an input "m/s/deg" is refused.
+
+    It would reach the model as a bare number, 57 times what is written, where a Vehicle refuses it for a speed.
+    """
     found = col.reconstruct.momentum(
         1100.0, 950.0, course_a="0 deg", course_b="90 deg", course_a_after="30 deg", course_b_after="40 deg",
         speed_a_after=8.0, speed_b_after=9.0,
     )  # fmt: skip
     per_degree = found.q.sensitivity["speed_a"]["course_b_after"]
     assert per_degree.m_as("m/s/deg") == pytest.approx(math.radians(found.sensitivity["speed_a"]["course_b_after"]), rel=1e-15)
+    uncertainty = col.uncertainty
     for given in (ureg.Quantity(2.0, "m/s/deg"), "2 m/s/deg"):
-        result = col.uncertainty.propagate(
-            lambda slope: {"v": slope * math.radians(3.0)},
-            {"slope": col.uncertainty.Normal(given, given)},
-            method="first_order",
-        )
-        assert result["v"].mean == pytest.approx(6.0, rel=1e-12)
+        for stated in (
+            lambda given: uncertainty.Normal(given, given),
+            lambda given: uncertainty.LogNormal(given, given),
+            lambda given: uncertainty.Uniform(0, given),
+            lambda given: uncertainty.Triangular(0, 0, given),
+            lambda given: uncertainty.Interval(0, given),
+            lambda given: given,
+        ):
+            with pytest.raises(col.UnitsError, match="an angle stands above the line and alone there") as refused:
+                read_input("speed", stated(given))
+            assert refused.value.code == "bad_units"
+    with pytest.raises(col.UnitsError, match="plain number in SI"):
+        uncertainty.Samples(ureg.Quantity(np.array([1.0, 2.0]), "m/s/deg"))
+    result = uncertainty.propagate(
+        lambda x: {"slope": x * ureg.Quantity(1.0, "m/s/deg")}, {"x": uncertainty.Normal(2, 1)}, method="first_order"
+    )
+    assert result["slope"].unit == "m/s/rad"
+    assert result["slope"].mean == pytest.approx(2.0 * 180.0 / math.pi, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -154,11 +154,12 @@ def in_degrees(value: Any) -> bool:
     return is_quantity(value) and dict(value._units) in [{name: 1} for name in _ANGLES]
 
 
-def si_unit(value: Any, argument: str = "value") -> str:
+def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str:
     """The SI unit of the kind that a Quantity or a text is of, such as "m/s"; "" for a plain number or a proportion.
 
     An angle is "rad". Of kinds with one dimension the library knows one: a moment reads "J". Refused, because here nothing
-    else tells what was meant: a count such as Hz, which may be of turns or of radians, and grams, which are hardly ever meant.
+    else tells what was meant: a count such as Hz, which may be of turns or of radians, grams, which are hardly ever meant, and
+    an angle that is a part of another quantity, as in m/s/deg, unless ``per_angle``: it may be a speed whose unit was mistyped.
 
     Examples
     --------
@@ -186,6 +187,10 @@ def si_unit(value: Any, argument: str = "value") -> str:
     if not roots.keys() <= _ROOTS.keys():
         raise _bad_units(value, _ANY_KIND, argument, None)
     powers = {unit: roots.get(root, 0) for root, unit in _ROOTS.items()}
+    beside = any(power > 0 for unit, power in powers.items() if unit != "rad")
+    if not per_angle and (powers["rad"] not in (0, 1) or (powers["rad"] and beside)):
+        hint = "; an angle stands above the line and alone there, as in rad/s: give any other as a plain number in SI"
+        raise _bad_units(value, _ANY_KIND, argument, None, hint)
     mechanical = tuple(powers[unit] for unit in ("kg", "m", "s", "rad"))
     if sum(map(abs, powers.values())) == sum(map(abs, mechanical)) and mechanical in _WRITTEN:
         return _WRITTEN[mechanical]

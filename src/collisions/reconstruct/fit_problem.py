@@ -10,8 +10,8 @@ import numpy as np
 
 from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..reading import ArgumentReader
-from ..uncertainty.distribution import read_alike
-from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, pair_hints
+from ..uncertainty.distribution import read_alike, show
+from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
 from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
@@ -168,7 +168,7 @@ def _unknown(reader: ArgumentReader, name: str, given: Any) -> Unknown | None:
                 f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform "
                 f"or an Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is "
                 f"normally distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as "
-                f"well{pair_hints({label: given})}",
+                f"well{range_hint(given)}",
                 code="bad_prior",
                 argument=label,
             )
@@ -184,9 +184,22 @@ def _unknown(reader: ArgumentReader, name: str, given: Any) -> Unknown | None:
 def _observation(reader: ArgumentReader, name: str, given: Any) -> Normal | None:
     label = f"observed[{name!r}]"
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        given = _told(reader, label, lambda: Normal(*given))
-        if given is None:
+        ends = dict(zip((f"{label} value", f"{label} error"), given, strict=True))
+        numbers = _told(reader, label, lambda: read_alike(ends))
+        if numbers is None:
             return None
+        (value, error), unit = numbers
+        if not error > 0.0:
+            reader.refuse(
+                InputError(
+                    f"{label} error must be > 0, got {show(error, unit)}; give the pair (value, error), the error as a "
+                    f"standard deviation. What is known exactly is written into the model",
+                    code="not_positive",
+                    argument=label,
+                )
+            )
+            return None
+        given = Normal._of(unit, value, error, None)
     if not isinstance(given, Normal):
         kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
         reader.refuse(

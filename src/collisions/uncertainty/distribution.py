@@ -147,6 +147,12 @@ class Distribution(Stated):
         """Sets the moments, of which none may have overflowed."""
         if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
             raise self._too_large()
+        if not sd > 0.0:
+            raise InputError(
+                f"{type(self).__name__}: its deviation is too small for a float64; look for a wrong unit or a slipped digit",
+                code="out_of_range",
+                argument=next(iter(self._parts())),
+            )
         self._set(mean=mean, sd=sd, skewness=skewness, kurtosis=kurtosis, support=support)
 
     def _too_large(self) -> InputError:

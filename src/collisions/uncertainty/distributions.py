@@ -229,13 +229,16 @@ def read_input(name: str, value: Any) -> Any:
 
 def pair_hints(fixed: Mapping[str, Any]) -> str:
     """What to write for pairs of numbers in order, which as inputs are places in the scene, if they were meant as ranges."""
-    told = ""
-    for name, value in fixed.items():
-        pair = isinstance(value, tuple) and len(value) == 2 and all(type(part) in (int, float) for part in value)
-        if pair and value[0] < value[1]:
-            ends = f"({value[0]!r}, {value[1]!r})"
-            told += f". {name} is the pair {ends} in every case; if a range was meant, write Uniform{ends} or Interval{ends}"
-    return told
+    return "".join(
+        f". {name} is the pair {value!r} in every case{hint}" for name, value in fixed.items() if (hint := range_hint(value))
+    )
+
+
+def range_hint(value: Any) -> str:
+    """What to write for a pair of numbers in order, or of texts, if it was meant as a range; "" for others."""
+    kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
+    rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
+    return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
 
 
 def _chosen(lower: Any, rising: Any, falling: Any) -> Any:

@@ -19,6 +19,7 @@ from . import angles
 from .designs import REPLICATES, Design
 from .draw import Joint
 from .model import Model
+from .normal import power_of_two
 
 _MOST = {True: 10, False: 14}  # intervals, beside distributions and alone: each doubles the corners
 _GRID = {True: 400, False: 20000}  # places to begin with, corners always among them
@@ -181,7 +182,7 @@ def _figure(work_out: Callable[[Any], float]) -> Callable[[Any], Any]:
 
 _FIGURES = (
     _figure(lambda row: float(np.mean(row))),
-    _figure(lambda row: float(np.std(row))),
+    _figure(lambda row: float(np.std(row / power_of_two(row))) * power_of_two(row)),
     _figure(lambda row: float(np.quantile(row, 0.025))),
     _figure(lambda row: float(np.quantile(row, 0.975))),
 )

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .normal import density, quantile
+from .normal import density, power_of_two, quantile
 
 # Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from eigenvalues, which leaves the
 # weights 40 roundings off and the last digits to the machine.
@@ -60,13 +60,15 @@ def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> M
     weighted = np.tile(_WEIGHTS, 2 * panels) * (half * np.exp(-0.5 * t * (t + 2.0 * anchor)))
     with np.errstate(all="ignore"):
         value = np.expm1(steepness * t) if steepness else t
+        scale = power_of_two(value)
+        value = value / scale
         total = float(np.sum(weighted))
         mean = float(np.sum(weighted * value)) / total
         away = value - mean
         sd = math.sqrt(float(np.sum(weighted * away**2)) / total)
         away /= sd
         third, fourth = (float(np.sum(weighted * away**power)) / total for power in (3, 4))
-    return Moments(float(density(anchor)) * total, mean, sd, third, fourth)
+    return Moments(float(density(anchor)) * total, scale * mean, scale * sd, third, fourth)
 
 
 def kept_score(below: Any, above: Any, lost_below: float, share: float, lost_above: float) -> Any:

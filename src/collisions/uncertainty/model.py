@@ -76,7 +76,7 @@ class Model:
                 code="bad_model",
                 argument="model",
             )
-        units = {name: si_unit(value) if is_quantity(value) else None for name, value in answered.items()}
+        units = {name: si_unit(value, per_angle=True) if is_quantity(value) else None for name, value in answered.items()}
         if self.units and units != self.units:
             raise InputError(
                 f"model returned {_listed(units)} now and {_listed(self.units)} before; it must always return the same outputs",

@@ -214,3 +214,8 @@ def _tails(z: Any) -> Any:
     smaller /= distance
     smaller *= density
     return np.where(z > 0.0, smaller, 1.0 - smaller)
+
+
+def power_of_two(values: Any) -> float:
+    """A power of two about as large as the largest of them, to divide by before squares: it changes no digit."""
+    return math.ldexp(1.0, math.frexp(float(np.max(np.abs(values), initial=0.0)))[1] - 1)

@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..quantities import OWN, Quantities, derived, returns, show
 from ..units import shown
 from .distribution import probability
+from .normal import power_of_two
 
 COVERAGE = 0.95
 
@@ -197,19 +198,14 @@ def _one_probability(coverage: Any) -> float:
 
 def average(values: Any) -> float:
     """The mean, of numbers whose sum may leave the range of floats too."""
-    scale = _scale(values)
+    scale = power_of_two(values)
     return float(np.mean(values / scale)) * scale
 
 
 def deviation(values: Any) -> float:
     """The standard deviation with one degree of freedom less than values, whose squares may leave the range of floats."""
-    scale = _scale(values)
+    scale = power_of_two(values)
     return float(np.std(values / scale, ddof=1)) * scale if len(values) > 1 else math.nan
-
-
-def _scale(values: Any) -> float:
-    """A power of two about as large as the largest of them, which changes no digit."""
-    return math.ldexp(1.0, math.frexp(float(np.max(np.abs(values), initial=0.0)))[1] - 1)
 
 
 def _ranked(shares: Mapping[str, float]) -> dict[str, float]:

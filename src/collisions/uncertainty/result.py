@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import InputError
 from ..quantities import table
 from ..units import shown
+from .normal import power_of_two
 from .output import Output
 from .sampled import Sampled
 
@@ -75,8 +76,9 @@ class Propagation:
         for i, one in enumerate(sampled):
             for other in list(sampled)[i + 1 :]:
                 both = ~np.isnan(sampled[one]) & ~np.isnan(sampled[other])
+                pair = [values[both] / power_of_two(values[both]) for values in (sampled[one], sampled[other])]
                 with np.errstate(all="ignore"):
-                    matrix = np.corrcoef(sampled[one][both], sampled[other][both]) if np.count_nonzero(both) > 1 else None
+                    matrix = np.corrcoef(*pair) if np.count_nonzero(both) > 1 else None
                 found[one, other] = math.nan if matrix is None else float(matrix[0, 1])
         return found
 

@@ -15,6 +15,7 @@ from ..units import shown
 from . import angles
 from .designs import REPLICATES
 from .distribution import probability
+from .normal import power_of_two
 from .output import Histogram, Output, Shares, average, deviation
 
 _MOST_BINS = 10000
@@ -130,7 +131,8 @@ class Sampled(Output):
         found = [figure(column) for column in columns if column.size > 1]
         if len(found) < 2:
             return figure(np.zeros(2)) * math.nan
-        error = np.std(found, axis=0, ddof=1) / math.sqrt(len(found))
+        scale = power_of_two(found)
+        error = scale * (np.std(np.divide(found, scale), axis=0, ddof=1) / math.sqrt(len(found)))
         return error if np.ndim(error) else float(error)
 
     def _sequences(self) -> list[Any]:

@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import InputError, ShapeError
 from ..quantities import lock
 from .distribution import Distribution, read_alike, show
+from .normal import power_of_two
 
 
 class Samples(Distribution):
@@ -102,11 +103,13 @@ class Samples(Distribution):
         self._set(unit=unit, rows=rows, group=group, _sorted=ordered)
         with np.errstate(over="ignore", invalid="ignore"):
             away = rows - rows[0]
+            scale = power_of_two(away)
+            away /= scale
             mean = float(np.mean(away))
             away -= mean
             sd = float(np.sqrt(np.mean(away**2)))
             away /= sd
-            moments = float(rows[0]) + mean, sd, float(np.mean(away**3)), float(np.mean(away**4))
+            moments = float(rows[0]) + scale * mean, scale * sd, float(np.mean(away**3)), float(np.mean(away**4))
         self._describe(*moments, support=(float(ordered[0]), float(ordered[-1])))
 
     def _parts(self) -> dict[str, Any]:

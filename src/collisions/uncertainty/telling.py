@@ -62,7 +62,11 @@ def tell(method: str, runs: Sequence[Run], places: int, local: bool, asked: int,
             "has values near pi and near -pi: if it is an angle, its mean means nothing. Return it with its unit "
             "(impact.a.q.pdof), so that it is known to be one",
         ),
-        (known, "is a direction without a preferred side, and what points to all sides has no mean: its figures tell little"),
+        (
+            known,
+            "has directions so far round the circle from one another that its mean tells little: the mean errs by more than "
+            "their spread shows, or another one far from it is about as good",
+        ),
     ):
         if names:
             told.append(OutOfRangeWarning(f"{', '.join(names)} {text}", code="may_wrap", outputs=names))
