@@ -13,7 +13,7 @@ from .errors import InputError, MissingInputError
 from .inputs import Inputs, read_inputs
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
-from .kernels.linear import linear_central
+from .kernels.linear import from_closing_speed, linear_central
 from .kernels.oblique import oblique_central
 from .kernels.status import Answer
 from .vehicle import Vehicle, missing
@@ -99,11 +99,14 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
 )
 BY_NAME = {model.name: model for model in MODELS}
 # For reverse solvers, which find the closing speed and the slip to more digits than the rounded motions hold.
-FROM_CONTACT_VELOCITY = replace(
-    ECCENTRIC,
-    kernel=from_contact_velocity,
-    takes=("contact_velocity[0]", "contact_velocity[1]", *ECCENTRIC.takes),
-)
+FROM_CONTACT_VELOCITY = BY_NAME | {
+    LINEAR.name: replace(LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)),
+    ECCENTRIC.name: replace(
+        ECCENTRIC,
+        kernel=from_contact_velocity,
+        takes=("contact_velocity[0]", "contact_velocity[1]", *ECCENTRIC.takes),
+    ),
+}
 
 
 def read(

@@ -49,7 +49,7 @@ def solve(
     chose one, which then carries through the motion that it cannot hold.
     """
     carrying = model is not None
-    model = model or (BY_NAME[inputs.model] if inputs.contact_velocity is None else FROM_CONTACT_VELOCITY)
+    model = model or (BY_NAME if inputs.contact_velocity is None else FROM_CONTACT_VELOCITY)[inputs.model]
     plain = plain and inputs.a._given is None and inputs.b._given is None
     if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
         raw = flat(model.kernel, model.takes, model.settings(inputs, carrying))(inputs)

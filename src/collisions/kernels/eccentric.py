@@ -8,7 +8,7 @@ from math import nan
 from typing import Any
 
 from .contact_laws import LAWS, RULES, dissipates, energy_losses
-from .elementwise import first_status, safe_divisor, select, turning_velocity
+from .elementwise import first_status, more_digits, safe_divisor, select, turning_velocity
 from .status import EPS, Answer, Status
 
 
@@ -86,11 +86,9 @@ def eccentric(
     closing = nx * ux + ny * uy
     slip = ny * ux - nx * uy
     if contact_velocity is not None:
-        exact_closing, exact_slip = contact_velocity
         turning = abs(spin_a) * (abs(rx_a) + abs(ry_a)) + abs(spin_b) * (abs(rx_b) + abs(ry_b))
-        scale = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b) + turning + abs(exact_closing) + abs(exact_slip)
-        same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale
-        closing, slip = select(same, exact_closing, closing), select(same, exact_slip, slip)
+        speeds = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b) + turning
+        closing, slip = more_digits(contact_velocity, closing, slip, speeds, eps)
     rn_a = nx * rx_a + ny * ry_a
     rt_a = nx * ry_a - ny * rx_a
     rn_b = nx * rx_b + ny * ry_b

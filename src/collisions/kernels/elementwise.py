@@ -39,6 +39,14 @@ def first_status(*findings: tuple[Any, Status]) -> Any:
     return status
 
 
+def more_digits(known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float) -> tuple[Any, Any]:
+    """``known`` closing speed and slip where they are those of the motions to the rounding of ``speeds``, else the latter."""
+    exact_closing, exact_slip = known
+    scale = speeds + abs(exact_closing) + abs(exact_slip)
+    same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale
+    return select(same, exact_closing, closing), select(same, exact_slip, slip)
+
+
 def turning_velocity(yaw_rate: Any, x: Any, y: Any, center_x: Any, center_y: Any) -> tuple[Any, Any]:
     """Velocity at (x, y) of a body that turns about the centre: the arm turned by +90 degrees, times the yaw rate."""
     return -yaw_rate * (y - center_y), yaw_rate * (x - center_x)

@@ -3,7 +3,7 @@
 from math import inf
 from typing import Any
 
-from .elementwise import first_status, select
+from .elementwise import first_status, more_digits, select
 from .status import EPS, Answer, Status
 
 
@@ -33,16 +33,22 @@ def linear_central(
     spin_b: Any,
     carrying: bool = False,
     eps: float = EPS,
+    *,
+    contact_velocity: tuple[Any, Any] | None = None,
 ) -> Answer:
     """The ``Answer`` of the linear central model.
 
-    What turns or moves across the normal is refused, or, if ``carrying``, carried through unchanged.
+    What turns or moves across the normal is refused, or, if ``carrying``, carried through unchanged. ``contact_velocity`` is as
+    for ``eccentric``, without slip.
     """
     share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
     # Velocities are subtracted before anything else, so that a common motion of both bodies costs no digits.
     ux = vx_b - vx_a
     uy = vy_b - vy_a
     closing = -(nx * ux + ny * uy)
+    if contact_velocity is not None:
+        speeds = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b)
+        closing, _ = more_digits(contact_velocity, closing, 0.0, speeds, eps)
     change = (1.0 + restitution) * closing
     compression = effective_mass * closing
     normal = effective_mass * change
@@ -96,3 +102,8 @@ def linear_central(
         delta_vx_b=nx * dvn_b,
         delta_vy_b=ny * dvn_b,
     )
+
+
+def from_closing_speed(closing: Any, *inputs: Any) -> Answer:
+    """``linear_central`` with the closing speed before its other inputs."""
+    return linear_central(*inputs, contact_velocity=(closing, 0.0))

@@ -67,7 +67,9 @@ def central(
     Returns
     -------
     Impact
-        As ``linear_central`` gives it; ``reconstruction.condition`` says how well-posed the question was.
+        As ``linear_central`` gives it; ``reconstruction.condition`` says how well-posed the question was. Impulse and energy
+        have all digits also where the closing speed is tiny: they are worked out from ``reconstruction.contact_velocity``, not
+        from the rounded velocities before.
 
     Raises
     ------
@@ -135,6 +137,7 @@ def central(
         known=tuple(known),
         condition=cases.values(np.where(sure, condition, np.nan)),
         answers=cases.whole(np.where(ambiguous, len(answers), 1)),
+        contact_velocity=_without_slip(cases, np.where(sure, found["closing"], np.nan)),
     )
 
     def asked(answer: dict[str, Any], keep: Any) -> Inputs:
@@ -150,8 +153,10 @@ def central(
     def solution(which: int) -> Impact:
         with np.errstate(all="ignore"):
             condition = cases.values(_condition(numbers, answers[which], np.intp(which), eps))
-        impact = Impact._solved(asked(answers[which], True))
-        return found_by(replace(origin, condition=condition, answers=len(answers)), impact.inputs, impact._raw, Status.OK)
+        velocity = _without_slip(cases, answers[which]["closing"])
+        impact = Impact._solved(asked(answers[which], True)._changed(contact_velocity=velocity))
+        one = replace(origin, condition=condition, answers=len(answers), contact_velocity=velocity)
+        return found_by(one, impact.inputs, impact._raw, Status.OK)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is None and status == Status.AMBIGUOUS:
@@ -181,6 +186,10 @@ def _read(reader: ArgumentReader, value: Any, name: str) -> Any:
     if name != "energy_loss":
         return reader.number(value, "m/s", name)
     return amount(reader, value, "J", name)
+
+
+def _without_slip(cases: Cases, closing: Any) -> tuple[Any, Any]:
+    return cases.values(closing), cases.values(0.0 * closing)
 
 
 def _named(masses: tuple[Any, Any]) -> dict[str, Any]:
