@@ -19,6 +19,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct, reference, travel, uncertainty
 from collisions.diagnostics import LIMITS, diagnose
+from collisions.kernels.status import Answer
 
 EPS = 2.0**-52
 GRAVITY = 9.80665
@@ -955,3 +956,42 @@ def test_a_local_method_is_compared_at_both_ends_of_95_percent(sign):
         uncertainty.propagate(model, {"x": uncertainty.Normal(0.0, 1.0)}, method="first_order", seed=1)
     # The scale is the larger standard deviation, 1.017; 4096 points leave a quantile of density 0.058 open by 0.004.
     assert caught[0].message.fields["differences"]["y"] == pytest.approx(0.2 / 1.017, abs=0.01)
+
+
+@pytest.mark.parametrize("cases", [2, 9000])
+@pytest.mark.parametrize("plain", [True, False])
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@pytest.mark.parametrize("ratio", [-1.0, 1.0])
+@pytest.mark.parametrize("model", [col.oblique_central, col.eccentric])
+def test_every_output_of_an_answered_case_is_finite(model, ratio, kind, plain, cases):
+    """Onto a barrier at 45 degrees with J_t = +-J_n the impulse along one scene axis is sqrt 2 J_n, which alone leaves the range.
+
+    Numbers outside the arrays may be worked on in float64, which holds what float32 does not.
+    """
+    top = float(np.finfo(kind).max)
+    for share in (0.3, 0.6, 0.7, 0.715, 0.8, 0.99):
+        speed = math.sqrt(0.5)
+        given = {"mass": share * top, "vx": speed, "vy": speed}
+        made = {name: value if plain else np.full(cases, value, kind) for name, value in given.items()}
+        eccentric = model is col.eccentric
+        turning = {"yaw_inertia": math.inf, "x": 0.0, "y": 0.0} if eccentric else {}
+        a, b = col.Vehicle(**made, **turning, heading=np.zeros(cases, kind)), col.Vehicle.barrier(x=0.0, y=0.0)
+        contact = {"point": (0.0, 0.0)} if eccentric else {}
+        impact = model(a, b, 0.0, normal=math.pi / 4.0, impulse_ratio=ratio, on_failure="nan", **contact)
+        fine = impact.status <= col.Status.ENERGY_GAIN
+        for name in Answer._fields:
+            assert np.all(np.isfinite(getattr(impact._raw, name)) == fine) or name in ("status", "sticks"), (name, share)
+        assert np.all(fine == (share < math.sqrt(0.5))) or (share > 0.3 and not np.any(fine))
+
+
+@pytest.mark.parametrize("cases", [2, 9000])
+@pytest.mark.parametrize("model", [col.oblique_central, col.eccentric])
+def test_a_slip_beyond_float32_is_refused_whatever_is_read_of_it(model, cases):
+    """Each speed fits, their difference of 4.8e38 m/s does not, and without friction nothing else is as large."""
+    turning = {"yaw_inertia": 1.0, "x": 0.0, "y": 0.0} if model is col.eccentric else {}
+    contact = {"point": (0.0, 0.0)} if turning else {}
+    a = col.Vehicle(mass=1.0, vx=1.0, vy=2.4e38, **turning, heading=np.zeros(cases, np.float32))
+    b = col.Vehicle(mass=1.0, vy=-2.4e38, **turning)
+    impact = model(a, b, 0.0, normal=0.0, friction=0.0, on_failure="nan", **contact)
+    assert set(impact.status.tolist()) == {int(col.Status.OUT_OF_RANGE)}
+    assert np.isnan(impact.a.delta_v).all()

@@ -35,8 +35,8 @@ FIRST = (
     "delta_yaw_rate_b",
 )
 LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
-# What a kernel sees to it that it is finite, in the precision it works in.
-_FINITE = frozenset(name for name in Answer._fields if name.startswith(("energy_loss", "slip_after", "tangential", "delta_")))
+# Plain numbers within these make nothing that float32 cannot hold: slip, coupling and impulse without slip are at most 1e30.
+_SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -80,8 +80,17 @@ def solve_cases(
     """
     solve = partial(_solved, kernel, settings, inputs, checks, shape, np.dtype(dtype), threads)
     if math.prod(shape) > BLOCK:
-        return BatchAnswer(solve, solve(FIRST, progress))
+        return BatchAnswer(solve, solve(first_names(inputs, dtype), progress))
     return Answer(**solve(Answer._fields, progress))
+
+
+def first_names(inputs: Sequence[Any], dtype: Any) -> Sequence[str]:
+    """The outputs to work out at once; all of them where the status may turn on one that most callers never read.
+
+    What plain numbers make is worked out in float64, and only once it is written is it seen that float32 cannot hold it.
+    """
+    plain = [abs(value) for value in inputs if isinstance(value, float) and math.isfinite(value) and value]
+    return FIRST if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain) else Answer._fields
 
 
 class BatchAnswer:
@@ -173,8 +182,8 @@ def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[
     """The outputs by name, locked; of float32 without the cases whose answers only the float64 of plain numbers could hold."""
     if dtype == np.float32:
         beyond = np.zeros(outputs[0].shape, dtype=bool)
-        for name, output in zip(Answer._fields, outputs, strict=True):
-            if output is not None and name in _FINITE:
+        for output in outputs:
+            if output is not None and output.dtype == dtype:
                 beyond |= np.isinf(output)
         closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
         if closing is not None and normal is not None:

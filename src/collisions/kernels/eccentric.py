@@ -152,8 +152,9 @@ def eccentric(
     impulse_y = ny * normal + nx * impulse_t
     dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, torque_a, -impulse_x, -impulse_y, x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
     dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
-    # Finite only if all of it is: the losses are products of both impulses.
+    # Finite only if all of it is: of what is finite zeros are added, which cannot overflow in the sum.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
+    total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_n + 0.0 * no_slip_t)
     if LAWS[law].compression_limit:
         total = total + loss_n + loss_t
     finite = bounded & (total - total == 0.0)

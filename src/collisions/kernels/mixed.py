@@ -16,7 +16,6 @@ import numpy as np
 
 from .batch import (
     BLOCK,
-    FIRST,
     BatchAnswer,
     Check,
     Straight,
@@ -24,6 +23,7 @@ from .batch import (
     block_length,
     each_block,
     faults_of,
+    first_names,
     flat,
     part,
     room_for,
@@ -90,7 +90,7 @@ def solve_mixed(
     """The outputs of many cases, each by the model of its number, as ``solve_cases`` gives them for one model."""
     solve = partial(_solved, models, which, checks, shape, np.dtype(dtype), threads)
     if math.prod(shape) > BLOCK:
-        return BatchAnswer(solve, solve(FIRST, progress))
+        return BatchAnswer(solve, solve(first_names([value for model in models for value in model.inputs], dtype), progress))
     return Answer(**solve(Answer._fields, progress))
 
 

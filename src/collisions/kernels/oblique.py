@@ -59,7 +59,12 @@ def oblique_central(
 
     change_x = nx * change_n - ny * change_t
     change_y = ny * change_n + nx * change_t
+    impulse_x = effective_mass * change_x
+    impulse_y = effective_mass * change_y
+    no_slip_impulse = effective_mass * no_slip_t
     total = normal + impulse_t + loss + loss_n + loss_t + slip_after + change_x + change_y
+    # Zeros of what is finite, so that these cannot overflow in the sum.
+    total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_impulse)
     spins: Any = False if carrying else (spin_a != 0.0) | (spin_b != 0.0)
     fine = (closing > 0.0) & (total - total == 0.0) & ((gains | pulls | spins) ^ True)
     status = (
@@ -88,14 +93,14 @@ def oblique_central(
         tangential_impulse=impulse_t,
         compression_impulse=effective_mass * closing,
         no_slip_normal=normal,
-        no_slip_tangential=effective_mass * no_slip_t,
+        no_slip_tangential=no_slip_impulse,
         sticks=sticks,
         effective_mass=effective_mass,
         energy_loss_normal=loss_n,
         energy_loss_tangential=loss_t,
         energy_loss=loss,
-        impulse_x=effective_mass * change_x,
-        impulse_y=effective_mass * change_y,
+        impulse_x=impulse_x,
+        impulse_y=impulse_y,
         delta_vx_a=-(share_a * change_x),
         delta_vy_a=-(share_a * change_y),
         delta_vx_b=share_b * change_x,
