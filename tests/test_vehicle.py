@@ -208,6 +208,16 @@ def test_repr_and_table_carry_units():
     assert "&lt;A&gt;" in html
 
 
+@pytest.mark.parametrize("cases", [1, 3])
+def test_a_number_that_no_case_has_is_said_to_be_none(cases):
+    """As a single NaN is: the shape alone would pass for an answer."""
+    apart = np.full(cases, 10.0)
+    refused = col.linear_central(col.Vehicle(mass=1000.0), col.Vehicle(mass=1.0, vx=apart), 0.1, normal=0.0, on_failure="nan")
+    shown = refused._repr_html_()
+    assert f"<th style='text-align:left'>energy_loss</th><td style='text-align:left'>array{(cases,)} not defined</td>" in shown
+    assert f"energy_loss=array{(cases,)} not defined" in repr(refused)
+
+
 @pytest.mark.parametrize("still", ["x", "yaw_rate"])
 def test_a_plain_number_beyond_float32_is_not_made_infinite_by_an_array_beside_it(still):
     """As in the solvers, what float32 cannot hold is worked out in float64."""

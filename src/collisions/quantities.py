@@ -160,7 +160,9 @@ def show(value: Any, unit: str | None = None) -> str:
     if isinstance(value, tuple):
         return "(" + ", ".join(show(part) for part in value) + ")" + suffix
     if isinstance(value, np.ndarray):
-        if value.dtype.kind == "f" and value.size and not np.all(np.isnan(value)):
+        if value.dtype.kind == "f" and value.size:
+            if np.all(np.isnan(value)):
+                return f"array{value.shape} {in_words(math.nan)}"
             return f"array{value.shape} {np.nanmin(value):.6g} to {np.nanmax(value):.6g}{suffix}"
         return f"array{value.shape}{suffix}"
     if isinstance(value, float):
