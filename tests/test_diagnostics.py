@@ -511,13 +511,6 @@ def test_one_of_two_answers():
     assert many[0].to_columns()["reconstruction.answers"] == [2, 0]
 
 
-def test_a_record_without_the_number_of_answers_is_read_too():
-    """As it was written before there was one."""
-    record = two()[0].to_dict()
-    del record["results"]["reconstruction"]["answers"]
-    assert col.Impact.from_dict(record).reconstruction.answers == 1
-
-
 def test_several_origins_of_one_end_say_how_many_they_are():
     """Friction of 0.3 leads to one end from slides either way and from a contact that stuck: three, and all say so."""
     contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": 0.1, "friction": 0.3, "law": "kudlich-slibar"}
@@ -625,15 +618,6 @@ def test_the_number_of_a_normal_goes_with_the_impact():
     for batch in (many, again, pickle.loads(pickle.dumps(many))):
         assert of("suspect_angle", batch.case(0)) == []
         assert of("suspect_angle", batch.case(1))[0].measured == 12.0
-
-
-def test_a_record_whose_normal_is_not_the_number_it_was_given_as():
-    """Is refused."""
-    record = bare(12.0).to_dict()
-    record["inputs"]["given_as"]["normal"] = 13.0
-    with pytest.raises(col.InputError, match=r"not that of 13\.0 rad") as caught:
-        col.Impact.from_dict(record)
-    assert caught.value.code == "bad_record"
 
 
 # At a limit, rounding alone is no finding.

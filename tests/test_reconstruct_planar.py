@@ -621,7 +621,7 @@ def test_a_contact_velocity_that_is_none_is_no_record():
     """The pair of a record is as long as its cases."""
     record = planar(**APART).to_dict()
     for wrong in ([1.0], ["x", 1.0], [1.0, {"dtype": "float64", "shape": [2], "values": [1.0, 2.0]}], 3.0):
-        record["results"]["reconstruction"]["contact_velocity"] = wrong
+        record["inputs"]["contact_velocity"] = wrong
         with pytest.raises(col.InputError) as caught:
             col.Impact.from_dict(record)
         assert caught.value.code == "bad_record"

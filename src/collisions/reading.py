@@ -160,11 +160,12 @@ def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: s
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
-    """The value in the unit, and how it was written if it came with one."""
+    """The value in the unit, and how it was written if it was with one."""
     if type(value) is float:
         return value, ""
     if isinstance(value, str):
-        return _convert(parse(value, unit, argument), unit, argument, value)[0], value.strip()
+        quantity = parse(value, unit, argument)
+        return _convert(quantity, unit, argument, value)[0], value.strip() if has_unit(quantity) else ""
     if is_quantity(value):
         return _convert(value, unit, argument, value)
     return _plain(value, argument, unit), ""

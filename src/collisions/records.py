@@ -10,52 +10,89 @@ from typing import Any
 import numpy as np
 
 from .amounts import amount
-from .directions import direction, from_radians
+from .directions import direction
 from .errors import InputError, Status
 from .inputs import Inputs
-from .kernels.contact_laws import RULES
+from .kernels.contact_laws import BRACH, RULES
+from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
-from .models import MODELS, checked
+from .models import MODELS, read
 from .provenance import Reconstruction
-from .quantities import attributes, lock
+from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
 from .units import shown
-from .vehicle import NAMES, Vehicle
+from .vehicle import DOMAINS, NAMES, Vehicle
 
-FORMAT = "collisions impact 1"
-_NOTHING = dict.fromkeys(NAMES)
-_NUMBERS = ("restitution", "normal", "rule_value", "point")
-_MOTION = ("vx", "vy", "yaw_rate")
+FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
-_GIVEN = "given_as"  # texts, and a normal of more than a turn as the number without a unit that it was
 _SOLVERS = (*(model.name for model in MODELS), "solve")
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
-# What a reverse solver may be told beside the contact, by its name.
+_NOTHING = dict.fromkeys(NAMES)
+_MOTION = ("vx", "vy", "yaw_rate")
+_POLAR: tuple[str, ...] = ("speed", "course")
+# What each reverse solver may be given beside the contact.
 _ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
 _PAIRS = tuple(f"{name}_{label}" for name in ("speed", "course", "delta_v", "ees") for label in "ab")
-_TOLD = {
+_KNOWN = {
     "central": ("va_after", "vb_after", "energy_loss"),
     "planar": (*_ENDS, "closing_speed", "energy_loss"),
     "speeds": (*_PAIRS, "energy_loss"),
 }
-_SAME = 1e-5  # between cosines and sines of one angle, also in float32
-_READ = 2e-9  # relative, between a number and the text it was given as, which is read by the same rules
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
 def to_record(impact: Any) -> dict[str, Any]:
-    """Inputs to ask it again from, and every result to read."""
-    asked = impact.inputs
-    inputs = {name: _strict(getattr(asked, name)) for name in (*_LABELS, *_NUMBERS)}
-    if asked.given is not None:
-        inputs[_GIVEN] = _strict(asked.given)
-    results = {name: _strict(value) for name, value in _results(impact) if name not in inputs}
+    """Inputs to solve it again from, each as the text it was given as or else in SI, and every result in SI."""
+    sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
+    results = {name: _strict(value) for name, value in _results(impact)}
+    return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
+
+
+def _inputs(inputs: Inputs) -> dict[str, Any]:
+    texts = dict(inputs.given or {})
+    text = texts.pop("normal", None)
+    as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
     return {
-        "format": FORMAT,
-        "inputs": {**inputs, "a": _state(asked.a), "b": _state(asked.b)},
-        "results": {**results, "a": _side(impact.a), "b": _side(impact.b)},
+        **{name: getattr(inputs, name) for name in _LABELS},
+        "a": _vehicle_inputs(inputs.a),
+        "b": _vehicle_inputs(inputs.b),
+        "restitution": _given(texts.pop("restitution", None), inputs.restitution, ""),
+        "normal": text if as_text else _strict(inputs.normal),
+        "bare_normal": _strict(inputs.bare_normal),
+        "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
+        "point": inputs.point and [_given(texts.pop(f"point[{i}]", None), part, "m") for i, part in enumerate(inputs.point)],
+        "tolerance": _strict(inputs.tolerance),
+        "contact_velocity": _strict(inputs.contact_velocity),
+        # The texts that are left are of what a reverse solver was given.
+        "known": texts,
     }
+
+
+def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
+    texts = vehicle._given or {}
+    found: dict[str, Any] = {"name": vehicle.name}
+    for name in DOMAINS:
+        found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")
+    found["pivot"] = vehicle.pivot and [_given(texts.get(f"pivot[{i}]"), part, "m") for i, part in enumerate(vehicle.pivot)]
+    polar = {name: texts[name] for name in _POLAR if name in texts}
+    if len(polar) == 2 and _velocity(polar) == (vehicle.vx, vehicle.vy):
+        del found["vx"], found["vy"]
+        found |= polar
+    return found
+
+
+def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
+    moving = Vehicle.from_speed(mass=1.0, **polar)
+    return moving.vx, moving.vy
+
+
+def _given(text: str | None, number: Any, unit: str) -> Any:
+    """The text that a number was given as, if it reads as that number here; a unit of another registry may not."""
+    reader = ArgumentReader()
+    if text is not None and isinstance(number, float) and reader.number(text, unit, "", UNCHECKED) == number:
+        return text
+    return _strict(number)
 
 
 def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
@@ -64,103 +101,82 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         if not isinstance(record["format"], str) or record["format"] != FORMAT:
             raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
         found = record["inputs"]
-        question = {name: found[name] for name in _LABELS} | {name: _number(found[name]) for name in _NUMBERS}
-        model, rule = question["model"], question["rule"]
+        model, rule, law = (found[name] for name in _LABELS)
         if rule not in RULES or not isinstance(model, str):
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
         if model not in _SOLVERS:
             raise bad_record(f"its model is {shown(model)}; known are {', '.join(_SOLVERS)}")
         status = record["results"]["status"]
-        listed = status["values"] if isinstance(status, Mapping) else [status]
-        refused = any(Status(code) > Status.ENERGY_GAIN for code in listed)
-        choice = record["results"]["choice"]
-        origin = record["results"]["reconstruction"]
-        given = None
-        if _GIVEN in found:
-            # A reverse solver that gave no answer does not hold all that it was told.
-            lost = np.array(listed) > Status.ENERGY_GAIN if origin is not None else np.zeros(len(listed), dtype=bool)
-            lost = lost.reshape(status["shape"] if isinstance(status, Mapping) else ())
-            given = _given(found[_GIVEN], question, "" if origin is None else str(origin["method"]), lost)
-        if origin is not None:
-            known = tuple(str(name) for name in origin["known"])
-            condition, answers = _number(origin["condition"]), _count(origin.get("answers", 1))
-            status = np.array(listed).reshape(status["shape"]) if isinstance(status, Mapping) else status
-            velocity = _contact_velocity(origin.get("contact_velocity"), np.shape(status))
-            origin = Reconstruction(
-                method=str(origin["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
-            )
-        vehicles = []
-        for side in "ab":
-            state = {name: _number(value) for name, value in found[side].items() if value is not None and name != "name"}
-            vehicles.append(_vehicle({**_NOTHING, **state, "name": found[side]["name"]}, refused and origin is not None))
+        status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
+        refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
+        velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
+        origin = _origin(record["results"]["reconstruction"], velocity)
+        a, b = (_vehicle(found[label], refused and origin is not None) for label in "ab")
+        restitution, normal, rule_value, point = (
+            _read(found[name]) for name in ("restitution", "normal", "rule_value", "point")
+        )
+        # A reverse solver that found nothing may have no restitution either.
+        lost = origin is not None and isinstance(restitution, float) and math.isnan(restitution)
+        tangential = tuple(rule_value if name == rule else None for name in RULES)
+        inputs, _ = read(model, a, b, 0.0 if lost else restitution, normal, point, tangential, law or BRACH)
         reader = ArgumentReader()
-        tolerance = None if choice is None else amount(reader, _number(choice["tolerance"]), "m/s", "tolerance")
+        tolerance = found["tolerance"]
+        tolerance = None if tolerance is None else amount(reader, _read(tolerance), "m/s", "tolerance")
+        given = {**(inputs.given or {}), **_texts(found["known"], origin)}
+        if found["bare_normal"] is not None:
+            given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
         reader.close()
-        point, law = question["point"], question["law"]
-        a, b = vehicles
-        contact = question["restitution"], question["normal"], rule, question["rule_value"]
-        velocity = None if origin is None else origin.contact_velocity
-        inputs = checked(Inputs(model, a, b, *contact, law, point, given, tolerance, velocity), found=origin is not None)
+        inputs = inputs._changed(given=given or None, tolerance=tolerance, contact_velocity=velocity)
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
-    return inputs, "nan" if refused else None, origin, status
+    return inputs._changed(restitution=restitution) if lost else inputs, "nan" if refused else None, origin, status
+
+
+def _origin(found: Any, velocity: Any) -> Reconstruction | None:
+    if found is None:
+        return None
+    known = tuple(str(name) for name in found["known"])
+    condition, answers = _read(found["condition"]), _count(found["answers"])
+    return Reconstruction(
+        method=str(found["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
+    )
 
 
 def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     """Closing speed and slip before as a reverse solver found them, one each or one for every case."""
     if pair is None:
         return None
-    closing, slip = (_number(part) if isinstance(part, Mapping) else float(_number(part)) for part in pair)
+    closing, slip = (_read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair)
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
     return closing, slip
 
 
-def _given(record: Mapping[str, Any], question: Mapping[str, Any], method: str, lost: Any) -> dict[str, Any]:
-    """How the inputs were given; what is told of the contact must give its numbers, but in cases that are lost."""
-    given = {str(name): text if isinstance(text, str) else lock(_number(text)) for name, text in record.items()}
-    if not all(isinstance(text, str) for name, text in given.items() if name != "normal"):
-        raise bad_record("how its inputs were given is no dict of texts")
-    numbers = {"restitution": (question["restitution"], ""), "normal": (question["normal"], "rad")}
-    if question["law"] is not None:
-        numbers[question["rule"]] = question["rule_value"], ""
-    numbers |= {f"point[{i}]": (part, "m") for i, part in enumerate(question["point"] or ())}
-    stray = [name for name in given if name not in numbers and name not in _TOLD.get(method, ())]
+def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
+    stray = known.keys() - set(() if origin is None else _KNOWN.get(origin.method, ()))
     if stray:
-        raise bad_record(f"it has no {shown(stray[0])} that could have been given")
-    for name, text in given.items():
-        if name not in numbers:
-            continue
-        reader = ArgumentReader()
-        number, kind = numbers[name]
-        unit = ""
-        if name != "normal":
-            read: Any = reader.number(text, kind, name)
-        elif isinstance(text, str):
-            read = direction(reader, text, name)
-        else:
-            read, unit = from_radians(text), " rad"
-        # A unit of another registry cannot be read here.
-        if reader.problems:
-            continue
-        off = _SAME if name == "normal" else 0.0
-        parts = zip(read, number, strict=True) if name == "normal" else [(read, number)]
-        if not all(np.all(np.isclose(*both, rtol=_READ, atol=off, equal_nan=True) | lost) for both in parts):
-            raise bad_record(f"its {name}, {shown(number)}, is not that of {shown(text)}{unit}, as which it was given")
-    return given
+        raise bad_record(f"it has no {shown(min(stray))} that could have been given")
+    if not all(isinstance(text, str) for text in known.values()):
+        raise bad_record("what its reverse solver was given is no dict of texts")
+    return dict(known)
 
 
-def _vehicle(state: dict[str, Any], lost: bool) -> Vehicle:
+def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
     """A vehicle again; the reader takes no NaN, which is the motion of one that was looked for and not found."""
+    state = {name: value if name == "name" else _read(value) for name, value in found.items() if value is not None}
+    polar = {name: state.pop(name) for name in _POLAR if name in state}
     unknown = state.keys() - set(NAMES)
     if unknown:
         raise bad_record(f"a vehicle has no {min(unknown)!r}")
+    if polar:
+        state |= zip(("vx", "vy"), _velocity(polar), strict=True)
     motion = [state[name] for name in _MOTION]
-    if not lost or any(isinstance(part, np.ndarray) for part in motion):
-        return Vehicle._of_numbers(state)
-    return Vehicle._of_numbers(state | dict.fromkeys(_MOTION, 0.0))._moved(*map(float, motion))
+    if lost and not any(isinstance(part, (np.ndarray, str)) for part in motion):
+        return Vehicle._of_numbers(_NOTHING | state | dict.fromkeys(_MOTION, 0.0))._moved(*map(float, motion))
+    vehicle = Vehicle._of_numbers(_NOTHING | state)
+    return vehicle._told({**(vehicle._given or {}), **polar}) if polar else vehicle
 
 
 def to_columns(impact: Any) -> dict[str, list[Any]]:
@@ -205,8 +221,8 @@ def _results(owner: Any) -> list[tuple[str, Any]]:
 
 
 def _side(side: Side) -> dict[str, Any]:
-    found = {name: _strict(value) for name, value in _results(side)}
-    return {**found, "after": _state(side.after), "at_compression": _state(side.at_compression)}
+    states = {name: _state(getattr(side, name)) for name in ("before", "after", "at_compression")}
+    return {**states, **{name: _strict(value) for name, value in _results(side)}}
 
 
 def _state(vehicle: Vehicle) -> dict[str, Any]:
@@ -243,13 +259,13 @@ def _count(value: Any) -> Any:
     return math.inf if value == "inf" else int(value)
 
 
-def _number(value: Any) -> Any:
-    """What ``_strict`` wrote, read again."""
+def _read(value: Any) -> Any:
+    """What ``_strict`` wrote, read again; a text with a unit stays one."""
     if isinstance(value, list):
-        return tuple(_number(part) for part in value)
+        return tuple(_read(part) for part in value)
     if isinstance(value, Mapping):
         if value["dtype"] not in ("float32", "float64"):
             raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
-        numbers = [_number(part) for part in value["values"]]
+        numbers = [_read(part) for part in value["values"]]
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
     return _INFINITIES.get(value, value) if isinstance(value, str) else value

@@ -8,23 +8,17 @@ from typing import Any
 
 from .errors import Status
 from .impact import Impact
-from .inputs import Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import MODELS
 from .provenance import Reconstruction
-from .quantities import attributes
+from .quantities import attributes, unit_of
 from .records import FORMAT
 from .side import Side
-from .vehicle import Vehicle
+from .vehicle import DOMAINS, Vehicle
 
 __all__ = ["impact_schema"]
 
 _MODELS = [model.name for model in MODELS]
-_INPUTS = {f.name for f in fields(Inputs)}
-_MODELS = [model.name for model in MODELS]
-_INPUTS = {f.name for f in fields(Inputs)}
-_MODELS = [model.name for model in MODELS]
-_INPUTS = {f.name for f in fields(Inputs)}
 _PRECISIONS = ["float32", "float64"]
 _KINDS = ["elastic", "elastoplastic", "plastic", ""]
 _REGIMES = ["frictionless", "sliding", "sticking", "given", ""]
@@ -34,6 +28,7 @@ _TYPES: dict[str, dict[str, Any]] = {
     "ModelChoice": {"$ref": "#/$defs/choice"},
     "Reconstruction": {"$ref": "#/$defs/reconstruction"},
     "Vehicle": {"$ref": "#/$defs/vehicle"},
+    "Side": {"$ref": "#/$defs/side"},
     "str": {"type": "string"},
 }
 
@@ -49,7 +44,7 @@ def impact_schema() -> dict[str, Any]:
     --------
     >>> schema = impact_schema()
     >>> schema["properties"]["format"]
-    {'const': 'collisions impact 1'}
+    {'const': 'collisions impact 2'}
     >>> schema["$defs"]["vehicle"]["properties"]["mass"]
     {'$ref': '#/$defs/value', 'description': '[kg]'}
     """
@@ -57,7 +52,7 @@ def impact_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:{FORMAT.replace(' ', ':')}",
         "title": "Record of an impact",
-        "description": "What Impact.to_dict() gives: inputs to ask again from, and every result; SI, angles in radians.",
+        "description": "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, angles in radians.",
         **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _results()}),
         "$defs": {
             "number": {
@@ -68,15 +63,14 @@ def impact_schema() -> dict[str, Any]:
                 "description": "A number, or one for each case of a batch, in the order of C.",
                 "anyOf": [{"$ref": "#/$defs/number"}, _batch({"$ref": "#/$defs/number"}, {"enum": _PRECISIONS})],
             },
-            "pair": {
-                "description": "The x and the y part.",
-                "type": "array",
-                "prefixItems": [{"$ref": "#/$defs/value"}, {"$ref": "#/$defs/value"}],
-                "items": False,
-                "minItems": 2,
+            "given": {
+                "description": "A number or a batch in SI, or the text with a unit that it was given as.",
+                "anyOf": [{"$ref": "#/$defs/value"}, {"type": "string"}],
             },
+            "pair": _pair({"$ref": "#/$defs/value"}),
             "vehicle": _closed({f.name: _vehicle_field(f) for f in fields(Vehicle)}),
-            "side": _closed({name: _attribute(Side, name) for name in attributes(Side) if name != "before"}),
+            "vehicle_inputs": _vehicle_inputs(),
+            "side": _closed({name: _attribute(Side, name) for name in attributes(Side)}),
             "choice": _closed(
                 {
                     "model": _each({"enum": _MODELS}),
@@ -93,39 +87,64 @@ def impact_schema() -> dict[str, Any]:
 
 def _inputs() -> dict[str, Any]:
     """The question: a law and a point are given for the models that know them, and only for those."""
-    value, pair, vehicle = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "vehicle"))
-    asked = {
-        "model": {"enum": sorted([*_MODELS, "solve"]), "description": "The solver that was asked."},
-        "a": vehicle,
-        "b": vehicle,
-        "restitution": value,
-        "normal": {**pair, "description": "Unit vector from A into B."},
-        "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
-        "rule_value": {**value, "description": "... and its value."},
-        "law": {"enum": [*LAWS, None]},
-        "point": {"anyOf": [pair, {"type": "null"}], "description": "Contact point [m]."},
-    }
-    question = _closed(asked)
-    question["properties"]["given_as"] = {
-        "type": "object",
-        "properties": {"normal": {"anyOf": [{"type": "string"}, value]}},
-        "additionalProperties": {"type": "string"},
-        "description": "By argument the text of what was given with a unit; a normal of more than a turn without one [rad].",
-    }
+    given, vehicle = {"$ref": "#/$defs/given"}, {"$ref": "#/$defs/vehicle_inputs"}
+    null, pair = {"type": "null"}, {"$ref": "#/$defs/pair"}
+    question = _closed(
+        {
+            "model": {"enum": sorted([*_MODELS, "solve"]), "description": "The solver that was called."},
+            "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
+            "law": {"enum": [*LAWS, None]},
+            "a": vehicle,
+            "b": vehicle,
+            "restitution": given,
+            "normal": {"anyOf": [pair, {"type": "string"}], "description": "Unit vector from A into B, or its angle as given."},
+            "bare_normal": {
+                "anyOf": [{"$ref": "#/$defs/value"}, null],
+                "description": "The normal as an angle of more than a turn that was given without a unit [rad].",
+            },
+            "rule_value": {**given, "description": "... and its value."},
+            "point": {"anyOf": [_pair(given), null], "description": "Contact point [m]."},
+            "tolerance": {"anyOf": [{"$ref": "#/$defs/value"}, null], "description": "Of solve [m/s]."},
+            "contact_velocity": {
+                "anyOf": [pair, null],
+                "description": "Closing speed and slip before as a reverse solver found them [m/s].",
+            },
+            "known": {
+                "type": "object",
+                "additionalProperties": {"type": "string"},
+                "description": "What a reverse solver was given with a unit, by its argument.",
+            },
+        }
+    )
     return question | {
         "allOf": [
-            _where("linear_central", {"law": {"type": "null"}}, {"law": {"type": "string"}}),
+            _where("linear_central", {"law": null}, {"law": {"type": "string"}}),
             _where("eccentric", {"point": {"type": "array"}}, {}),
-            *(_where(model, {"point": {"type": "null"}}, {}) for model in ("linear_central", "oblique_central")),
+            *(_where(model, {"point": null}, {}) for model in ("linear_central", "oblique_central")),
         ]
     }
 
 
 def _results() -> dict[str, Any]:
-    """Every attribute of an impact that its inputs do not give already."""
-    side = {"$ref": "#/$defs/side"}
-    found = {name: _attribute(Impact, name) for name in attributes(Impact) if name not in _INPUTS}
-    return _closed(found | {"a": side, "b": side})
+    """Every attribute of an impact."""
+    return _closed({name: _attribute(Impact, name) for name in attributes(Impact)})
+
+
+def _vehicle_inputs() -> dict[str, Any]:
+    """The fields of a vehicle as they were given; speed and course may stand in place of vx and vy."""
+    given, text, null = {"$ref": "#/$defs/given"}, {"type": "string"}, {"type": "null"}
+    found: dict[str, Any] = {"name": text, "pivot": {"anyOf": [_pair(given), null], "description": "[m]"}}
+    for name in DOMAINS:
+        unit = f"[{unit_of(Vehicle, name)}]"
+        optional = Vehicle.__dataclass_fields__[name].type != "Value"
+        found[name] = {"anyOf": [given, null], "description": unit} if optional else {**given, "description": unit}
+    needed = [name for name in found if name not in ("vx", "vy")]
+    return {
+        **_closed(found | {"speed": text, "course": text}),
+        "required": needed,
+        "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
+        "dependentRequired": {"speed": ["course"], "course": ["speed"]},
+    }
 
 
 def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
@@ -153,6 +172,16 @@ def _closed(properties: dict[str, Any]) -> dict[str, Any]:
     return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
 
 
+def _pair(value: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "description": "The x and the y part.",
+        "type": "array",
+        "prefixItems": [value, value],
+        "items": False,
+        "minItems": 2,
+    }
+
+
 def _by_model(value: dict[str, Any]) -> dict[str, Any]:
     return {"type": "object", "propertyNames": {"enum": _MODELS}, "additionalProperties": value}
 
@@ -174,6 +203,7 @@ def _where(model: str, then: dict[str, Any], otherwise: dict[str, Any]) -> dict[
 
 
 _LISTED = {
+    "model": _each({"enum": [*_MODELS, "solve"]}),
     "kind": _each({"enum": _KINDS}),
     "regime": _each({"enum": _REGIMES}),
     "status": _each({"enum": [int(status) for status in Status]}),

@@ -173,7 +173,10 @@ class Vehicle(_Written):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
                 _set_vy(vehicle, lock(magnitude * cy + 0.0))
         if reader.texts:
-            _set_given(vehicle, {**(vehicle._given or {}), **reader.texts})
+            # Both, so that a record can hold them in place of vx and vy.
+            bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
+            texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
+            _set_given(vehicle, {**(vehicle._given or {}), **texts, **reader.texts})
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
