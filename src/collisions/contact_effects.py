@@ -26,7 +26,7 @@ from .warning import quietly, warn_of_cases
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
 # Cases at a time: from two blocks on the solver repeats recorded steps, which halves the cost.
-_STRETCH = 16384
+_BLOCK = 16384
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -125,7 +125,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     -------
     LeftOut
         In a batch a case that was refused is NaN, and so is the geometry of one that would be refused when shifted. An impact
-        of ``solve`` is asked again by the model that answered it.
+        of ``solve`` is solved again by the model that answered it.
 
     Raises
     ------
@@ -145,8 +145,8 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
       it would be c T/(2 (1 + e)). When they part 2 (1 - e) c T/pi of it is left;
     - the tyre impulse is drag x weight x T times the mean, over time, of the direction against the motion of the centre.
       It moves delta-V together with what the contact makes of it: restitution still ends the impact with e times the closing
-      speed, and the solver is asked again. Against a wall in line that leaves nothing of it;
-    - for the geometry the solver is asked again with every position and angle halfway between where it is on average while the
+      speed, and the impact is solved again. Against a wall in line that leaves nothing of it;
+    - for the geometry the impact is solved again with every position and angle halfway between where it is on average while the
       force acts, which is where the impulse works, and where it is in the end, T (v + m delta_v) on, which is where restitution
       holds. The contact point goes with the mean of the two places that met, the normal with the
       mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
@@ -205,14 +205,14 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     if shape is None:
         return _assembled(_estimated(impact, time, pull, unusable))
     size = math.prod(shape)
-    if size <= _STRETCH:
+    if size <= _BLOCK:
         found = _estimated(impact, time, pull, unusable)
         return _assembled(
             {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()}
         )
     whole: dict[str, Any] = {}
-    for start in range(0, size, _STRETCH):
-        block = slice(start, min(start + _STRETCH, size))
+    for start in range(0, size, _BLOCK):
+        block = slice(start, min(start + _BLOCK, size))
 
         def cut(value: Any, block: slice = block) -> Any:
             return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
@@ -230,7 +230,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
 def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
     """What was left out, by the names of ``LeftOut``, those of its sides with "a." or "b." before them; NaN where refused."""
-    # One case that was refused cannot be asked again, and has nothing that could be left out.
+    # One case that was refused cannot be solved again, and has nothing that could be left out.
     lost = impact.refused is True
     point = impact.point
     with np.errstate(all="ignore"):
@@ -295,17 +295,17 @@ def _read_duration(reader: ArgumentReader, duration: Any) -> Any:
 
 def _unusable(values: dict[str, Any], beyond: Any) -> Any:
     """The cases whose duration or drag is refused of a single number too, or leads beyond floats; counted in one warning."""
-    lanes: Any = False
+    unusable: Any = False
     counts: dict[str, int] = {}
     for name, value in values.items():
         if isinstance(value, np.ndarray):
             for code, wrong in (("not_finite", ~np.isfinite(value)), (f"negative_{name}", value < 0.0)):
-                lanes = lanes | wrong
+                unusable = unusable | wrong
                 if wrong.any():
                     counts[code] = counts.get(code, 0) + int(np.count_nonzero(wrong))
-    if np.any(beyond & ~np.asarray(lanes)):
-        counts["out_of_range"] = int(np.count_nonzero(beyond & ~np.asarray(lanes)))
-        lanes = lanes | beyond
+    if np.any(beyond & ~np.asarray(unusable)):
+        counts["out_of_range"] = int(np.count_nonzero(beyond & ~np.asarray(unusable)))
+        unusable = unusable | beyond
     if counts:
         listed = ", ".join(f"{count} {code}" for code, count in counts.items())
         warn_of_cases(
@@ -315,7 +315,7 @@ def _unusable(values: dict[str, Any], beyond: Any) -> Any:
                 counts=counts,
             )
         )
-    return lanes
+    return unusable
 
 
 def _whole(impact: Impact, time: Any, passed: Any) -> dict[str, Any]:

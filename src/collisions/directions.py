@@ -97,7 +97,7 @@ def between(one: Angle, other: Angle) -> tuple[Any, Any]:
 
 
 def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
-    """The vector divided by its length; lanes without a length stay (0, 0), a single vector without one is refused."""
+    """The vector divided by its length; cases without a length stay (0, 0), a single vector without one is refused."""
     if isinstance(vx, float) and isinstance(vy, float):
         # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
         scale = max(abs(vx), abs(vy))

@@ -1,4 +1,4 @@
-"""What tyres and movement during the contact make of delta-V: the solver asked again with what they change."""
+"""What tyres and movement during the contact make of delta-V: the impact solved again with what they change."""
 
 from __future__ import annotations
 

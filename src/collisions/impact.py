@@ -42,7 +42,7 @@ class Impact:
     __slots__ = ("_cache", "_raw", "inputs")
 
     inputs: Inputs
-    """What was asked: the vehicles, restitution, normal, point, what was said of the tangent, and how each was given."""
+    """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
     _cache: dict[str, Any]
     _raw: Any
@@ -73,7 +73,7 @@ class Impact:
     @derived()
     def law(self) -> str | None:
         """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model, of ``solve`` as
-        asked.
+        given.
         """
         return self.inputs.law
 
@@ -84,12 +84,12 @@ class Impact:
 
     @derived("")
     def friction(self) -> Value | None:
-        """Coulomb friction bound as used, of ``solve`` as asked; None when a ratio or a critical fraction was given."""
+        """Coulomb friction bound as used, of ``solve`` as given; None when a ratio or a critical fraction was given."""
         return self.inputs.rule_value if self.inputs.rule == FRICTION else None
 
     @derived("m")
     def point(self) -> tuple[Value, Value] | None:
-        """Contact point (x, y) [m]; None for the central models, of ``solve`` as asked."""
+        """Contact point (x, y) [m]; None for the central models, of ``solve`` as given."""
         return self.inputs.point
 
     @derived()
@@ -353,7 +353,7 @@ class Impact:
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
 
-        The case is asked again by itself, so it agrees with the batch within the accuracy promised, and a case that was refused
+        The case is solved again by itself, so it agrees with the batch within the accuracy promised, and a case that was refused
         raises the error that says why.
 
         Parameters
@@ -386,7 +386,7 @@ class Impact:
         return self._part(lambda value: np.broadcast_to(value, self.status.shape)[place].item())
 
     def _part(self, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
-        """Some cases of a batch, asked again: those that ``take`` takes of every array."""
+        """Some cases of a batch, solved again: those that ``take`` takes of every array."""
         origin = self.reconstruction
         inputs = checked(self.inputs._part(take), found=origin is not None)
         choice = None if self.choice is None else self.choice._part(take, inputs)

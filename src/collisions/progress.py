@@ -1,4 +1,4 @@
-"""How far a long run has come, for whoever asked to be shown."""
+"""Progress of long runs: a caller's function, or a bar."""
 
 from __future__ import annotations
 

@@ -238,9 +238,9 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             code="bad_shape",
             argument=argument,
         )
-    kept = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
+    dtype = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
     with np.errstate(over="ignore"):
-        array = np.array(value, dtype=kept)
+        array = np.array(value, dtype=dtype)
     if value.dtype.itemsize > 8 and bool(np.any(np.isinf(array) & ~np.isinf(value))):
         raise InputError(f"{argument} holds numbers too large for a float64", code="out_of_range", argument=argument)
     return float(array) if array.ndim == 0 else array

@@ -1,4 +1,4 @@
-"""Results as plain data: nested records for strict JSON that can be asked again, and flat columns for a table."""
+"""Results as plain data: nested records for strict JSON that can be solved again, and flat columns for a table."""
 
 from __future__ import annotations
 

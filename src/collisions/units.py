@@ -179,7 +179,7 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
         if names != ["gram"]:
             hint = "it counts, and could be meant as turns or as radians: write 'turn/s', 'rad/s' or 'deg/s', or a plain number"
         raise UnitsError(
-            f"{argument}: what {shown(value)} is meant to be cannot be told from its unit; {hint}",
+            f"{argument}: what {shown(value)} is meant to be is not clear from its unit; {hint}",
             code="bad_units",
             argument=argument,
             text=str(value),
@@ -206,8 +206,8 @@ def parse(text: str, unit: str, argument: str) -> Any:
     number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
     registry = _registry()
-    kept = _read.setdefault(registry.get(), {})
-    readable = (name in kept or re.fullmatch(_UNIT, name)) if name else not unit
+    read = _read.setdefault(registry.get(), {})
+    readable = (name in read or re.fullmatch(_UNIT, name)) if name else not unit
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
@@ -217,9 +217,9 @@ def parse(text: str, unit: str, argument: str) -> Any:
             text=text,
         )
     try:
-        units = kept.get(name)
+        units = read.get(name)
         if units is None:
-            units = kept[name] = registry.parse_units(name)._units
+            units = read[name] = registry.parse_units(name)._units
         return registry.Quantity(float(number.group()), units)
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from error
@@ -244,7 +244,7 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
             raise _bad_units(given, unit, argument, error) from error
         if zero != 0.0 or two != 2.0 * one:
             raise _bad_units(given, unit, argument, None)
-        if (hint := _out_of_place(quantity, unit)) or (hint := _hardly_meant(quantity)):
+        if (hint := _out_of_place(quantity, unit)) or (hint := _ambiguous_unit(quantity)):
             raise _bad_units(given, unit, argument, None, hint)
         if not in_context:
             known[key] = found
@@ -296,7 +296,7 @@ def _is_count(registry: Any, name: str) -> bool:
     return _radians(registry, name) != 1 or not registry.get_root_units(name)[1]._units.keys() <= {"radian", "second"}
 
 
-def _hardly_meant(quantity: Any) -> str:
+def _ambiguous_unit(quantity: Any) -> str:
     """What to say of a unit that not everybody means by its name; "" of others."""
     registry = quantity._REGISTRY
     for name in map(str, quantity._units):

@@ -193,10 +193,10 @@ class Vehicle(_Written):
                 f"replace() takes the fields of a Vehicle ({', '.join(NAMES)}), got {unknown[0]!r}; speed and course make a "
                 f"new one by Vehicle.from_speed"
             )
-        kept = {name: getattr(self, name) for name in NAMES}
+        numbers = {name: getattr(self, name) for name in NAMES}
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
-            kept["vx"] = kept["vy"] = 0.0
-        vehicle = self._of_numbers(kept, changes)
+            numbers["vx"] = numbers["vy"] = 0.0
+        vehicle = self._of_numbers(numbers, changes)
         if self._given:
             texts = {name: text for name, text in self._given.items() if name not in changes}
             if {"vx", "vy"} & changes.keys():
@@ -235,9 +235,9 @@ class Vehicle(_Written):
 
     def _told(self, texts: dict[str, str] | None) -> Vehicle:
         """The same vehicle, with the texts that its numbers were given as."""
-        told: Vehicle = object.__new__(Vehicle)
-        told.__setstate__({**self.__getstate__(), "_given": dict(texts) if texts else self._given})
-        return told
+        vehicle: Vehicle = object.__new__(Vehicle)
+        vehicle.__setstate__({**self.__getstate__(), "_given": dict(texts) if texts else self._given})
+        return vehicle
 
     @property
     def q(self) -> Any:
