@@ -353,8 +353,8 @@ class Impact:
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
 
-        The case is solved again by itself, so it agrees with the batch within the accuracy promised, and a case that was refused
-        raises the error that says why.
+        The case is solved again by itself, so it agrees with the batch within the accuracy promised, and a case that was
+        refused raises the error that says why.
 
         Parameters
         ----------

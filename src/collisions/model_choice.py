@@ -72,8 +72,8 @@ class ModelChoice(Shown):
         Why, in a sentence.
     errors : mapping of float or array [m/s]
         By cheaper model, what it is predicted to err by: hypot of the delta-V vector and of radius of gyration times yaw rate,
-        for the worse of both vehicles. NaN where it cannot be estimated or the case is refused, infinite where only that model has
-        no answer.
+        for the worse of both vehicles. NaN where it cannot be estimated or the case is refused, infinite where only that model
+        has no answer.
     missing : mapping of tuple of str
         By model, what it still needs, such as "a.yaw_inertia" or "point".
     tolerance : float or array [m/s]
