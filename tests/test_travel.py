@@ -840,7 +840,7 @@ def test_paths_in_units_of_every_kind():
         (STRAIGHT, [0, 0, 0], {"friction": pint.Quantity(math.nan), "lock": 1}, "not_finite", "friction must be finite"),
         (STRAIGHT, [0, 0, 0], {"friction": [0.7, -1], "lock": 1}, "bad_friction", "friction[1] must be >= 0"),
         (STRAIGHT, [0, 0, 0], {"friction": [0.7], "lock": 1}, "bad_shape", "friction is a list of 1, and there are 2 segments"),
-        (STRAIGHT, [0, 0, 0], {"friction": np.ones(2), "lock": np.ones(3)}, "bad_shape", "friction[0] (2,)"),
+        (STRAIGHT, [0, 0, 0], {"friction": np.ones(2), "lock": np.ones(3)}, "bad_shape", "friction (2,)"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": 1.01}, "bad_fraction", "lock must be from 0 to 1, got 1.01"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": [1, -0.1]}, "bad_fraction", "lock[1] must be from 0 to 1"),
         (STRAIGHT, [0, 0, 0], {"friction": 0.7, "lock": math.nan}, "bad_fraction", "lock must be from 0 to 1, got nan"),
@@ -960,7 +960,7 @@ def test_what_is_documented_of_each_function(function):
 
 def test_every_function_of_travel_has_a_docstring():
     """Also those that are not public, where a name is shared between the files."""
-    for module in (travel.chain, travel.places, travel.run_out, travel.surfaces, travel.straight):
+    for module in (travel.run_out, travel.surfaces, travel.straight):
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__ and not name.startswith("_"):
                 assert member.__doc__, name
@@ -984,6 +984,13 @@ def test_an_empty_list_is_said_to_be_empty_and_nothing_else():
     """What stands beside it is not wrong because of it."""
     error = refusal(lambda: travel.speed([], drag=[0.7], grade=[0.0]))
     assert str(error) == "distance is an empty list; give at least one segment"
+
+
+def test_no_distance_in_many_cases_is_an_answer_for_each():
+    """Not one number for all, and not one for a drag that no surface has."""
+    assert travel.time(0.0, drag=np.array([0.5, 0.7])).tolist() == [0.0, 0.0]
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases cannot be answered and are NaN"):
+        assert np.isnan(travel.time(0.0, drag=np.array([-0.5, 0.7]))).tolist() == [True, False]
 
 
 def test_a_heading_beyond_float32_beside_float32_headings():

@@ -17,8 +17,7 @@ from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, lock, numeric
 from .reading import ArgumentReader, broadcast, warn_if_large, widened
-from .travel.chain import GRAVITY, out_of_range
-from .travel.surfaces import one_value, read_drag
+from .travel.surfaces import GRAVITY, one_value, out_of_range, read_drag
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly, warn_of_cases

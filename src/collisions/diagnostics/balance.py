@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ..errors import Status
 from ..reference import restitution_range
-from ..travel.chain import GRAVITY
+from ..travel.surfaces import GRAVITY
 from .case import RATIO_OFF_BY, Balance, off_by, share
 from .finding import Finding
 

@@ -5,6 +5,8 @@ Nothing here is a default of a solver. ``PUBLISHED`` lists every value, ``FITS``
 
 from .contact import (
     CONTACT_DURATION,
+    IMPULSE_RATIO_OBLIQUE,
+    IMPULSE_RATIO_SMALL_OVERLAP,
     INTER_VEHICLE_FRICTION,
     RESTITUTION,
     RESTITUTION_FIT,
@@ -12,18 +14,14 @@ from .contact import (
     RESTITUTION_LOW_SPEED,
     RESTITUTION_OBLIQUE,
     RESTITUTION_SMALL_OVERLAP,
+    SHARE_OF_CRITICAL_OBLIQUE,
+    SHARE_OF_CRITICAL_SMALL_OVERLAP,
     restitution,
     restitution_range,
 )
 from .ground import DRAG_FACTORS, drag_factor
 from .inertia import YAW_INERTIA_RECTANGLE, YAW_INERTIA_WHEELBASE, yaw_inertia
 from .published import Fit, Published
-from .ratios import (
-    IMPULSE_RATIO_OBLIQUE,
-    IMPULSE_RATIO_SMALL_OVERLAP,
-    SHARE_OF_CRITICAL_OBLIQUE,
-    SHARE_OF_CRITICAL_SMALL_OVERLAP,
-)
 
 PUBLISHED: tuple[Published, ...] = (
     RESTITUTION,

@@ -1,4 +1,4 @@
-"""Restitution, friction between vehicles, and how long they touch."""
+"""The contact of vehicles: restitution, friction, impulse ratios, and how long they touch."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from ..errors import InputError
 from ..reading import ArgumentReader
 from ..units import Input, Value, shown
 from .published import Fit, Outside, Published, check_outside, settle
-from .ratios import OBLIQUE_TESTS, SMALL_OVERLAP_TESTS
 
 _MPH = 0.44704
 _PYCRASH = "https://github.com/joe-cormier/pycrash"
@@ -19,6 +18,16 @@ _EDCRASH = (
     "EDCRASH manual, chapter 6, Coefficient of Restitution Warnings (Engineering Dynamics Corporation; "
     "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH/06-messages.md)"
 )
+_OBLIQUE_TESTS = (
+    "Rose, Fenton and Beauchamp, SAE 2006-01-0908, NHTSA tests 4363, 4364, 4438 and 4474, as in "
+    "https://github.com/joe-cormier/pycrash (test_inputs_rose.py)"
+)
+_SMALL_OVERLAP_TESTS = (
+    "ten small-overlap barrier tests in https://github.com/joe-cormier/pycrash "
+    "(projects/validation impact momentum/docs/Brach Matrix.xlsx)"
+)
+_OBLIQUE = "oblique frontal impact of car and car or sport utility vehicle, 35 mph each"
+_SMALL_OVERLAP = "cars of 2008 to 2012 into a barrier, 40 mph, 20 or 25 percent of the width"
 
 RESTITUTION_FIT = Fit(
     name="restitution against closing speed",
@@ -56,7 +65,7 @@ RESTITUTION_OBLIQUE = Published(
     low=0.089,
     high=0.150,
     unit="",
-    source=OBLIQUE_TESTS,
+    source=_OBLIQUE_TESTS,
     domain="car into car or utility vehicle, 35 mph each, along the contact normal, closing speed 23.4 and 24.4 m/s in two",
     quality="Four tests; how the paper arrived at the values could not be checked.",
 )
@@ -65,7 +74,7 @@ RESTITUTION_SMALL_OVERLAP = Published(
     low=0.0,
     high=0.253,
     unit="",
-    source=SMALL_OVERLAP_TESTS,
+    source=_SMALL_OVERLAP_TESTS,
     domain="cars of 2008 to 2012, 40 mph, 20 or 25 percent of the width; closing speed along the contact normal 3.8 to 5.0 m/s",
     quality="Fitted to measured motion; some yaw inertias behind the fit are borrowed from another car.",
 )
@@ -95,6 +104,42 @@ INTER_VEHICLE_FRICTION = Published(
         "A recommendation from use, not a measurement. The same page reports that Marine (SAE 2007-01-0744) has values far "
         "above 1; pycrash has 0.3 as default."
     ),
+)
+IMPULSE_RATIO_OBLIQUE = Published(
+    name="impulse ratio, magnitude, oblique frontal tests",
+    low=0.40,
+    high=0.51,
+    unit="",
+    source=_OBLIQUE_TESTS,
+    domain=_OBLIQUE,
+    quality="Four tests; the critical ratio of each, which follows from geometry and speeds: no measurement of its own.",
+)
+IMPULSE_RATIO_SMALL_OVERLAP = Published(
+    name="impulse ratio, magnitude, small overlap with a barrier",
+    low=1.57,
+    high=2.05,
+    unit="",
+    source=_SMALL_OVERLAP_TESTS,
+    domain=_SMALL_OVERLAP,
+    quality="Fitted to measured motion; above 1, because parts snag: no Coulomb friction.",
+)
+SHARE_OF_CRITICAL_OBLIQUE = Published(
+    name="share of the critical impulse ratio, oblique frontal tests",
+    low=1.0,
+    high=1.0,
+    unit="",
+    source=_OBLIQUE_TESTS,
+    domain=_OBLIQUE,
+    quality="Used by the authors for four tests; the delta-Vs that follow from it are their solution, not a measurement.",
+)
+SHARE_OF_CRITICAL_SMALL_OVERLAP = Published(
+    name="share of the critical impulse ratio, small overlap with a barrier",
+    low=0.823,
+    high=1.0,
+    unit="",
+    source=_SMALL_OVERLAP_TESTS,
+    domain=_SMALL_OVERLAP,
+    quality="Fitted to measured motion in ten tests.",
 )
 CONTACT_DURATION = Published(
     name="duration of contact",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from itertools import pairwise
 from typing import Any
@@ -11,21 +11,30 @@ from typing import Any
 import numpy as np
 
 from ..amounts import at_least_zero
-from ..directions import angle_of
-from ..errors import InputError, OutOfRangeWarning
+from ..directions import Angle, angle_of
+from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, safe_divisor, select
 from ..quantities import Shown, derived, hypot, numeric
 from ..quantities import lock as write_locked
-from ..reading import ArgumentReader, broadcast, warn_if_large, widened
-from ..units import Input, Pair, Value, shown
+from ..reading import ArgumentReader, warn_if_large
+from ..units import Input, Pair, Value, is_quantity, shown
 from ..warning import warn
-from .chain import durations_along, out_of_range, speeds_along
-from .lanes import settle
-from .places import in_radians, read_headings, read_points, turns_too_far
-from .surfaces import HIGHEST_DRAG, Segments, for_each, one_value, read_grade, read_speed
+from .surfaces import (
+    HIGHEST_DRAG,
+    Segments,
+    durations_along,
+    for_each,
+    in_one_precision,
+    one_value,
+    out_of_range,
+    read_grade,
+    read_speed,
+    settle,
+    speeds_along,
+)
 
-# For the friction of a tyre, which is checked here: the reader lets it be infinite, as between vehicles.
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
+_HALF_TURN = math.pi * (1.0 + 1e-9)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -169,34 +178,29 @@ def path(
     60.0
     """
     reader = ArgumentReader()
-    places = read_points(reader, points)
-    angles = read_headings(reader, headings, None if places is None else len(places))
+    places = _read_points(reader, points)
+    headed = _read_headings(reader, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
     frictions = for_each(reader, friction, "friction", legs, _read_friction)
     locks = for_each(reader, lock, "lock", legs, _read_lock)
     grades = for_each(reader, grade, "grade", legs, read_grade)
     end = read_speed(reader, end_speed, "end_speed")
     reader.close()
-    places = places or []
-    named = {f"points[{i}][{axis}]": part for i, point in enumerate(places) for axis, part in enumerate(point)}
-    of_segments = {"friction": frictions, "lock": locks, "grade": grades}
-    for name, parts in (("headings", [angle.value for angle in angles]), *of_segments.items()):
-        named |= {f"{name}[{i}]": part for i, part in enumerate(parts)}
-    named["end_speed"] = end
-    shape = broadcast(named)
-    if shape is not None:
-        named = dict(zip(named, widened(named.values()), strict=True))
-        places = [(named[f"points[{i}][0]"], named[f"points[{i}][1]"]) for i in range(len(places))]
-        angles = [angle._replace(value=named[f"headings[{i}]"]) for i, angle in enumerate(angles)]
-        frictions, locks, grades = ([named[f"{name}[{i}]"] for i in range(len(parts))] for name, parts in of_segments.items())
-        end = named["end_speed"]
-    turned = [in_radians(angle) for angle in angles]
+    placed = {f"points[{i}]": place for i, place in enumerate(places or ())}
+    arguments = {"headings": [angle.value for angle in headed], "friction": frictions, "lock": locks, "grade": grades}
+    lists, named, shape = in_one_precision(placed | arguments | {"end_speed": [end]})
+    *points, values, frictions, locks, grades, (end,) = lists
     with np.errstate(all="ignore"):
-        run = _run_out(places, turned, frictions, locks, grades, end)
-        gaps = durations_along([_length(step) for step in _steps(places)], grades, run.speeds)
+        turned = [_in_radians(angle._replace(value=value)) for angle, value in zip(headed, values, strict=True)]
+        run, gaps = _run_out(points, turned, frictions, locks, grades, end)
         answered = run.time + run.distance + run.yaw_rate
         if shape is not None:
-            run = _settled(run, _lane_checks(places, turned, named, [*gaps, answered]), shape)
+            checks = [("coincident_points", np.equal(x0, x1) & np.equal(y0, y1)) for (x0, y0), (x1, y1) in pairwise(points)]
+            checks += [("turns_too_far", abs(after - before) > _HALF_TURN) for before, after in pairwise(turned)]
+            checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
+            checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
+            checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
+            run = _settled(run, named, shape, checks)
         elif not (min(gaps) > 0.0 and math.isfinite(answered)):
             raise out_of_range()
     _warn_of_wide_segments(turned, locks)
@@ -204,19 +208,19 @@ def path(
 
 
 def _run_out(
-    places: Sequence[tuple[Any, Any]],
+    places: Sequence[Sequence[Any]],
     turned: Sequence[Any],
     frictions: Sequence[Any],
     locks: Sequence[Any],
     grades: Sequence[Any],
     end: Any,
-) -> RunOut:
-    """The run-out of numbers, of one case or of many."""
-    steps = _steps(places)
-    lengths = [_length(step) for step in steps]
+) -> tuple[RunOut, list[Any]]:
+    """The run-out of numbers, of one case or of many, and how long each segment takes."""
+    steps = [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
+    lengths: list[Any] = [hypot(dx, dy) for dx, dy in steps]
     crabs = [
         _wrapped(before + 0.5 * (after - before) - numeric(dx, dy).atan2(dy, dx))
-        for (dx, dy), before, after in zip(steps, turned, turned[1:], strict=False)
+        for (dx, dy), (before, after) in zip(steps, pairwise(turned), strict=True)
     ]
     drags = [
         mu * hypot(numeric(crab).sin(crab), part * numeric(crab).cos(crab))
@@ -224,9 +228,9 @@ def _run_out(
     ]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
     durations = durations_along(lengths, grades, speeds)
-    return RunOut(
+    run = RunOut(
         speed=speeds[0],
-        course=angle_of(_at_start([dx for dx, _ in steps], lengths), _at_start([dy for _, dy in steps], lengths)),
+        course=angle_of(*(_at_start([step[axis] for step in steps], lengths) for axis in (0, 1))),
         yaw_rate=_at_start([after - before for before, after in pairwise(turned)], durations),
         time=sum(durations),
         distance=sum(lengths),
@@ -235,48 +239,17 @@ def _run_out(
         crab_angles=tuple(crabs),
         drags=tuple(drags),
     )
+    return run, durations
 
 
-def _steps(places: Sequence[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
-    return [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
-
-
-def _length(step: tuple[Any, Any]) -> Any:
-    return hypot(*step)
-
-
-def _lane_checks(
-    places: Sequence[tuple[Any, Any]], turned: Sequence[Any], named: dict[str, Any], answers: Sequence[Any]
-) -> Iterator[tuple[str, Any]]:
-    """What the reader asks of single numbers, of the cases of a batch; then what came of them."""
-    below = {"friction": "bad_friction", "lock": "bad_fraction", "end_speed": "negative_speed"}
-    for value in named.values():
-        yield "not_finite", ~np.isfinite(value)
-    for name, value in named.items():
-        if (kind := name.partition("[")[0]) in below:
-            yield below[kind], np.less(value, 0.0)
-        if kind == "lock":
-            yield "bad_fraction", np.greater(value, 1.0)
-    for one, other in pairwise(places):
-        yield "coincident_points", np.equal(one[0], other[0]) & np.equal(one[1], other[1])
-    for before, after in pairwise(turned):
-        yield "turns_too_far", turns_too_far(after - before)
-    for answer in answers:
-        yield "contradictory", np.isnan(answer)
-    for answer in answers:
-        yield "out_of_range", np.isinf(answer)
-    for duration in answers[:-1]:
-        yield "out_of_range", np.less_equal(duration, 0.0)
-
-
-def _settled(run: RunOut, checks: Iterator[tuple[str, Any]], shape: tuple[int, ...]) -> RunOut:
+def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks: Sequence[tuple[str, Any]]) -> RunOut:
     """The answers of a batch, NaN where a case has none, all of its shape and locked."""
-    named = {f.name: getattr(run, f.name) for f in fields(run)}
-    flat = [part for value in named.values() for part in (value if isinstance(value, tuple) else (value,))]
-    settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, checks, shape))))
+    of_run = {f.name: getattr(run, f.name) for f in fields(run)}
+    flat = [part for value in of_run.values() for part in (value if isinstance(value, tuple) else (value,))]
+    settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, named, shape, checks))))
     answers: dict[str, Any] = {
         name: tuple(next(settled) for _ in value) if isinstance(value, tuple) else next(settled)
-        for name, value in named.items()
+        for name, value in of_run.items()
     }
     return RunOut(**answers)
 
@@ -296,6 +269,110 @@ def _wrapped(angle: Any) -> Any:
     else:
         rest = angle - 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
     return select(rest <= -math.pi, math.pi, rest + 0.0)
+
+
+def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, shape: str) -> list[Any] | None:
+    """The entries of a list, or the rows of an array of shape (n,) or (n, 2); None if it is neither."""
+    if isinstance(value, (list, tuple)):
+        return list(value)
+    count = len(reader.problems)
+    read = reader.number(value, unit, name)
+    got = read.shape if isinstance(read, np.ndarray) else ()
+    if len(got) == shape.count("n") + shape.count("2") and got[1:] in ((), (2,)):
+        rows: list[Any] = read.tolist()
+        return rows
+    if len(reader.problems) == count:
+        what = f"an array of shape {got}" if got else "one number"
+        text = f"{name} is {what}; give a list with one for each point, or an array of shape {shape}"
+        reader.refuse(ShapeError(text, code="bad_shape", argument=name))
+    return None
+
+
+def _read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | None:
+    """The positions, at least two and of a single case no two in a row alike; None if they could not be read."""
+    parts = _parts(reader, points, "m", "points", "(n, 2)")
+    if parts is None:
+        return None
+    wrong = len(reader.problems)
+    places = []
+    for i, part in enumerate(parts):
+        name = f"points[{i}]"
+        if not _is_pair(part):
+            reader.refuse(ShapeError(f"{name} must be a pair (x, y), got {shown(part)}", code="bad_shape", argument=name))
+            continue
+        places.append(reader.pair(part, "m", name))
+    if len(reader.problems) > wrong:
+        return None
+    if len(places) < 2:
+        text = f"points holds {len(places)}, and a path needs at least two: separation first, the end of the run-out last"
+        reader.refuse(ShapeError(text, code="too_few_points", argument="points"))
+        return None
+    for i, (before, after) in enumerate(pairwise(places)):
+        if all(isinstance(part, float) for part in (*before, *after)) and before == after:
+            reader.refuse(
+                InputError(
+                    f"points[{i}] and points[{i + 1}] are the same place ({before[0]:.6g}, {before[1]:.6g}), which has no "
+                    f"course; leave one out",
+                    code="coincident_points",
+                    argument="points",
+                )
+            )
+    return places
+
+
+def _is_pair(value: Any) -> bool:
+    whole = value.magnitude if is_quantity(value) else value
+    if isinstance(whole, np.ndarray):
+        return whole.ndim == 1 and len(whole) == 2
+    return isinstance(whole, (list, tuple)) and len(whole) == 2
+
+
+def _read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> list[Angle]:
+    """One heading for each point; ``count`` is None if the points could not be read."""
+    # Counted on through turns, headings grow beyond the size at which the reader suspects degrees; it looks at the first alone.
+    reader.trusted = ("headings",)
+    parts = _parts(reader, headings, "rad", "headings", "(n,)")
+    if parts is None:
+        return []
+    reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
+    wrong = len(reader.problems)
+    angles = [_read_heading(reader, part, f"headings[{i}]") for i, part in enumerate(parts)]
+    if len(reader.problems) > wrong:
+        return []
+    turned = [_in_radians(angle) for angle in angles]
+    if count is not None and len(turned) != count:
+        text = f"headings holds {len(turned)} and points holds {count}; give one heading for each point"
+        reader.refuse(ShapeError(text, code="bad_shape", argument="headings"))
+    for i, (before, after) in enumerate(pairwise(turned)):
+        if not (isinstance(before, float) and isinstance(after, float)):
+            continue
+        turn = after - before
+        if abs(turn) > _HALF_TURN:
+            part = headings[i + 1] if isinstance(headings, (list, tuple)) else headings
+            bare = not (isinstance(part, str) or is_quantity(part))
+            radians = f"; bare numbers are radians, so write degrees as '{after:.6g} deg'" if bare else ""
+            reader.refuse(
+                InputError(
+                    f"headings[{i}] to headings[{i + 1}] turn by {math.degrees(turn):.6g} deg, and at most half a turn can be "
+                    f"told: count headings on without a jump at a full turn (350 deg, then 370 deg), and give points between "
+                    f"for a faster spin{radians}",
+                    code="turns_too_far",
+                    argument="headings",
+                )
+            )
+            break
+    return angles
+
+
+def _in_radians(heading: Angle) -> Any:
+    """A float stays one."""
+    return heading.value * (math.pi / 180.0) if heading.in_degrees else heading.value
+
+
+def _read_heading(reader: ArgumentReader, value: Any, name: str) -> Angle:
+    if isinstance(value, (list, tuple)):
+        return Angle(one_value(reader, value, "rad", name), False)
+    return Angle(*reader.angle(value, name))
 
 
 def _leg(i: int) -> str:

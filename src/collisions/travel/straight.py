@@ -9,11 +9,22 @@ import numpy as np
 
 from ..errors import NoSolutionError, ShapeError
 from ..kernels.elementwise import select
-from ..reading import ArgumentReader, broadcast, widened
+from ..reading import ArgumentReader
 from ..units import Input, Value
-from .chain import GRAVITY, durations_along, out_of_range, speeds_along
-from .lanes import settle
-from .surfaces import Segments, for_each, read_drag, read_grade, read_length, read_speed
+from .surfaces import (
+    GRAVITY,
+    Segments,
+    durations_along,
+    for_each,
+    in_one_precision,
+    out_of_range,
+    read_drag,
+    read_grade,
+    read_length,
+    read_speed,
+    settle,
+    speeds_along,
+)
 
 
 def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
@@ -77,7 +88,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     """
     run = _Run(distance, drag, grade, end_speed)
     with np.errstate(all="ignore"):
-        start: Value = run.settle(run.speeds()[0])
+        start: Value = _answer(run.speeds()[0], run.named, run.shape)
     return start
 
 
@@ -129,9 +140,8 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     slope = read_grade(reader, grade, "grade")
     end = read_speed(reader, end_speed, "end_speed")
     reader.close()
-    named = {"speed": start, "drag": slowing, "grade": slope, "end_speed": end}
-    broadcast(named)
-    start, slowing, slope, end = widened(named.values())
+    lists, named, shape = in_one_precision({"speed": [start], "drag": [slowing], "grade": [slope], "end_speed": [end]})
+    (start,), (slowing,), (slope,), (end,) = lists
     with np.errstate(all="ignore"):
         drop = slowing + slope
         change = start - end
@@ -143,8 +153,8 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         fits = ((change > 0.0) & (drop > 0.0)) | ((change < 0.0) & (drop < 0.0)) | ((change == 0.0) & (drop != 0.0))
         rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
         found = change / rate * (start + end) + 0.0
-        settled: Value = _settle(select(fits, found, math.nan), named)
-    return settled
+        answer: Value = _answer(select(fits, found, math.nan), named, shape)
+    return answer
 
 
 def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
@@ -184,7 +194,8 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     """
     run = _Run(distance, drag, grade, end_speed)
     with np.errstate(all="ignore"):
-        total: Value = run.settle(sum(durations_along(run.lengths, run.grades, run.speeds()), start=0.0))
+        durations = durations_along(run.lengths, run.grades, run.speeds())
+        total: Value = _answer(sum(durations, start=0.0), run.named, run.shape)
     return total
 
 
@@ -199,26 +210,19 @@ class _Run:
                 ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance")
             )
         count = (len(length) or None) if listed else 0
-        self.listed = listed
-        self.lengths = for_each(reader, length, "distance", count, read_length)
+        self.segment = "distance[{}]" if listed else "distance"
+        lengths = for_each(reader, length, "distance", count, read_length)
         drags = for_each(reader, drag, "drag", count, read_drag)
-        self.grades = for_each(reader, grade, "grade", count, read_grade)
-        self.end = read_speed(reader, end_speed, "end_speed")
+        grades = for_each(reader, grade, "grade", count, read_grade)
+        end = read_speed(reader, end_speed, "end_speed")
         reader.close()
-        self.named = {"end_speed": self.end}
-        for name, values, given in (("distance", self.lengths, length), ("drag", drags, drag), ("grade", self.grades, grade)):
-            self.named |= {f"{name}[{i}]" if isinstance(given, (list, tuple)) else name: part for i, part in enumerate(values)}
-        broadcast(self.named)
-        *self.lengths, self.end = widened((*self.lengths, self.end), self.named.values())
-        drags, self.grades = (widened(values, self.named.values()) for values in (drags, self.grades))
+        arguments = {"end_speed": [end], "distance": lengths, "drag": drags, "grade": grades}
+        ((self.end,), self.lengths, drags, self.grades), self.named, self.shape = in_one_precision(arguments)
         with np.errstate(all="ignore"):
             self.drops = [slowing + slope for slowing, slope in zip(drags, self.grades, strict=True)]
 
     def speeds(self) -> list[Any]:
-        return speeds_along(self.lengths, self.drops, self.end, lambda i: f"distance[{i}]" if self.listed else "distance")
-
-    def settle(self, found: Any) -> Any:
-        return _settle(found, self.named)
+        return speeds_along(self.lengths, self.drops, self.end, self.segment.format)
 
 
 def _never_gets_there(start: float, end: float, drop: float) -> NoSolutionError | None:
@@ -242,25 +246,10 @@ def _never_gets_there(start: float, end: float, drop: float) -> NoSolutionError 
     return None
 
 
-def _settle(found: Any, named: dict[str, Any]) -> Any:
-    """The answer; lanes of a batch that have none are NaN, and one warning says how many and why."""
-    if not isinstance(found, np.ndarray):
+def _answer(found: Any, named: dict[str, Any], shape: tuple[int, ...] | None) -> Any:
+    """The answer, refused if a single one is none; of a batch those cases are NaN, and one warning says how many and why."""
+    if shape is None:
         if not math.isfinite(found):
             raise out_of_range()
         return found
-    settled: Any = settle([found], _lane_checks(found, named), found.shape)[0]
-    return settled
-
-
-def _lane_checks(found: Any, named: dict[str, Any]) -> list[tuple[str, Any]]:
-    """What the reader asks of single numbers, of the lanes of arrays; then what came of them."""
-    arrays = [(name.partition("[")[0], value) for name, value in named.items() if isinstance(value, np.ndarray)]
-    negative = {
-        "distance": "negative_distance",
-        "drag": "negative_drag",
-        "speed": "negative_speed",
-        "end_speed": "negative_speed",
-    }
-    checks: list[tuple[str, Any]] = [("not_finite", ~np.isfinite(value)) for _, value in arrays]
-    checks += [(negative[name], value < 0.0) for name, value in arrays if name in negative]
-    return [*checks, ("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))]
+    return settle([found], named, shape, [("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))])[0]

@@ -1,24 +1,39 @@
-"""The reader of travel: drag, grade, lengths and speeds, one value or one for each segment."""
+"""Surfaces one after another: lengths, drags, grades and speeds read, and the balance of energy backward along them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from ..amounts import at_least_zero
-from ..errors import ShapeError, UnitsError
-from ..kernels.elementwise import FINITE, Domain
-from ..reading import ArgumentReader, warn_if_large
+from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError, UnitsError
+from ..kernels.elementwise import FINITE, Domain, select
+from ..quantities import hypot, numeric
+from ..reading import ArgumentReader, broadcast, warn_if_large, widened
 from ..units import Input, is_quantity, shown
-from .chain import GRAVITY
+from ..warning import warn_of_cases
 
 Segments: TypeAlias = Input | Sequence[Input]
 _Reader: TypeAlias = Callable[[ArgumentReader, Any, str], Any]
 
+GRAVITY = 9.80665
+"""Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half of that."""
+
 # No road tyre holds more than this on any road, and no road is steeper: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
 _STEEPEST_GRADE = 0.5
+# What the reader refuses of a single number, by argument; the cases of arrays are looked at here.
+_BELOW_ZERO = {
+    "distance": "negative_distance",
+    "drag": "negative_drag",
+    "speed": "negative_speed",
+    "end_speed": "negative_speed",
+    "friction": "bad_friction",
+    "lock": "bad_fraction",
+}
 
 
 def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, read: _Reader) -> list[Any]:
@@ -100,3 +115,110 @@ def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:
     read = one_value(reader, value, "", name)
     warn_if_large(value, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
     return read
+
+
+def in_one_precision(
+    arguments: Mapping[str, Sequence[Any]],
+) -> tuple[list[list[Any]], dict[str, Any], tuple[int, ...] | None]:
+    """The numbers of each argument, widened to the precision of all; every number by name; and the shape of a batch."""
+    named: dict[str, Any] = {}
+    for name, parts in arguments.items():
+        one_for_all = all(part is parts[0] for part in parts)
+        named |= {name: parts[0]} if one_for_all else {f"{name}[{i}]": part for i, part in enumerate(parts)}
+    shape = broadcast(named)
+    values = iter(widened([part for parts in arguments.values() for part in parts]))
+    return [[next(values) for _ in parts] for parts in arguments.values()], named, shape
+
+
+def speeds_along(lengths: Sequence[Any], drops: Sequence[Any], end: Any, name: Callable[[int], str]) -> list[Any]:
+    """Speed at every point, start to end, chained backward; NaN in the cases of a batch that contradict themselves."""
+    speeds = [end]
+    for i in range(len(lengths) - 1, -1, -1):
+        after = speeds[-1]
+        gained = _root(2.0 * GRAVITY * abs(drops[i])) * _root(lengths[i])
+        # Downhill beyond the drag: the root of the difference of squares, without the squares that overflow.
+        falling = _root(after - gained) * _root(after + gained)
+        before = select(drops[i] >= 0.0, hypot(after, gained), falling)
+        # A vehicle that nothing slows does not come to rest, unless it has not moved.
+        before = select((drops[i] <= 0.0) & (after == 0.0) & (lengths[i] > 0.0), math.nan, before)
+        if isinstance(before, float) and not math.isfinite(before):
+            raise _contradiction(name(i), drops[i], after, gained)
+        speeds.append(before)
+    return speeds[::-1]
+
+
+def _root(value: Any) -> Any:
+    """Square root, NaN below 0."""
+    if isinstance(value, float):
+        return math.sqrt(value) if value >= 0.0 else math.nan
+    return np.sqrt(value)
+
+
+def _contradiction(where: str, drop: float, after: float, gained: float) -> CollisionsError:
+    """Why no speed before a segment leads to the speed after it."""
+    if drop > 0.0 or math.isinf(gained):
+        return out_of_range()
+    if drop == 0.0:
+        return NoSolutionError(
+            f"{where}: drag + grade is 0, so nothing slows the vehicle there, and it is to come to rest; correct "
+            f"what slows it, or give an end_speed",
+            code="contradictory",
+            missing=0.0,
+        )
+    missing = (after - gained) * (after + gained)
+    return NoSolutionError(
+        f"{where}: drag + grade is {drop:.6g}, so the vehicle speeds up there, from rest already to {gained:.6g} m/s, and is "
+        f"to end at {after:.6g} m/s; the square of its speed before would be {missing:.6g} m2/s2. Correct the sign of the "
+        f"grade, the drag, or the end_speed",
+        code="contradictory",
+        missing=missing,
+    )
+
+
+def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Sequence[Any]) -> list[Any]:
+    """Time over each segment, along its slope: at a constant deceleration the mean speed is half the sum."""
+    found = []
+    for plan, grade, before, after in zip(lengths, grades, speeds, speeds[1:], strict=False):
+        length = plan * numeric(grade).hypot(1.0, grade)
+        double = before + after
+        duration = 2.0 * length / select(double == 0.0, math.nan, double)
+        # A speed beyond floats would make it 0, which looks like an answer.
+        found.append(select(length == 0.0, 0.0, select(double == math.inf, math.inf, duration)))
+    return found
+
+
+def out_of_range() -> InputError:
+    """The refusal of a single case whose answer is no finite number."""
+    return InputError(
+        "the answer is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
+    )
+
+
+def settle(
+    found: Sequence[Any], named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]
+) -> list[Any]:
+    """The answers of a batch, NaN where an argument is refused or a check holds; one warning counts the first reasons."""
+    reasons = [("not_finite", ~np.isfinite(value)) for value in named.values()]
+    for name, value in named.items():
+        code = _BELOW_ZERO.get(name.partition("[")[0])
+        if code is not None:
+            reasons.append((code, np.less(value, 0.0)))
+        if code == "bad_fraction":
+            reasons.append((code, np.greater(value, 1.0)))
+    answered = np.ones(shape, dtype=bool)
+    counts: dict[str, int] = {}
+    for code, cases in (*reasons, *checks):
+        hit = answered & cases
+        if hit.any():
+            counts[code] = counts.get(code, 0) + int(np.count_nonzero(hit))
+            answered &= ~hit
+    if counts:
+        listed = ", ".join(f"{count} {code}" for code, count in counts.items())
+        warn_of_cases(
+            CollisionsWarning(
+                f"{sum(counts.values())} of {answered.size} cases cannot be answered and are NaN ({listed})",
+                code="refused_cases",
+                counts=counts,
+            )
+        )
+    return [select(answered, answer, np.nan) if counts else np.broadcast_to(answer, shape) for answer in found]
