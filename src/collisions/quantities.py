@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Generic, Never, TypeVar, overload
 import numpy as np
 
 from .errors import MissingInputError, Status
+from .formatting import in_words
 from .units import Value, to_quantity
 
 T = TypeVar("T")
@@ -147,11 +148,6 @@ def hypot(x: Value, y: Value) -> Value:
     """Length of a vector, without the squares that overflow."""
     length: Value = numeric(x, y).hypot(x, y)
     return length
-
-
-def in_words(value: float) -> str:
-    """What is said in place of a number that is NaN or infinite."""
-    return "not defined" if math.isnan(value) else "infinite"
 
 
 def show(value: Any, unit: str | None = None) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
 from ..errors import InputError
-from ..quantities import in_words
+from ..formatting import in_words
 from ..unit_systems import decimals_of, scale_of, unit_of
 
 # Labels of units with their powers.

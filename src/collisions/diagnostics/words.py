@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..quantities import in_words
+from ..formatting import in_words
 from ..reading import ArgumentReader
 from ..unit_systems import bad_system, decimals_of, scale_of, unit_of
 

@@ -5,12 +5,11 @@ on the ``axes`` given, or on a new figure, and returns the Axes. ``units`` is "s
 (mph, ft, degrees, lbf s, ft lbf). What was drawn can be found again by its ``get_gid()``, which is also its id in an SVG file.
 """
 
-from .contributions import contributions
 from .energy import energy
 from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
 from .scene import scene
-from .uncertainty import distribution
+from .uncertainty import contributions, distribution
 
 __all__ = ["contributions", "distribution", "energy", "force_time", "impulse_plane", "momentum", "scene"]

@@ -7,9 +7,9 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
+from ..formatting import in_words, places, with_decimals
 from ..impact import Impact
 from ..one_case import need_one_case
-from ..quantities import in_words
 from ..unit_systems import KIND_OF, SI_UNITS, bad_system, decimals_of, scale_of, unit_of
 from ..units import shown
 from ..vehicle import Vehicle
@@ -21,7 +21,7 @@ INK, GREY, LIGHT = "#1a1a1a", "#6a6a6a", "#d0d0d0"
 SIDES = ("a", "b")
 COLOURS = ("#1f5fa8", "#b3541e")
 FORCE = "#a01040"
-THIN = "\u2009"  # between thousands
+THIN, MINUS = "\u2009", "\u2212"  # between thousands, and before a number
 _WIDTH = 26  # letters of a name on one line
 _MOST_DECIMALS = 6
 SMALLEST, LARGEST = 1e-100, 1e100
@@ -55,10 +55,10 @@ class Units:
         """A number in this SI unit with the unit it is shown in."""
         kind, name = _kind(unit), self.name(unit)
         decimals = None if kind is None else decimals_of(kind, self._system)
-        told = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
+        text = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
         if not math.isfinite(value):
-            return told
-        return f"{told}{'' if name[:1] in ('°', '') else ' '}{name}"
+            return text
+        return f"{text}{'' if name[:1] in ('°', '') else ' '}{name}"
 
 
 def _kind(unit: str) -> str | None:
@@ -66,20 +66,16 @@ def _kind(unit: str) -> str | None:
 
 
 def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
-    """Four digits, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
+    """Four figures, without an exponent where people expect none, and no more decimals than these unless all would be 0."""
     size = abs(value)
     if not math.isfinite(value):
         return in_words(value)
     if size != 0.0 and not 1e-4 <= size < 1e9:
         text = f"{value:.3e}"
     else:
-        beyond = 0 if size == 0.0 else 3 - math.floor(math.log10(size))
-        # 999.96 becomes 1000.
-        digits = max(0, beyond - (abs(round(value, beyond)) >= 10.0 ** (4 - beyond)))
-        digits = min(digits, decimals) if size >= 0.5 * 10.0**-decimals else digits
-        # Once only: 128.529 is 128.5 to four digits, and 129 to the whole.
-        text = f"{round(value, min(digits, beyond)):,.{digits}f}".replace(",", THIN)
-    return text.replace("-", "\u2212")
+        wanted = 0 if size == 0.0 else places(value, 4)
+        text = with_decimals(value, min(wanted, decimals) if size >= 0.5 * 10.0**-decimals else wanted, THIN)
+    return text.replace("-", MINUS)
 
 
 def answered(impact: Any, function: str) -> Impact:

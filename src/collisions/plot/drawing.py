@@ -1,8 +1,9 @@
-"""Arrows, and labels that keep clear of them and of each other."""
+"""Arrows that are not drawn on each other, and labels that keep clear of them."""
 
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,10 @@ _TURNS = tuple(math.radians(angle) for angle in (0, 20, -20, 40, -40, 60, -60, 9
 # Of the larger extent: what is left free around, and the least there is of the other one.
 _MARGIN, _STRIP = 0.14, 0.42
 _AWAY = (5.0, 14.0, 26.0, 42.0, 60.0)
+# All within this of one line hide each other: sine of the angle.
+ALONG_ONE_LINE = 0.03
+APART = 0.045  # of the size of the scene: between arrows that would hide each other
+_WIDE = 0.04  # of the size of the scene: what is nearer to an arrow is beneath it
 
 
 class _Label(NamedTuple):
@@ -116,41 +121,29 @@ class Drawing:
         inside = np.array(self.axes.bbox.extents) * points
         boxes: list[_Box] = []
         areas = {index: np.array(in_points(corners)) * points for index, corners in self._areas.items()}
-        for places, text, direction, colour, of in self._labels:
-            foreign = [] if of is None else [area for index, area in areas.items() if index != of]
-            rows = text.split("\n")
+        for label in self._labels:
+            foreign = [area for index, area in areas.items() if label.of not in (None, index)]
+            rows = label.text.split("\n")
             size = _FONT * _LETTER * max(map(len, rows)), _FONT * _LINE * len(rows)
-            along = math.atan2(direction[1], direction[0])
-            _, best, place, at = min(
-                (
-                    (
-                        _cost(box, at, lines, boxes, inside)
-                        + 0.4 * distance
-                        + 3.0 * abs(turn)
-                        + 2.0 * later
-                        + 300.0 * sum(_on(box, area) for area in foreign),
-                        box,
-                        place,
-                        at,
-                    )
-                    for later, place in enumerate(places)
-                    for at in [in_points(place) * points]
-                    for distance in _AWAY
-                    for turn in _TURNS
-                    for box in [_box(at, size, along + turn, distance)]
-                ),
-                key=lambda found: found[0],
-            )
+            along = math.atan2(label.direction[1], label.direction[0])
+            tried: list[tuple[float, _Box, Place, Any]] = []
+            for later, place in enumerate(label.places):
+                at = in_points(place) * points
+                for distance, turn in product(_AWAY, _TURNS):
+                    box = _box(at, size, along + turn, distance)
+                    cost = _cost(box, at, lines, boxes, inside) + 0.4 * distance + 3.0 * abs(turn) + 2.0 * later
+                    tried.append((cost + 300.0 * sum(_on(box, area) for area in foreign), box, place, at))
+            _, best, place, at = min(tried, key=lambda one: one[0])
             boxes.append(best)
             self.axes.annotate(
-                text,
+                label.text,
                 xy=place,
                 xytext=(0.5 * (best[0] + best[2]) - at[0], 0.5 * (best[1] + best[3]) - at[1]),
                 textcoords="offset points",
                 ha="center",
                 va="center",
                 fontsize=_FONT,
-                color=colour,
+                color=label.colour,
                 parse_math=False,
                 annotation_clip=False,
                 zorder=6,
@@ -197,3 +190,67 @@ def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:
         on_way = (gap[:, 0] * lines[:, 1] - gap[:, 1] * lines[:, 0]) / turn
         on_line = (gap[:, 0] * way[1] - gap[:, 1] * way[0]) / turn
     return (on_way > 0.05) & (on_way < 1.0) & (on_line > 0.0) & (on_line < 1.0)
+
+
+def covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
+    """Whether one arrow lies on another one; ``longest`` says what counts as near."""
+    length, size = math.hypot(*vector), math.hypot(*along)
+    gap = start[0] - other[0], start[1] - other[1]
+    if abs(cross(vector, along)) > ALONG_ONE_LINE * length * size or abs(cross(gap, along)) > 0.02 * longest * size:
+        return False
+    begin_at = (gap[0] * along[0] + gap[1] * along[1]) / size
+    end_at = begin_at + (vector[0] * along[0] + vector[1] * along[1]) / size
+    return min(max(begin_at, end_at), size) - max(min(begin_at, end_at), 0.0) > 0.02 * longest
+
+
+def cross(one: Place, other: Place) -> float:
+    """What one has across the other."""
+    return one[0] * other[1] - one[1] * other[0]
+
+
+def beside(place: Place, direction: Place, far: float = 1.0) -> Place:
+    """The place so far away in a direction, or at the tip of a vector from there."""
+    return place[0] + far * direction[0], place[1] + far * direction[1]
+
+
+def off_line(place: Place, start: Place, vector: Place) -> float:
+    """How far a place is from an arrow."""
+    length = math.hypot(*vector)
+    along = vector[0] / length, vector[1] / length
+    way = (place[0] - start[0]) * along[0] + (place[1] - start[1]) * along[1]
+    nearest = beside(start, along, min(max(way, 0.0), length))
+    return math.hypot(place[0] - nearest[0], place[1] - nearest[1])
+
+
+class Arrows:
+    """The arrows drawn so far, so that none is drawn on another one; ``size`` is that of the whole scene."""
+
+    def __init__(self) -> None:
+        self.size = 0.0
+        self.moved = False
+        self._drawn: list[tuple[Place, Place]] = []
+
+    def hides(self, start: Place, vector: Place) -> bool:
+        """Whether an arrow would lie on one of them."""
+        return any(covers(start, vector, *other, self.size) or self._buries(start, vector, *other) for other in self._drawn)
+
+    def _buries(self, start: Place, vector: Place, other: Place, along: Place) -> bool:
+        """Whether the shorter of two arrows lies wholly beneath the line and the head of the longer."""
+        if math.hypot(*vector) > math.hypot(*along):
+            start, vector, other, along = other, along, start, vector
+        return all(off_line(place, other, along) < _WIDE * self.size for place in (start, beside(start, vector)))
+
+    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
+        """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
+        length = max(math.hypot(*vector) for _, vector in arrows)
+        if length == 0.0:
+            return arrows
+        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
+        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
+        found, steps = arrows, 0
+        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
+            steps += 1
+            found = [(beside(start, aside, steps * APART * self.size), vector) for start, vector in arrows]
+        self.moved = self.moved or steps > 0
+        self._drawn += [(start, vector) for start, vector in found if vector != (0.0, 0.0)]
+        return found

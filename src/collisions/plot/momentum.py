@@ -10,8 +10,7 @@ from ..impact import Impact
 from ..side import Side
 from ..unit_systems import UnitSystem
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
-from .drawing import Drawing, Place
-from .lanes import ALONG_ONE_LINE, beside, covers, cross
+from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

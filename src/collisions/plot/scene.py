@@ -11,13 +11,11 @@ from ..errors import InputError
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..reading import ArgumentReader
-from ..side import Side
 from ..unit_systems import UnitSystem
 from ..units import shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, answered, begin, tidy, who
-from .drawing import Drawing, Place
-from .lanes import APART, Lanes, beside
+from .drawing import APART, Arrows, Drawing, Place, beside
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -105,106 +103,57 @@ def scene(
         lacking = next(i for i, side in enumerate(sides) if side.before.x is None or side.before.y is None)
         name = "x" if sides[lacking].before.x is None else "y"
         raise missing(sides[lacking].before, name, "a picture with an outline", SIDES[lacking])
-    length = labels.factor("m")
-
-    def scaled(place: Place) -> Place:
-        return place[0] * length, place[1] * length
-
     axes = begin(axes, (7.5, 6.5))
-    drawing = Drawing(axes)
-    known = [scaled(place) for place in centres if place is not None]
-    known += [scaled(corner) for rectangle in corners for corner in rectangle]
-    known += [scaled(side.before.pivot) for side in sides if side.before.pivot is not None]
-    known.append(scaled(contact))
-    size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
-    farthest = max(abs(part) for place in known for part in place)
-    if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
-        raise InputError(
-            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from "
-            f"the origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
-            code="out_of_range",
-            argument="impact",
-        )
-    # Where all is in one place, or as good as, nothing tells the size of the bodies.
-    if sketched or size <= 1e-6 * farthest:
-        size = max(size, 4.0 * length)
-    drawing.include(*known)
+    picture = _Picture(axes, labels)
+    at, bodies = picture.scaled(contact), [place and picture.scaled(place) for place in centres]
+    outlines = [[picture.scaled(corner) for corner in outline] for outline in corners]
+    pins = [side.before.pivot and picture.scaled(side.before.pivot) for side in sides]
+    known = [place for place in (*bodies, *outlines[0], *outlines[1], *pins, at) if place is not None]
+    picture.drawing.include(*known)
+    picture.arrows.size = size = _size(known, labels, sketched)
 
-    n, at = impact.normal, scaled(contact)
-    speed_scale = _scale([state.speed for side in sides for state in _states(side, moment)], labels.factor("m/s"), 0.55 * size)
-    impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
-    pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]
-    impulse_scale = _scale([impulse, *pulls], labels.factor("N*s"), 0.3 * size) if moment != "before" else 0.0
-    for index, side in enumerate(sides):
-        place = centres[index]
+    for index, (side, place, pin) in enumerate(zip(sides, bodies, pins, strict=True)):
         if place is None:
-            _draw_wall(drawing, at, n, index, size, side)
+            picture.wall(at, impact.normal, index, side.before)
         else:
-            _draw_body(drawing, scaled(place), index, side, [scaled(corner) for corner in corners[index]], labels)
-        if side.before.pivot is not None:
-            pin = scaled(side.before.pivot)
-            axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
-            drawing.avoid(pin, pin)
-            drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
-    wheres = [at if place is None else scaled(place) for place in centres]
-    lanes = Lanes(size)
-    for when in _MOMENTS[moment]:
+            picture.body(place, index, side.before, outlines[index])
+        if pin is not None:
+            picture.pivot(pin, index)
+    moments = _MOMENTS[moment]
+    speeds = [getattr(side, when).speed for side in sides for when in moments]
+    speed_scale = _scale(speeds, labels.factor("m/s"), 0.55 * size)
+    for when in moments if speed_scale else ():
         for index, side in enumerate(sides):
-            if speed_scale:
-                share = labels.factor("m/s") / speed_scale
-                _draw_velocity(drawing, wheres[index], index, getattr(side, when), when, labels, share, lanes)
-    if impulse_scale:
-        share = labels.factor("N*s") / impulse_scale
-        starts = [at if impact.point is not None or place is None else scaled(place) for place in centres]
-        arrows: list[tuple[Place, Place]] = [
-            (start, (float(side.impulse_x) * share, float(side.impulse_y) * share))
-            for start, side in zip(starts, sides, strict=True)
-        ]
-        # Both the same way, so that they still are seen to be equal and opposite.
-        for index, (start, vector) in enumerate(lanes.free(arrows)):
-            tip = start[0] + vector[0], start[1] + vector[1]
-            drawing.arrow(start, tip, f"impulse.{SIDES[index]}", colour=FORCE, width=2.6)
-            drawing.label(tip, f"impulse on {'AB'[index]}\n{labels.text(impulse, 'N*s')}", vector, FORCE, of=index)
-        for index, side in enumerate(sides):
-            if pulls[index] > _NOTHING * impulse and side.before.pivot is not None:
-                pull = float(side.pivot_impulse_x) * share, float(side.pivot_impulse_y) * share
-                ((start, pull),) = lanes.free([(scaled(side.before.pivot), pull)])
-                tip = beside(start, pull, 1.0)
-                drawing.arrow(start, tip, f"pivot_impulse.{SIDES[index]}", colour=FORCE, width=1.6)
-                told = f"impulse of the pivot on {'AB'[index]}\n{labels.text(pulls[index], 'N*s')}"
-                drawing.label(tip, told, pull, FORCE, of=index)
-    _draw_frame(drawing, at, n, lanes, marked=impact.point is not None)
+            picture.velocity(bodies[index] or at, index, getattr(side, when), when, labels.factor("m/s") / speed_scale)
+    starts = [at if impact.point is not None or place is None else place for place in bodies]
+    impulse_scale = picture.impulses(impact, starts, pins) if moment != "before" else 0.0
+    picture.frame(at, impact.normal, marked=impact.point is not None)
 
     scales = [("velocities", speed_scale, "m/s"), ("impulses", impulse_scale, "N*s")]
-    step = labels.name("m")
-    told = "; ".join(
-        f"{what}: 1 {step} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)}" for what, scale, unit in scales if scale
+    stated = "; ".join(
+        f"{what}: 1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)}"
+        for what, scale, unit in scales
+        if scale
     )
     note = "not all positions given: a sketch, places not to scale\n" if sketched else ""
-    note += "arrows that would hide each other are drawn side by side\n" if lanes.moved else ""
-    axes.set_xlabel(f"{labels.label('x', 'm')}\n{note}{told and f'arrows: {told}'}".rstrip())
+    note += "arrows that would hide each other are drawn side by side\n" if picture.arrows.moved else ""
+    axes.set_xlabel(f"{labels.label('x', 'm')}\n{note}{stated and f'arrows: {stated}'}".rstrip())
     axes.set_ylabel(labels.label("y", "m"))
     axes.set_title(_TITLES[moment], fontsize=10.5)
     if sketched:
         axes.set(xticks=[], yticks=[])
     # Coordinates of a national grid have seven digits before the point, and all of them count.
     tidy(axes, (-3, 8))
-    drawing.finish()
+    picture.drawing.finish()
     return axes
-
-
-def _states(side: Side, moment: str) -> list[Vehicle]:
-    return [getattr(side, when) for when in _MOMENTS[moment]]
 
 
 def _places(impact: Impact) -> tuple[list[Place | None], Place, bool]:
     """Both centres of mass, None for what only its contact is known of; the contact; and whether they are only a sketch."""
     states = impact.a.before, impact.b.before
-    given: list[Place | None] = [
-        None if state.x is None or state.y is None else (float(state.x), float(state.y)) for state in states
-    ]
+    given: list[Place | None] = [None if state.x is None or state.y is None else (state.x, state.y) for state in states]
     if impact.point is not None:
-        return given, (float(impact.point[0]), float(impact.point[1])), False
+        return given, impact.point, False
     one, other = given
     if one is not None and other is not None:
         return given, (0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])), False
@@ -228,6 +177,21 @@ def _corners(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Pla
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]
 
 
+def _size(known: list[Place], labels: Units, sketched: bool) -> float:
+    """The larger extent of the places, or of vehicles where these are all in one."""
+    size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
+    farthest = max(abs(part) for place in known for part in place)
+    length = labels.factor("m")
+    if max(size, 4.0 * length) < _RESOLVED * farthest or size > LARGEST:
+        raise InputError(
+            f"there is no picture of {labels.text(size / length, 'm')} that lies {labels.text(farthest / length, 'm')} from "
+            f"the origin of its coordinates; count x and y from a place near the contact, and check positions and outlines",
+            code="out_of_range",
+            argument="impact",
+        )
+    return max(size, 4.0 * length) if sketched or size <= 1e-6 * farthest else size
+
+
 def _scale(values: list[float], factor: float, reach: float) -> float:
     """How much one unit of length stands for: 1, 2 or 5 times a power of ten, so that the longest stays within the reach."""
     largest = max(values) * factor
@@ -238,81 +202,107 @@ def _scale(values: list[float], factor: float, reach: float) -> float:
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 
 
-def _draw_frame(drawing: Drawing, at: Place, n: Place, lanes: Lanes, marked: bool) -> None:
-    """The line of impact, the normal and the tangent, and the contact point where the model has one."""
-    t, size = (-n[1], n[0]), lanes.size
-    # Through both centres of mass where these lie on it.
-    for vector, reach, name in ((n, 0.42 if marked else 0.62, "normal"), (t, 0.28, "tangent")):
-        while lanes.hides(beside(at, vector, reach * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
-            reach += APART
-        tip = at[0] + reach * size * vector[0], at[1] + reach * size * vector[1]
-        tail = at[0] - reach * size * vector[0], at[1] - reach * size * vector[1]
-        drawing.line(
-            tail, tip, f"line of the {name}", color=GREY, lw=0.9, ls=(0, (6, 3)) if name == "normal" else ":", zorder=1
-        )
-        head = at[0] + (reach + 0.06) * size * vector[0], at[1] + (reach + 0.06) * size * vector[1]
-        drawing.arrow(tip, head, name, colour=GREY, width=1.2)
-        drawing.label(head, f"{name[0]} ({name})", vector, INK)
-    if marked:
-        drawing.axes.plot(*at, "X", ms=9, mfc=INK, mec="white", zorder=7, gid="contact")
-        drawing.label(at, "contact", (-n[0] - t[0], -n[1] - t[1]))
+class _Picture:
+    """What is drawn of a scene, in the units of its labels."""
 
+    def __init__(self, axes: Axes, labels: Units) -> None:
+        self.axes, self.labels = axes, labels
+        self.drawing, self.arrows = Drawing(axes), Arrows()
 
-def _draw_wall(drawing: Drawing, at: Place, n: Place, index: int, size: float, side: Side) -> None:
-    """A body without a place is met along the tangent: a hatched edge."""
-    away = 1.0 if index else -1.0
-    along = -n[1] * 0.32 * size, n[0] * 0.32 * size
-    deep = away * 0.05 * size * n[0], away * 0.05 * size * n[1]
-    one, other = (at[0] - along[0], at[1] - along[1]), (at[0] + along[0], at[1] + along[1])
-    drawing.axes.fill(
-        [one[0], other[0], other[0] + deep[0], one[0] + deep[0]],
-        [one[1], other[1], other[1] + deep[1], one[1] + deep[1]],
-        fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1, gid=f"{SIDES[index]}.wall",
-    )  # fmt: skip
-    drawing.include(one, other)
-    drawing.avoid(one, other)
-    corner = one[0] + deep[0], one[1] + deep[1]
-    drawing.label(corner, who(index, side.before), (away * n[0], away * n[1]), COLOURS[index], of=index)
+    def scaled(self, place: Place) -> Place:
+        """A place in metres in the unit of the axes."""
+        return place[0] * self.labels.factor("m"), place[1] * self.labels.factor("m")
 
+    def wall(self, at: Place, n: Place, index: int, vehicle: Vehicle) -> None:
+        """A body without a place is met along the tangent: a hatched edge."""
+        away, size = 1.0 if index else -1.0, self.arrows.size
+        along = -n[1] * 0.32 * size, n[0] * 0.32 * size
+        deep = away * 0.05 * size * n[0], away * 0.05 * size * n[1]
+        one, other = beside(at, along, -1.0), beside(at, along)
+        edge = [one, other, beside(other, deep), beside(one, deep)]
+        self.axes.fill(
+            *zip(*edge, strict=True),
+            fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1, gid=f"{SIDES[index]}.wall",
+        )  # fmt: skip
+        self.drawing.include(one, other)
+        self.drawing.avoid(one, other)
+        self.drawing.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
 
-def _draw_body(drawing: Drawing, place: Place, index: int, side: Side, corners: list[Place], labels: Units) -> None:
-    letter, colour = SIDES[index], COLOURS[index]
-    if corners:
-        # The front edge is the heavy one.
-        drawing.axes.fill(
-            [x for x, _ in corners],
-            [y for _, y in corners],
-            fc=f"{colour}14",
-            ec=colour,
-            lw=1.4,
-            zorder=2,
-            gid=f"{letter}.outline",
-        )
-        drawing.area(index, corners)
-        (x0, y0), (x1, y1) = corners[:2]
-        drawing.axes.plot([x0, x1], [y0, y1], color=colour, lw=4, solid_capstyle="butt", zorder=3, gid=f"{letter}.front")
-        for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
-            drawing.avoid(one, other)
-    marker = "os"[index]
-    drawing.axes.plot(*place, marker, ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
-    drawing.avoid(place, place)
-    drawing.label(place, who(index, side.before), (0.0, 1.0), colour, of=index)
+    def body(self, place: Place, index: int, vehicle: Vehicle, corners: list[Place]) -> None:
+        """The centre of mass, and the outline where it was given, its front edge the heavy one."""
+        letter, colour = SIDES[index], COLOURS[index]
+        if corners:
+            x, y = zip(*corners, strict=True)
+            self.axes.fill(x, y, fc=f"{colour}14", ec=colour, lw=1.4, zorder=2, gid=f"{letter}.outline")
+            self.drawing.area(index, corners)
+            self.axes.plot(x[:2], y[:2], color=colour, lw=4, solid_capstyle="butt", zorder=3, gid=f"{letter}.front")
+            for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
+                self.drawing.avoid(one, other)
+        self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
+        self.drawing.avoid(place, place)
+        self.drawing.label(place, who(index, vehicle), (0.0, 1.0), colour, of=index)
 
+    def pivot(self, pin: Place, index: int) -> None:
+        """Where a body is pinned."""
+        self.axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
+        self.drawing.avoid(pin, pin)
+        self.drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
 
-def _draw_velocity(
-    drawing: Drawing, place: Place, index: int, state: Vehicle, when: str, labels: Units, share: float, lanes: Lanes
-) -> None:
-    """The velocity before ends at the centre of mass, the one after starts there."""
-    letter, colour = SIDES[index], COLOURS[index]
-    text = f"{'AB'[index]} {when}: {labels.text(state.speed, 'm/s')}"
-    if state.yaw_rate:
-        text += f"\nyaw {labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
-    vector = float(state.vx) * share, float(state.vy) * share
-    start = (place[0] - vector[0], place[1] - vector[1]) if when == "before" else place
-    ((start, vector),) = lanes.free([(start, vector)])
-    tip = start[0] + vector[0], start[1] + vector[1]
-    style: Any = (0, (4, 2)) if when == "before" else "-"
-    drawing.arrow(start, tip, f"{letter}.{when}", colour=colour, style=style, width=2.0)
-    away = (0.0, -1.0) if not state.speed else vector if when == "after" else (-vector[0], -vector[1])
-    if state.speed or state.yaw_rate or not math.isinf(state.mass):
-        drawing.label(start if when == "before" else tip, text, away, colour, of=index)
+    def velocity(self, place: Place, index: int, state: Vehicle, when: str, share: float) -> None:
+        """The velocity before ends at the centre of mass, the one after starts there."""
+        text = f"{'AB'[index]} {when}: {self.labels.text(state.speed, 'm/s')}"
+        if state.yaw_rate:
+            text += f"\nyaw {self.labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
+        before = when == "before"
+        vector: Place = (state.vx * share, state.vy * share)
+        ((start, vector),) = self.arrows.free([(beside(place, vector, -1.0) if before else place, vector)])
+        tip = beside(start, vector)
+        style: Any = (0, (4, 2)) if before else "-"
+        self.drawing.arrow(start, tip, f"{SIDES[index]}.{when}", colour=COLOURS[index], style=style, width=2.0)
+        away = (0.0, -1.0) if not state.speed else (-vector[0], -vector[1]) if before else vector
+        if state.speed or state.yaw_rate or not math.isinf(state.mass):
+            self.drawing.label(start if before else tip, text, away, COLOURS[index], of=index)
+
+    def impulses(self, impact: Impact, starts: list[Place], pins: list[Place | None]) -> float:
+        """The impulse on both from these places, and that of each pivot; how much one unit of length stands for."""
+        sides = impact.a, impact.b
+        impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
+        pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]
+        factor = self.labels.factor("N*s")
+        scale = _scale([impulse, *pulls], factor, 0.3 * self.arrows.size)
+        if not scale:
+            return 0.0
+        share = factor / scale
+        vectors = [(side.impulse_x * share, side.impulse_y * share) for side in sides]
+        # Both the same way, so that they still are seen to be equal and opposite.
+        for index, (start, vector) in enumerate(self.arrows.free(list(zip(starts, vectors, strict=True)))):
+            text = f"impulse on {'AB'[index]}\n{self.labels.text(impulse, 'N*s')}"
+            self._impulse(start, vector, f"impulse.{SIDES[index]}", text, index, 2.6)
+        for index, (side, pull, pin) in enumerate(zip(sides, pulls, pins, strict=True)):
+            if pull > _NOTHING * impulse and pin is not None:
+                vector = side.pivot_impulse_x * share, side.pivot_impulse_y * share
+                ((start, vector),) = self.arrows.free([(pin, vector)])
+                text = f"impulse of the pivot on {'AB'[index]}\n{self.labels.text(pull, 'N*s')}"
+                self._impulse(start, vector, f"pivot_impulse.{SIDES[index]}", text, index, 1.6)
+        return scale
+
+    def _impulse(self, start: Place, vector: Place, gid: str, text: str, index: int, width: float) -> None:
+        tip = beside(start, vector)
+        self.drawing.arrow(start, tip, gid, colour=FORCE, width=width)
+        self.drawing.label(tip, text, vector, FORCE, of=index)
+
+    def frame(self, at: Place, n: Place, marked: bool) -> None:
+        """The line of impact, the normal and the tangent, and the contact point where the model has one."""
+        t, size = (-n[1], n[0]), self.arrows.size
+        styles: Any = ((n, 0.42 if marked else 0.62, "normal", (0, (6, 3))), (t, 0.28, "tangent", ":"))
+        # Through both centres of mass where these lie on it.
+        for vector, out, name, style in styles:
+            while self.arrows.hides(beside(at, vector, out * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
+                out += APART
+            tip, tail, head = (beside(at, vector, far * size) for far in (out, -out, out + 0.06))
+            self.drawing.line(tail, tip, f"line of the {name}", color=GREY, lw=0.9, ls=style, zorder=1)
+            self.drawing.arrow(tip, head, name, colour=GREY, width=1.2)
+            self.drawing.label(head, f"{name[0]} ({name})", vector, INK)
+        if marked:
+            self.axes.plot(*at, "X", ms=9, mfc=INK, mec="white", zorder=7, gid="contact")
+            self.drawing.label(at, "contact", (-n[0] - t[0], -n[1] - t[1]))

@@ -1,17 +1,24 @@
-"""How an uncertain output is distributed: shares of the cases, their mean, and the range that holds most of them."""
+"""How an uncertain output is distributed, and which input matters: its shares of the variance with their standard errors."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..errors import InputError
+from ..formatting import with_decimals
 from ..uncertainty.bounds import Bounds
 from ..uncertainty.output import COVERAGE, Output
+from ..uncertainty.result import Propagation
 from ..unit_systems import UnitSystem
-from .canvas import FORCE, GREY, INK, LIGHT, Units, begin, drawable, legend_below, number, tidy
+from ..units import shown
+from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, drawable, in_lines, legend_below, number, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
 def distribution(
@@ -100,3 +107,124 @@ def distribution(
     tidy(axes)
     legend_below(axes)
     return axes
+
+
+def contributions(
+    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem = "si"
+) -> Axes:
+    """What share of the variance of an output each input brings: by itself (bar), and with all it takes part in (diamond).
+
+    The figure of each stands beside it. To know an input exactly would take the share of its bar away. Horizontal lines are
+    standard errors on both sides; a local method has none. Where diamond and bar differ, inputs act together.
+
+    Parameters
+    ----------
+    result : Propagation or Output
+        What ``uncertainty.propagate`` returned, or one output of it.
+    output : str, optional
+        Which output; needed if there is more than one.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        Of the standard deviation in the title, where the model returned Quantities.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Bars by gid: "share of ..." with the name of the input; the diamonds are the line "total". Their figures are "own of
+        ..." and "total of ...".
+
+    Raises
+    ------
+    InputError
+        Not a result, an output that is not there, an Interval among the inputs, or no variance to share.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    >>> from collisions import plot, uncertainty
+    >>> known = {"mass": uncertainty.Normal("1200 kg", "30 kg"), "speed": uncertainty.Normal("20 m/s", "0.5 m/s")}
+    >>> model = lambda mass, speed: {"energy": 0.5 * mass * speed**2}
+    >>> axes = plot.contributions(uncertainty.propagate(model, known, method="first_order"))
+    >>> [label.get_text() for label in axes.get_yticklabels()]
+    ['speed', 'mass']
+    """
+    labels = Units(units)
+    found = _output(result, output)
+    own, total, errors = found.contributions, found.total_contributions, found.contribution_standard_errors
+    names = list(own)
+    figures = np.array([(own[name], total[name], *errors[name]) for name in names])
+    if not names or not np.all(np.isfinite(figures[:, :2])):
+        raise InputError(
+            f"{found.name!r} has no variance to share: it does not differ from case to case, or has too few answers",
+            code="no_variance",
+            argument="result",
+        )
+    axes = begin(axes, (6.5, 1.9 + 0.42 * len(names)))
+    rows = np.arange(len(names))
+    percent = 100.0 * figures
+    known = np.isfinite(percent[:, 2:])
+    for row, name in enumerate(names):
+        axes.barh(
+            row, percent[row, 0], height=0.6, fc="#c9d6e6", ec=INK, hatch="///", lw=1.0, gid=f"share of {name}", zorder=2,
+            label=None if row else "by itself",
+        )  # fmt: skip
+    axes.plot(
+        percent[:, 1], rows + _ASIDE, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none", zorder=5, gid="total",
+        label="with all it takes part in",
+    )  # fmt: skip
+    for column, aside in ((0, -_ASIDE), (1, _ASIDE)):
+        if known[:, column].all():
+            axes.errorbar(
+                percent[:, column], rows + aside, xerr=percent[:, 2 + column], fmt="none", ecolor=INK, lw=1.4, capsize=3,
+                zorder=4, label=None if column else "standard error",
+            )  # fmt: skip
+    # Each figure beside its own mark: that of the bar above, that of the diamond below.
+    ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
+    for row, share in enumerate(percent[:, :2]):
+        for column, (before, aside) in enumerate((("", -_ASIDE), ("in all ", _ASIDE))):
+            axes.annotate(
+                f"{before}{with_decimals(share[column], 1)} %".replace("-", MINUS), (max(ends[row, column], 0.0), row + aside), (9, 0),
+                textcoords="offset points", va="center", fontsize=9, annotation_clip=False,
+                gid=f"{('own', 'total')[column]} of {names[row]}",
+            )  # fmt: skip
+    axes.set_yticks(rows, [in_lines(name, most=2) for name in names], parse_math=False)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.axvline(0.0, color=INK, lw=0.9)
+    axes.set_xlim(min(0.0, 1.1 * float(percent[:, :2].min())), 1.24 * max(float(ends.max()), 1.0))
+    axes.set_xlabel("share of the variance [%]")
+    spread = labels.text(found.std, found.unit) if found.unit else f"{found.std:.4g}"
+    axes.set_title(
+        f"{in_lines(found.name, 50)}: standard deviation {spread}\nshares sum to {percent[:, 0].sum():.0f} %",
+        fontsize=10.5,
+        parse_math=False,
+    )
+    axes.grid(axis="x", color=GREY, alpha=0.25, lw=0.6)
+    axes.set_axisbelow(True)
+    tidy(axes)
+    legend_below(axes, 3)
+    return axes
+
+
+def _output(result: Any, output: Any) -> Output:
+    if isinstance(result, Output) and output is None:
+        return result
+    if not isinstance(result, Propagation):
+        what = f"{type(result).__name__}" if not isinstance(result, Output) else "an output, and a name beside it"
+        raise InputError(
+            f"result must be what uncertainty.propagate returned, or one output of it without a name, got {what}",
+            code="bad_option",
+            argument="result",
+        )
+    if output is None:
+        if len(result) != 1:
+            raise InputError(
+                f"result has the outputs {', '.join(map(repr, result))}; say which one: output={next(iter(result), '')!r}",
+                code="no_output",
+                argument="output",
+            )
+        output = next(iter(result))
+    if not isinstance(output, str):
+        raise InputError(f"output must be a name, got {shown(output)}", code="no_output", argument="output")
+    return result[output]
