@@ -184,8 +184,9 @@ def contributions(
     ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
     for row, share in enumerate(percent[:, :2]):
         for column, (before, aside) in enumerate((("", -_ASIDE), ("in all ", _ASIDE))):
+            text = f"{before}{with_decimals(share[column], 1)} %".replace("-", MINUS)
             axes.annotate(
-                f"{before}{with_decimals(share[column], 1)} %".replace("-", MINUS), (max(ends[row, column], 0.0), row + aside), (9, 0),
+                text, (max(ends[row, column], 0.0), row + aside), (9, 0),
                 textcoords="offset points", va="center", fontsize=9, annotation_clip=False,
                 gid=f"{('own', 'total')[column]} of {names[row]}",
             )  # fmt: skip
