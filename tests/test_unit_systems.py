@@ -6,7 +6,7 @@ import pytest
 import collisions as col
 from collisions import plot
 from collisions.derivation import explain
-from collisions.derivation.rounding import System
+from collisions.derivation.expressions import System
 from collisions.diagnostics import diagnose
 from collisions.diagnostics.words import Words
 from collisions.plot.canvas import Units

@@ -1,5 +1,5 @@
 """The derivation of an answer with its numbers, step by step, for those who have to check it."""
 
-from .explaining import explain
+from .explain import explain
 
 __all__ = ["explain"]

@@ -1,15 +1,15 @@
-"""How the tangential impulse came about: the rule, the law, and what decided."""
+"""The steps that the models of an impact share: velocities, the tangential impulse, energy, and what the motions tell."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
-from ..impact import Impact
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
-from .expressions import Expression, Symbol, over
+from ..vehicle import Vehicle
+from .expressions import HALF, Direction, Expression, magnitude, over, signed_total, total
 from .page import Page
-from .symbols import Contact, letter
+from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
 
 
 class Mobility(NamedTuple):
@@ -20,103 +20,275 @@ class Mobility(NamedTuple):
     coupling: Expression | None
 
 
-def impulses(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
-    """Both components of the impulse on B."""
-    rule, bound = impact.inputs.rule, impact.inputs.rule_value
-    change = (1.0 + contact.e) * contact.closing
-    if math.isnan(contact.critical.value):
+def components(page: Page, body: Body, s: Symbols) -> None:
+    """The velocity before along n and t."""
+    if body.start.speed == 0.0:
+        page.say(f"The velocity of {body.label} before is 0: {page.shown(body.along('n'))} and {page.shown(body.along('t'))}.")
+        return
+    x, y = body.along("x"), body.along("y")
+    page.equation(f"Velocity of {body.label} before, along the normal", body.along("n"), s.dot(x, y))
+    page.equation(f"Velocity of {body.label} before, along the tangent", body.along("t"), s.cross(x, y))
+
+
+def unmoved(page: Page, body: Body) -> None:
+    """The velocity after of a body of infinite mass."""
+    n, t = body.along("n", AFTER), body.along("t", AFTER)
+    page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
+
+
+def along_tangent(page: Page, body: Body, s: Symbols) -> None:
+    """The velocity after of a body that is free to move, along the tangent."""
+    before, after = body.along("t"), body.along("t", AFTER)
+    caption = f"Velocity of {body.label} after, along the tangent"
+    if s.tangential.value == 0.0:
+        page.equation(f"{caption}, as before", after, before)
+    else:
+        page.equation(caption, after, before.plus(body.sign, s.tangential / body.mass))
+
+
+def scene_axes(page: Page, body: Body, s: Symbols) -> None:
+    """The velocity after in scene axes, where they are not those of the contact."""
+    n, t, x, y = (body.along(direction, AFTER) for direction in "ntxy")
+    if s.impact.normal == (1.0, 0.0):
+        same = " and ".join(f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
+        page.say(f"The normal is the x axis and the tangent the y axis, so {same}.")
+        return
+    page.equation(f"Velocity of {body.label} after, along x", x, s.scene("x", n, t))
+    page.equation(f"Velocity of {body.label} after, along y", y, s.scene("y", n, t))
+
+
+def impulses(page: Page, s: Symbols, k: Mobility) -> None:
+    """Both components of the impulse on B, by the tangential rule that was given."""
+    rule, value = s.impact.inputs.rule, s.impact.inputs.rule_value
+    change = (1.0 + s.e) * s.closing
+    if math.isnan(s.critical.value):
         page.say(
             "The contact has one degree of freedom, so the impulse that just stops the slip and the critical impulse ratio are "
             "not defined."
         )
-    if rule == FRICTION and bound == 0.0:
-        page.say(f"Without friction the impulse is along the normal alone, as in the paper: {page.shown(contact.tangential)}.")
-        page.equation("Normal impulse", contact.normal, over(change, k.normal))
-        return
     if rule == IMPULSE_RATIO:
-        page.say(f"The impulse ratio was given: {page.shown(contact.ratio)}, tangential over normal, signed.")
-        _at_ratio(page, contact, change, k)
+        page.say(f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed.")
+    elif value == 0.0:
+        why = {
+            FRICTION: "Without friction the impulse is along the normal alone, as in the paper",
+            CRITICAL_FRACTION: "A critical fraction of 0 leaves no tangential impulse",
+        }
+        page.say(f"{why[rule]}: {page.shown(s.tangential)}.")
+        page.equation("Normal impulse", s.normal, over(change, k.normal))
         return
-    if rule == CRITICAL_FRACTION and bound == 0.0:
-        page.say(f"A critical fraction of 0 leaves no tangential impulse: {page.shown(contact.tangential)}.")
-        page.equation("Normal impulse", contact.normal, over(change, k.normal))
-        return
-    _without_slip(page, impact, contact, k)
-    if rule == CRITICAL_FRACTION:
-        fraction = letter("f", "f", bound, "number")
-        page.say(f"The critical fraction was given: {page.shown(fraction)} of the ratio that just stops the slip.")
-        page.equation("Impulse ratio", contact.ratio, fraction * contact.critical)
-        _at_ratio(page, contact, change, k)
-        return
-    _decide(page, impact, contact, change, k)
+    else:
+        no_slip = Symbol("N_s", s.impact._output("no_slip_normal"), "impulse")
+        no_slip_t = Symbol("T_s", s.impact._output("no_slip_tangential"), "impulse")
+        _without_slip(page, s, k, no_slip, no_slip_t)
+        if rule == CRITICAL_FRACTION:
+            fraction = Symbol("f", value, "number")
+            page.say(f"The critical fraction was given: {page.shown(fraction)} of the ratio that just stops the slip.")
+            page.equation("Impulse ratio", s.ratio, fraction * s.critical)
+        elif _sticks(page, s, no_slip, no_slip_t):
+            page.equation("Normal impulse", s.normal, no_slip)
+            page.equation("Tangential impulse", s.tangential, no_slip_t)
+            return
+    resistance = k.normal if k.coupling is None else k.normal + s.ratio * k.coupling
+    page.equation("Normal impulse", s.normal, over(change, resistance))
+    page.equation("Tangential impulse", s.tangential, s.ratio * s.normal)
 
 
-def _without_slip(page: Page, impact: Impact, contact: Contact, k: Mobility) -> None:
+def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangential: Symbol) -> None:
     """The impulse that stops the slip."""
-    ns, ts = _no_slip(impact)
-    e, s = contact.e, contact.slip
+    law = LAWS[s.impact.law or BRACH]
     page.say(
-        f"The impulse that just stops the slip has the components {page.letter(ns)} and {page.letter(ts)}: with it, "
-        f"{LAWS[impact.law or BRACH].derivation}."
+        f"The impulse that just stops the slip has the components {page.symbol(normal)} and {page.symbol(tangential)}: with "
+        f"it, {law.derivation}."
     )
-    wanted = -s if impact.law == BRACH else -((1.0 + e) * s)
-    change = (1.0 + e) * contact.closing
+    change = (1.0 + s.e) * s.closing
+    stopped = (1.0 + s.e) * s.slip if law.compression_limit else s.slip
     if k.coupling is None:
-        page.equation("Its normal component", ns, over(change, k.normal))
-        page.equation("Its tangential component", ts, over(wanted, k.tangential))
+        page.equation("Its normal component", normal, over(change, k.normal))
+        page.equation("Its tangential component", tangential, over(-stopped, k.tangential))
     else:
         page.say("Both are found from two equations at once:")
-        page.balance("Along the normal", k.normal * ns + k.coupling * ts, change, "speed")
-        page.balance("Along the tangent", k.coupling * ns + k.tangential * ts, wanted, "speed")
+        page.balance("Along the normal", k.normal * normal + k.coupling * tangential, change, "speed")
+        page.balance("Along the tangent", k.coupling * normal + k.tangential * tangential, -stopped, "speed")
         determinant = k.normal * k.tangential - k.coupling.squared()
-        stopped = (1.0 + e) * s if impact.law != BRACH else s
         page.equation(
             "Solved for the normal component (Cramer's rule)",
-            ns,
+            normal,
             (k.tangential * change + k.coupling * stopped) / determinant,
         )
-        page.equation("Solved for the tangential component", ts, -((k.normal * stopped + k.coupling * change) / determinant))
-    if ns.value > 0.0:
-        page.equation("The critical impulse ratio", contact.critical, ts / ns)
+        page.equation(
+            "Solved for the tangential component", tangential, -((k.normal * stopped + k.coupling * change) / determinant)
+        )
+    if normal.value > 0.0:
+        page.equation("The critical impulse ratio", s.critical, tangential / normal)
 
 
-def _decide(page: Page, impact: Impact, contact: Contact, change: Expression, k: Mobility) -> None:
-    """Whether the contact sticks under a friction bound."""
-    ns, ts = _no_slip(impact)
-    mu = letter(r"\mu", "mu", impact.inputs.rule_value, "number")
-    if impact.regime == "sticking":
-        if math.isinf(mu.value):
-            page.say("The friction has no bound and this impulse pushes, so the contact sticks: it is the impulse.")
-        else:
-            page.say(
-                f"The friction allows |{page.letter(contact.ratio)}| up to {page.shown(mu)}. The critical ratio is within "
-                "that and the impulse pushes, so the contact sticks: it is the impulse."
-            )
-        page.equation("Normal impulse", contact.normal, ns)
-        page.equation("Tangential impulse", contact.tangential, ts)
+def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
+    """Whether the contact sticks under a friction bound, and why; if not, with its impulse ratio."""
+    mu = Symbol(r"\mu", s.impact.inputs.rule_value, "number")
+    sticks: bool = s.impact.regime == "sticking"
+    allowed = f"The friction allows |{page.symbol(s.ratio)}| up to {page.shown(mu)}"
+    if sticks and math.isinf(mu.value):
+        page.say("The friction has no bound and this impulse pushes, so the contact sticks: it is the impulse.")
+    elif sticks:
+        page.say(
+            f"{allowed}. The critical ratio is within that and the impulse pushes, so the contact sticks: it is the impulse."
+        )
+    else:
+        pulls = f"the impulse without slip would have to pull ({page.shown(normal)})"
+        why = "the critical ratio is beyond it" if normal.value > 0.0 else pulls
+        page.say(
+            f"{allowed}, and {why}, so the contact slides. The impulse ratio is the bound with the sign of "
+            f"{page.symbol(tangential)} ({page.number(tangential.value, 'impulse')})."
+        )
+        page.equation("Impulse ratio", s.ratio, mu if s.ratio.value >= 0.0 else -mu)
+    return sticks
+
+
+def energy(page: Page, s: Symbols) -> None:
+    """The loss along the normal and along the tangent."""
+    page.heading("Energy")
+    along_n = Symbol(r"\Delta E_n", s.impact.energy_loss_normal, "energy")
+    page.equation("Energy lost along the normal, (8) at the contact", along_n, HALF * (1.0 - s.e) * s.closing * s.normal)
+    if s.tangential.value != 0.0:
+        along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
+        work = -(HALF * s.tangential * (s.slip + s.slip_after))
+        page.equation("Energy lost along the tangent, to the mean of both slips", along_t, work)
+        page.equation("Energy lost", s.loss, along_n + along_t)
+    else:
+        page.equation("Energy lost, as nothing is lost along the tangent", s.loss, along_n)
+    kinetic_energies(page, s)
+
+
+def kinetic_energies(page: Page, s: Symbols) -> None:
+    """The loss as the difference of the kinetic energies, where those are finite."""
+    states = [(body, when, _kinetic_energy(body.state(when))) for body in s.bodies for when in (BEFORE, AFTER)]
+    if any(math.isnan(value) for *_, value in states):
+        page.say("A body turns whose yaw inertia is not known, and so its kinetic energy is not: (7) is no check here.")
         return
-    why = (
-        "the critical ratio is beyond it"
-        if ns.value > 0.0
-        else f"the impulse without slip would have to pull ({page.shown(ns)})"
-    )
+    if any(math.isinf(value) for *_, value in states):
+        page.say("A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is no check here.")
+        return
+    terms: list[tuple[float, Symbol]] = []
+    for body, when, value in states:
+        if body.fixed and not value:
+            page.say(f"{body.label} has an infinite mass and rests {when}, so it has no kinetic energy.")
+            continue
+        sign, prime = (1.0, "") if when == BEFORE else (-1.0, "'")
+        symbol = Symbol(f"T_{body.label}{prime}", value, "energy")
+        terms.append((sign, symbol))
+        parts = _kinetic_terms(body, when)
+        if parts:
+            turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
+            page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, total(*parts))
+        else:
+            page.say(f"{body.label} rests {when}: {page.shown(symbol)}.")
+    before_first = sorted(terms, key=lambda term: -term[0])
+    page.equation("Check: kinetic energies before less those after (7)", s.loss, signed_total(before_first))
+
+
+def _kinetic_terms(body: Body, when: str) -> list[Expression]:
+    """Half of mass times speed squared, and half of yaw inertia times yaw rate squared, as far as they are not 0."""
+    state, terms = body.state(when), list[Expression]()
+    if state.speed:
+        along = [body.axis(axis, when) for axis in "xy"]
+        terms.append(HALF * body.mass * total(*(part.squared() for part in along if part.value)))
+    if state.yaw_rate:
+        # A central model leaves the yaw rate as it was.
+        spin = body.spin(when if body.impact.model == "eccentric" else BEFORE)
+        terms.append(HALF * body.inertia * spin.squared())
+    return terms
+
+
+def _kinetic_energy(vehicle: Vehicle) -> float:
+    """Kinetic energy; NaN of a body that turns and whose yaw inertia is not known."""
+    turns_unknown = vehicle.yaw_inertia is None and vehicle.yaw_rate != 0.0
+    return math.nan if turns_unknown else float(vehicle.kinetic_energy)
+
+
+def motions(page: Page, s: Symbols) -> None:
+    """What is read out of the motions of both vehicles, each from its definition."""
+    page.heading("Delta-V, direction of the force, and motion after")
     page.say(
-        f"The friction allows |{page.letter(contact.ratio)}| up to {page.shown(mu)}, and {why}, so the contact slides. The "
-        f"impulse ratio is the bound with the sign of {page.letter(ts)} ({page.number(ts.value, 'impulse')})."
+        "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse on a vehicle comes from, seen "
+        "from that vehicle: 0 from ahead, positive clockwise. Directions are counted counter-clockwise from the x axis."
     )
-    page.equation("Impulse ratio", contact.ratio, mu if contact.ratio.value >= 0.0 else -mu)
-    _at_ratio(page, contact, change, k)
+    # What a body of infinite mass is pushed by is known from the other one.
+    for body in sorted(s.bodies, key=lambda body: body.fixed):
+        if body.fixed:
+            page.say(f"{body.label} has an infinite mass, so its delta-V is 0.")
+        else:
+            _delta_v(page, body)
+        _pdof(page, s, body)
+        _speed_and_course(page, body)
 
 
-def _at_ratio(page: Page, contact: Contact, change: Expression, k: Mobility) -> None:
-    """Both components at a ratio."""
-    resistance = k.normal if k.coupling is None else k.normal + contact.ratio * k.coupling
-    page.equation("Normal impulse", contact.normal, over(change, resistance))
-    page.equation("Tangential impulse", contact.tangential, contact.ratio * contact.normal)
-
-
-def _no_slip(impact: Impact) -> tuple[Symbol, Symbol]:
-    return (
-        letter("N_s", "N_s", impact._output("no_slip_normal"), "impulse"),
-        letter("T_s", "T_s", impact._output("no_slip_tangential"), "impulse"),
+def seen_from(page: Page, label: str, heading: float, alpha: Symbol, pdof: float) -> None:
+    """The PDOF, from the heading and the direction of the impulse."""
+    psi = Symbol(rf"\psi_{label}", heading, "angle")
+    pi = Symbol(r"\pi", math.pi, "angle")
+    turns = round((pdof - (psi.value - alpha.value)) / math.pi)
+    page.equation(
+        f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)",
+        Symbol(rf"\mathrm{{PDOF}}_{label}", pdof, "angle"),
+        (psi - alpha).plus(turns, abs(turns) * pi),
     )
+
+
+def delta_v(label: str, axis: str, value: float) -> Symbol:
+    """A component of delta-V, or its magnitude if no axis is named."""
+    return Symbol(rf"\Delta v_{{{label}{axis}}}", value, "speed")
+
+
+def impulse_direction(label: str, value: float) -> Symbol:
+    """The direction of the impulse on a vehicle."""
+    return Symbol(rf"\alpha_{label}", value, "angle")
+
+
+def _delta_v_parts(body: Body) -> tuple[Symbol, Symbol]:
+    return delta_v(body.label, "x", body.side.delta_vx), delta_v(body.label, "y", body.side.delta_vy)
+
+
+def _delta_v(page: Page, body: Body) -> None:
+    parts = _delta_v_parts(body)
+    for axis, part in zip("xy", parts, strict=True):
+        before, after = body.axis(axis), body.axis(axis, AFTER)
+        if before.value == 0.0 and after.value == 0.0:
+            page.say(f"{body.label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}.")
+        else:
+            page.equation(f"Delta-V of {body.label} along {axis} (definition)", part, after - before)
+    page.equation(f"Delta-V of {body.label} (definition)", delta_v(body.label, "", body.side.delta_v), magnitude(*parts))
+
+
+def _pdof(page: Page, s: Symbols, body: Body) -> None:
+    side, label = body.side, body.label
+    if body.start.heading is None or side.pdof is None or math.isnan(side.pdof):
+        return
+    alpha = impulse_direction(label, side.impulse_direction)
+    other = s.b if label == "A" else s.a
+    if not body.fixed and not body.pinned:
+        caption = f"Direction of the impulse on {label}, which is that of its delta-V (definition)"
+        pushed = Direction(*_delta_v_parts(body))
+    else:
+        caption = f"Direction of the impulse on {label}, opposite to that on {other.label} (1)"
+        if other.fixed or other.pinned or body.pinned:
+            x, y = s.impulse("x"), s.impulse("y")
+            pushed = Direction(x, y) if label == "B" else Direction(-x, -y)
+        else:
+            x, y = _delta_v_parts(other)
+            pushed = Direction(-x, -y)
+    page.equation(caption, alpha, pushed)
+    seen_from(page, label, body.start.heading, alpha, side.pdof)
+
+
+def _speed_and_course(page: Page, body: Body) -> None:
+    """Speed and course after."""
+    state, label = body.state(AFTER), body.label
+    speed = Symbol(rf"\lvert v_{{{label}}}' \rvert", state.speed, "speed")
+    if page.system.working(state.speed, "speed") == "0":
+        page.say(f"{label} is at rest after: {page.shown(speed)}, and no course.")
+        return
+    # What keeps its velocity keeps the symbols of that before.
+    x, y = (body.axis(axis, BEFORE if body.fixed else AFTER) for axis in "xy")
+    page.equation(f"Speed of {label} after (definition)", speed, magnitude(x, y))
+    course = Symbol(rf"\theta_{{{label}}}'", state.course, "angle")
+    page.equation(f"Course of {label} after (definition)", course, Direction(x, y))

@@ -3,243 +3,270 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from ..impact import Impact
 from ..kernels.eccentric import response
 from ..models import body_numbers
-from .contact import Mobility, impulses
-from .energy import energy
-from .expressions import Expression, Symbol, total
-from .oblique import components, kept, scene_axes
+from .contact import Mobility, along_tangent, components, energy, impulses, scene_axes, unmoved
+from .expressions import Expression, total
 from .page import Page
-from .pinned import moments_about_pivot, turned
-from .symbols import AFTER, BEFORE, COMPRESSED, Body, Contact, bodies, letter
+from .symbols import AFTER, BEFORE, COMPRESSED, Body, Symbol, Symbols
 
 
-class Lever:
-    """The lever of one body: from its centre of mass, or from its pivot, to the contact; and what resists a turn."""
+class Lever(Body):
+    """A body with its lever, from its centre of mass or from its pivot to the contact, and with what resists a turn."""
 
-    def __init__(self, body: Body) -> None:
-        impact, label = body.impact, body.label
-        vehicle = body.start
+    def __init__(self, impact: Impact, label: str) -> None:
+        super().__init__(impact, label)
         assert impact.point is not None
-        self.body = body
-        self.pinned = vehicle.pivot is not None
-        mass, inertia, vx, vy, _, x, y, pivot_x, pivot_y = body_numbers(vehicle, impact.point)
-        _, turn, rx, ry, _, _ = response(mass, inertia, vx, vy, x, y, pivot_x, pivot_y, *impact.point, self.pinned)
+        self.point = impact.point
+        mass, inertia, vx, vy, _, x, y, pivot_x, pivot_y = body_numbers(self.start, self.point)
+        _, turn, rx, ry, _, _ = response(mass, inertia, vx, vy, x, y, pivot_x, pivot_y, *self.point, self.pinned)
         nx, ny = impact.normal
-        self.matters = (self.pinned or body.turns or vehicle.yaw_rate != 0.0) and vehicle.x is not None
-        self.n = letter(rf"r_{{{label}n}}", f"r_{label}n", nx * rx + ny * ry, "length")
-        self.t = letter(rf"r_{{{label}t}}", f"r_{label}t", nx * ry - ny * rx, "length")
+        self.n = Symbol(rf"r_{{{label}n}}", nx * rx + ny * ry, "length")
+        self.t = Symbol(rf"r_{{{label}t}}", nx * ry - ny * rx, "length")
         name = rf"I_{{{label}O}}" if self.pinned else rf"\bar{{I}}_{label}"
-        text = f"I_{label}O" if self.pinned else f"I_{label}"
-        self.inertia = letter(name, text, 1.0 / turn if turn else math.inf, "inertia")
+        self.resistance = Symbol(name, 1.0 / turn if turn else math.inf, "inertia")
+        self.turns = math.isfinite(self.resistance.value)
+        self.matters = (self.pinned or self.turns or self.start.yaw_rate != 0.0) and self.start.x is not None
 
-    @property
-    def turns(self) -> bool:
-        """Whether an impulse can turn the body."""
-        return math.isfinite(self.inertia.value)
-
-    def write(self, page: Page, contact: Contact) -> None:
-        """Where it comes from."""
-        point, vehicle, label = self.body.impact.point, self.body.start, self.body.label
-        assert point is not None
-        center = vehicle.pivot or (vehicle.x, vehicle.y)
-        foot = f"O_{label}" if self.pinned else f"G_{label}"
-        parts = []
-        for axis, there, here in zip("xy", point, center, strict=True):
-            end = letter(f"C_{axis}", f"C_{axis}", there, "length")
-            start = letter(rf"{foot[0]}_{{{label}{axis}}}", f"{foot}{axis}", here, "length")
-            parts.append(end - start)
-        x, y = parts
+    def derive(self, page: Page, s: Symbols) -> None:
+        """Where the lever comes from."""
+        label, center = self.label, self.start.pivot or (self.start.x, self.start.y)
+        x, y = (
+            Symbol(f"C_{axis}", there, "length") - Symbol(f"{'O' if self.pinned else 'G'}_{{{label}{axis}}}", here, "length")
+            for axis, there, here in zip("xy", self.point, center, strict=True)
+        )
         what = f"from {'its pivot O' if self.pinned else 'its centre of mass G'} to the contact C"
-        page.equation(f"Lever of {label} {what}, along the normal", self.n, contact.dot(x, y))
-        page.equation(f"Lever of {label} {what}, along the tangent (r in (13))", self.t, contact.cross(x, y))
+        page.equation(f"Lever of {label} {what}, along the normal", self.n, s.dot(x, y))
+        page.equation(f"Lever of {label} {what}, along the tangent (r in (13))", self.t, s.cross(x, y))
         if self.pinned:
-            d_x, d_y = (self.body.arm(axis) for axis in "xy")
+            d_x, d_y = self.arm("x"), self.arm("y")
             page.say(f"From the pivot to the centre of mass of {label}: {page.shown(d_x)}, {page.shown(d_y)}.")
-            page.equation(
-                f"Yaw inertia of {label} about its pivot",
-                self.inertia,
-                self.body.inertia + self.body.mass * (d_x.squared() + d_y.squared()),
-            )
+            about_pivot = self.inertia + self.mass * (d_x.squared() + d_y.squared())
+            page.equation(f"Yaw inertia of {label} about its pivot", self.resistance, about_pivot)
 
     def at_contact(self, page: Page, when: str, caption: str, directions: str = "nt") -> None:
         """The velocity of the body at the contact."""
-        # What nothing changes has the letter that it had before.
-        body, spin = self.body, self.body.spin(when if self.turns else BEFORE)
+        # What nothing changes has the symbol that it had before.
+        spin = self.spin(when if self.turns else BEFORE)
         for direction in directions:
             name, lever, sign = ("normal", self.t, -1.0) if direction == "n" else ("tangent", self.n, 1.0)
-            turning = spin * lever
-            center = body.along(direction, BEFORE if body.fixed else when)
+            found: Expression = self.along(direction, BEFORE if self.fixed else when)
             if self.pinned:
-                found: Expression = -turning if sign < 0.0 else turning
-            elif not self.matters or spin.value == 0.0:
-                found = center
-            else:
-                found = center - turning if sign < 0.0 else center + turning
-            page.equation(f"{caption}, along the {name}", body.along(direction, when, contact=True), found)
+                found = spin * lever if sign > 0.0 else -(spin * lever)
+            elif self.matters and spin.value != 0.0:
+                found = found.plus(sign, spin * lever)
+            page.equation(f"{caption}, along the {name}", self.along(direction, when, contact=True), found)
 
-    def torque(self, contact: Contact) -> Expression:
+    def torque(self, s: Symbols) -> Expression:
         """The moment of the impulse on this body."""
-        pn, pt = contact.normal, contact.tangential
-        forward, backward = self.t * pn, self.n * pt
-        if pt.value == 0.0:
-            return forward if self.body.sign < 0.0 else -forward
-        return forward - backward if self.body.sign < 0.0 else backward - forward
+        by_normal, by_tangential = self.t * s.normal, self.n * s.tangential
+        if s.tangential.value == 0.0:
+            return by_normal if self.label == "A" else -by_normal
+        return by_normal - by_tangential if self.label == "A" else by_tangential - by_normal
 
 
-def eccentric(page: Page, impact: Impact) -> None:
-    """Write it down."""
-    pair = bodies(impact)
-    contact = Contact(impact)
-    levers = [Lever(body) for body in pair]
+def eccentric(page: Page, s: Symbols) -> None:
+    """Bodies that turn, with the impulse at one point."""
+    a, b = levers = levers_of(s.impact)
     page.heading("Eccentric impact")
     page.say(
         f"{_turns(page, levers)} The normal n points from A into B, and t is n turned by 90 degrees counter-clockwise; yaw is "
         "positive counter-clockwise. The impulse P acts on B at the contact C, and -P on A (1)."
     )
-    for lever in levers:
-        if lever.matters:
-            lever.write(page, contact)
+    for body in levers:
+        if body.matters:
+            body.derive(page, s)
     page.heading("Velocities of the contact points before")
-    for lever in levers:
-        if not lever.pinned:
-            components(page, lever.body, contact)
-        label, (n, t) = lever.body.label, (lever.body.along(direction, contact=True) for direction in "nt")
-        if lever.body.state(BEFORE).speed != 0.0 or lever.body.spin().value != 0.0:
-            lever.at_contact(page, BEFORE, f"Velocity of {label} at the contact")
+    for body in levers:
+        if not body.pinned:
+            components(page, body, s)
+        if body.start.speed != 0.0 or body.start.yaw_rate != 0.0:
+            body.at_contact(page, BEFORE, f"Velocity of {body.label} at the contact")
         else:
-            page.say(f"{label} is at rest at the contact too: {page.shown(n)} and {page.shown(t)}.")
-    a, b = pair
-    page.equation("Closing speed", contact.closing, a.along("n", contact=True) - b.along("n", contact=True))
-    page.equation("Slip, of B relative to A", contact.slip, b.along("t", contact=True) - a.along("t", contact=True))
+            n, t = (page.shown(body.along(direction, contact=True)) for direction in "nt")
+            page.say(f"{body.label} is at rest at the contact too: {n} and {t}.")
+    page.equation("Closing speed", s.closing, a.along("n", contact=True) - b.along("n", contact=True))
+    page.equation("Slip, of B relative to A", s.slip, b.along("t", contact=True) - a.along("t", contact=True))
     page.heading("Impulse")
-    impulses(page, impact, contact, _mobility(page, impact, contact, levers))
-    page.equation("Impulse of the period of deformation", contact.compression, contact.normal / (1.0 + contact.e))
-    page.equation("Impulse of the period of restitution (10)", contact.restitution, contact.e * contact.compression)
+    impulses(page, s, _mobility(page, s, levers))
+    page.equation("Impulse of the period of deformation", s.compression, s.normal / (1.0 + s.e))
+    page.equation("Impulse of the period of restitution (10)", s.restitution, s.e * s.compression)
     page.heading("Motions after")
-    for lever in levers:
-        _after(page, lever, contact)
-    moments_about_pivot(
-        page, impact, contact, [(lever.body, lever.n, lever.t, lever.inertia, lever.pinned) for lever in levers]
-    )
+    for body in levers:
+        if body.pinned:
+            _turned_about_pivot(page, body, s)
+        else:
+            _moved(page, body, s)
+            _turned(page, body, s)
+    _moments_about_pivot(page, s, levers)
     page.heading("Check at the contact")
-    for lever in levers:
-        lever.at_contact(page, AFTER, f"Velocity of {lever.body.label} at the contact after")
-    _restitution(page, contact, levers)
-    page.equation("Slip after", contact.slip_after, b.along("t", AFTER, True) - a.along("t", AFTER, True))
-    energy(page, impact, contact)
+    for body in levers:
+        body.at_contact(page, AFTER, f"Velocity of {body.label} at the contact after")
+    _restitution(page, s, levers)
+    page.equation("Slip after", s.slip_after, b.along("t", AFTER, True) - a.along("t", AFTER, True))
+    energy(page, s)
 
 
-def _turns(page: Page, levers: list[Lever]) -> str:
+def levers_of(impact: Impact) -> tuple[Lever, Lever]:
+    """Both bodies with their levers."""
+    return Lever(impact, "A"), Lever(impact, "B")
+
+
+def impulse_in_scene_axes(page: Page, s: Symbols) -> None:
+    """The impulse on B along x and y."""
+    for axis in "xy":
+        page.equation(f"Impulse on B, along {axis}", s.impulse(axis), s.scene(axis, s.normal, s.tangential))
+
+
+def _turns(page: Page, levers: Sequence[Lever]) -> str:
     """Which yaw rates the impulse changes."""
-    turned = [lever for lever in levers if page.system.working(lever.body.side.delta_yaw_rate, "yaw rate") != "0"]
+    turned = [body for body in levers if page.system.working(body.side.delta_yaw_rate, "yaw rate") != "0"]
     if not turned:
         return "The impulse has no moment about a body that could turn, so it changes no yaw rate."
-    about = " and ".join(f"the {'pivot' if lever.pinned else 'centre of mass'} of {lever.body.label}" for lever in turned)
+    about = " and ".join(f"the {'pivot' if body.pinned else 'centre of mass'} of {body.label}" for body in turned)
     if len(turned) == 2:
         return f"The impulse has a moment about {about}, which changes both yaw rates."
-    (other,) = (lever.body.label for lever in levers if lever is not turned[0])
+    (other,) = (body.label for body in levers if body is not turned[0])
     return f"The impulse has a moment about {about}, which changes its yaw rate; that of {other} stays."
 
 
-def _mobility(page: Page, impact: Impact, contact: Contact, levers: list[Lever]) -> Mobility:
+def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
     """What an impulse does to the relative velocity at the contact."""
-    turning = [lever for lever in levers if lever.turns]
-    central: list[Expression] = [1.0 / lever.body.mass for lever in levers if not lever.pinned and not lever.body.fixed]
-    k_nn = letter("K_{nn}", "K_nn", 1.0 / impact.effective_mass, "per mass")
+    turning = [body for body in levers if body.turns]
+    central = [1.0 / body.mass for body in levers if not body.pinned and not body.fixed]
     page.say(
         "An impulse at the contact changes the velocity of B relative to A there, for each unit of impulse, by K: along n by "
         "a normal one, along t by a tangential one, and across."
     )
-    page.equation("Along the normal", k_nn, total(*central, *(lever.t.squared() / lever.inertia for lever in turning)))
-    page.equation("Mass that the contact feels", contact.mass, 1.0 / k_nn)
-    if contact.tangential.value == 0.0 and impact.friction == 0.0:
+    k_nn = Symbol("K_{nn}", 1.0 / s.impact.effective_mass, "per mass")
+    page.equation("Along the normal", k_nn, total(*central, *(body.t.squared() / body.resistance for body in turning)))
+    page.equation("Mass that the contact feels", s.mass, 1.0 / k_nn)
+    if s.tangential.value == 0.0 and s.impact.friction == 0.0:
         return Mobility(k_nn, k_nn, None)
-    tangential = total(*central, *(lever.n.squared() / lever.inertia for lever in turning)) if central or turning else None
-    k_tt = Symbol("K_{tt}", "K_tt", 0.0 if tangential is None else tangential.value, "per mass")
-    if tangential is not None:
-        page.equation("Along the tangent", k_tt, tangential)
-    k_nt = letter("K_{nt}", "K_nt", impact._output("coupling"), "per mass")
+    tangential = total(*central, *(body.n.squared() / body.resistance for body in turning))
+    k_tt = Symbol("K_{tt}", tangential.value, "per mass")
+    page.equation("Along the tangent", k_tt, tangential)
     if not turning:
         return Mobility(k_nn, k_tt, None)
-    crossed = total(*(lever.n * lever.t / lever.inertia for lever in turning))
-    page.equation("Across", k_nt, -crossed)
+    k_nt = Symbol("K_{nt}", s.impact._output("coupling"), "per mass")
+    page.equation("Across", k_nt, -total(*(body.n * body.t / body.resistance for body in turning)))
     return Mobility(k_nn, k_tt, k_nt)
 
 
-def _after(page: Page, lever: Lever, contact: Contact) -> None:
-    """The motion of one body after the impact."""
-    body, label = lever.body, lever.body.label
-    if lever.pinned:
-        turned(page, body, lever.inertia, lever.torque(contact), contact)
-        return
+def _moved(page: Page, body: Body, s: Symbols) -> None:
+    """The velocity of the centre of mass of a body without a pivot after the impact."""
     if body.fixed:
-        kept(page, body)
-    else:
-        _moved(page, body, contact)
-    if not lever.turns:
-        page.say(f"{label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
+        unmoved(page, body)
         return
-    if contact.tangential.value == 0.0:
-        way = 1.0 if body.sign < 0.0 else -1.0
-        for name, number, start, end, impulse in (
-            ("at the end of deformation", "13", body.spin(), body.spin(COMPRESSED), contact.compression),
-            ("after", "15", body.spin(COMPRESSED), body.spin(AFTER), contact.restitution),
-        ):
-            change = lever.t * impulse / lever.inertia
-            page.equation(f"Yaw rate of {label} {name} ({number})", end, start + change if way > 0.0 else start - change)
-    else:
-        page.equation(
-            f"Yaw rate of {label} after, (13) and (15) with the moment of both components",
-            body.spin(AFTER),
-            body.spin() + lever.torque(contact) / lever.inertia,
-        )
-
-
-def _moved(page: Page, body: Body, contact: Contact) -> None:
-    """The velocity of the centre of mass of a free body after the impact."""
-    label = body.label
     for name, number, start, end, impulse in (
-        ("at the end of deformation", "12", body.along("n"), body.along("n", COMPRESSED), contact.compression),
-        ("after", "14", body.along("n", COMPRESSED), body.along("n", AFTER), contact.restitution),
+        ("at the end of deformation", "12", BEFORE, COMPRESSED, s.compression),
+        ("after", "14", COMPRESSED, AFTER, s.restitution),
     ):
-        change = impulse / body.mass
-        caption = f"Velocity of the centre of mass of {label} {name}, along the normal ({number})"
-        page.equation(caption, end, start + change if body.sign > 0.0 else start - change)
-    before, after = body.along("t"), body.along("t", AFTER)
-    if contact.tangential.value == 0.0:
-        page.equation(f"Velocity of {label} after, along the tangent, as before", after, before)
-    else:
-        change = contact.tangential / body.mass
         page.equation(
-            f"Velocity of {label} after, along the tangent", after, before + change if body.sign > 0.0 else before - change
+            f"Velocity of the centre of mass of {body.label} {name}, along the normal ({number})",
+            body.along("n", end),
+            body.along("n", start).plus(body.sign, impulse / body.mass),
         )
-    scene_axes(page, body, contact)
+    along_tangent(page, body, s)
+    scene_axes(page, body, s)
 
 
-def _restitution(page: Page, contact: Contact, levers: list[Lever]) -> None:
-    """Restitution at the contact, from both bodies and from one."""
-    a, b = (lever.body for lever in levers)
-    after = b.along("n", AFTER, True) - a.along("n", AFTER, True)
-    page.balance(
-        "Restitution at the contact (11)", after, contact.e * (a.along("n", contact=True) - b.along("n", contact=True)), "speed"
-    )
-    changes = [abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value) for body in (a, b)]
-    lever = levers[0] if changes[0] >= changes[1] else levers[1]
-    body, label = lever.body, lever.body.label
-    # Without friction a body that is free has it from (13).
-    if lever.turns and (lever.pinned or contact.tangential.value != 0.0):
+def _turned(page: Page, body: Lever, s: Symbols) -> None:
+    """The yaw rate of a body without a pivot after the impact."""
+    if not body.turns:
+        page.say(f"{body.label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
+        return
+    if s.tangential.value != 0.0:
         page.equation(
-            f"Yaw rate of {label} at the end of deformation, as in (13) with the part 1 / (1 + e) of the impulse",
-            body.spin(COMPRESSED),
-            body.spin() + lever.torque(contact) / ((1.0 + contact.e) * lever.inertia),
+            f"Yaw rate of {body.label} after, (13) and (15) with the moment of both components",
+            body.spin(AFTER),
+            body.spin() + body.torque(s) / body.resistance,
         )
-    lever.at_contact(page, COMPRESSED, f"Velocity of {label} at the contact at the end of deformation", "n")
-    start, middle, end = (body.along("n", when, True) for when in ("before", COMPRESSED, AFTER))
+        return
+    for name, number, start, end, impulse in (
+        ("at the end of deformation", "13", BEFORE, COMPRESSED, s.compression),
+        ("after", "15", COMPRESSED, AFTER, s.restitution),
+    ):
+        page.equation(
+            f"Yaw rate of {body.label} {name} ({number})",
+            body.spin(end),
+            body.spin(start).plus(-body.sign, body.t * impulse / body.resistance),
+        )
+
+
+def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
+    """The motion after of a body that can only turn about a pivot, and the impulse of the pivot."""
+    label, spin = body.label, body.spin(AFTER)
     page.equation(
-        f"The same from {label} alone, with {page.letter(middle)} at the end of deformation (19)",
-        contact.e,
+        f"Yaw rate of {label} after, by moments about its pivot", spin, body.spin() + body.torque(s) / body.resistance
+    )
+    page.say(f"{label} turns about its pivot, so its centre of mass moves with the yaw rate times the arm from there.")
+    page.equation(f"Velocity of {label} after, along x", body.along("x", AFTER), -(spin * body.arm("y")))
+    page.equation(f"Velocity of {label} after, along y", body.along("y", AFTER), spin * body.arm("x"))
+    impulse_in_scene_axes(page, s)
+    for axis, value in (("x", body.side.pivot_impulse_x), ("y", body.side.pivot_impulse_y)):
+        change = body.mass * (body.along(axis, AFTER) - body.along(axis))
+        page.equation(
+            f"Impulse of the pivot on {label}, along {axis}",
+            Symbol(rf"J_{{{label}{axis}}}", value, "impulse"),
+            change.plus(-body.sign, s.impulse(axis)),
+        )
+
+
+def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> None:
+    """Equations (20) and (21) of Example 3: both bodies as one system about the pivot of one of them, without friction."""
+    body, other = sorted(levers, key=lambda body: not body.pinned)
+    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0:
+        return
+    page.heading("Check by moments about the pivot, as in Example 3")
+    page.say(
+        f"Both vehicles are one system, and the impulse of the pivot has no moment about it. Velocities are counted along the "
+        f"normal and the yaw rate counter-clockwise; the paper counts it clockwise, hence the sign of "
+        f"{page.symbol(body.spin(AFTER))}."
+    )
+    sides = []
+    for when in (BEFORE, AFTER):
+        moment = other.mass * body.t * other.along("n", when)
+        spin = body.spin(when)
+        sides.append(moment if spin.value == 0.0 else moment - body.resistance * spin)
+    page.balance("Moments about the pivot (20)", sides[0], sides[1], "angular momentum")
+    scale, speed, rate = (page.system.scale(kind) for kind in ("angular momentum", "speed", "yaw rate"))
+    v, w = other.along("n", AFTER), body.spin(AFTER)
+    # Counted as in (21): the contact point of the pinned body less the other one, both after.
+    sign, lever = body.sign, body.t.value
+    moments = (sides[0].value * scale, other.mass.value * lever * scale / speed, -body.resistance.value * scale / rate)
+    parting = (s.separation.value * speed, -sign, -sign * lever * speed / rate)
+    solvable = other.spin(AFTER).value == 0.0
+    more = page.figures_to_solve((moments, parting), (v, w)) if solvable else 0
+    page.collected("(20) in numbers", moments, (v, w), "angular momentum", more)
+    if solvable:
+        parting_of_w = (parting[0], parting[2], parting[1])
+        page.collected("(21) in numbers, from the restitution at the contact", parting_of_w, (w, v), "speed", more)
+        page.say(f"Solved together: {page.shown(w)} and {page.shown(v)}.")
+
+
+def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
+    """Restitution at the contact, from both bodies and from one."""
+    a, b = levers
+    separation = b.along("n", AFTER, True) - a.along("n", AFTER, True)
+    closing = a.along("n", contact=True) - b.along("n", contact=True)
+    page.balance("Restitution at the contact (11)", separation, s.e * closing, "speed")
+    # From the body that changes more; max takes A of equal ones.
+    body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))
+    # Without friction a body that is free has it from (13).
+    if body.turns and (body.pinned or s.tangential.value != 0.0):
+        page.equation(
+            f"Yaw rate of {body.label} at the end of deformation, as in (13) with the part 1 / (1 + e) of the impulse",
+            body.spin(COMPRESSED),
+            body.spin() + body.torque(s) / ((1.0 + s.e) * body.resistance),
+        )
+    body.at_contact(page, COMPRESSED, f"Velocity of {body.label} at the contact at the end of deformation", "n")
+    start, middle, end = (body.along("n", when, True) for when in (BEFORE, COMPRESSED, AFTER))
+    page.equation(
+        f"The same from {body.label} alone, with {page.symbol(middle)} at the end of deformation (19)",
+        s.e,
         (middle - end) / (start - middle),
     )

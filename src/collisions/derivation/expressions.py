@@ -1,34 +1,174 @@
-"""Formulas that are printed with their symbols and with their numbers, and can be worked out: one tree for all three."""
+"""Formulas that are written in symbols or in numbers and can be worked out; and the digits and units of those numbers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, TypeAlias
 
-from .rounding import Conversion, Powers, System, powers_of
+from ..errors import InputError
+from ..quantities import in_words
+from ..unit_systems import decimals_of, scale_of, unit_of
+
+# Labels of units with their powers.
+Powers: TypeAlias = tuple[tuple[str, float], ...]
+
+# What is this near to 0 in SI is what rounding left of it, and printed as 0.
+_ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
+_ZERO_OF_OTHERS = 1e-10
+_ANSWER_FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
+_WORKING_FIGURES = 4
+_EXACT = 1e-9  # relative: a number this near to one of six figures is that number
+_NO_SPREAD = 1e-12  # relative: a spread this small is what rounding left of none
 
 _FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
 # How firmly a written part holds together: what is looser than its place wants is put in brackets.
-_SUM, _PRODUCT, _POWER, _ATOM = range(4)
+SUM, _PRODUCT, _POWER, ATOM = range(4)
 
 
-class Pen(NamedTuple):
+class System:
+    """One system of units, and how numbers are printed in it."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def label(self, kind: str) -> str:
+        """The unit of a kind, as pint writes it."""
+        return unit_of(kind, self.name)
+
+    def unit(self, kind: str, latex: bool) -> str:
+        """The unit behind a number, with the space before it."""
+        label = self.label(kind)
+        if not label:
+            return ""
+        return rf"\ \mathrm{{{label.replace('**2', '^2').replace('*', chr(92) + ',')}}}" if latex else f" {label}"
+
+    def scale(self, kind: str) -> float:
+        """What an SI value of this kind is multiplied by."""
+        return scale_of(kind, self.name)
+
+    def shown(self, value: float, kind: str) -> float:
+        """An SI value of this kind in the unit it is written in."""
+        shown = value * self.scale(kind)
+        if math.isinf(shown):
+            raise InputError(
+                f"{value:.6g} {unit_of(kind, 'si')} is too large to be written in {self.label(kind)}; look for a slipped digit",
+                code="out_of_range",
+                argument="units",
+            )
+        return shown
+
+    def working(self, value: float, kind: str, more: int = 0) -> str:
+        """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
+        if not math.isfinite(value):
+            return "not known" if math.isnan(value) else "infinite"
+        shown = self.shown(value, kind)
+        return "0" if _is_zero(value, kind) else self.figures(shown, decimals_of(kind, self.name), more)
+
+    def figures(self, shown: float, least: int | None = None, more: int = 0) -> str:
+        """A number as it is if six figures hold it, else four figures, or at least so many decimals and two more at most."""
+        exact = f"{shown:.6g}"
+        near = abs(float(exact) - shown) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(shown)
+        return exact if near and len(exact) <= 9 and "e" not in exact else _decimal(shown, _places(shown, least) + more)
+
+    def half_unit(self, value: float, kind: str, size: float) -> float:
+        """Half a unit, as printed, of the last of the figures that the working promises of this number.
+
+        Of a number that is 0 it is that of the ``size`` of what has cancelled to it.
+        """
+        scale = self.scale(kind)
+        if _is_zero(value, kind) and 0.0 < size < math.inf:
+            promised = _places(size * scale, None)
+        else:
+            promised = _places(value * scale, decimals_of(kind, self.name))
+        return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
+
+    def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
+        """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
+        if not math.isfinite(value):
+            return in_words(value)
+        shown = self.shown(value, kind)
+        unit = self.unit(kind, False)
+        if deviation is not None and math.isfinite(deviation) and deviation > _NO_SPREAD * abs(value):
+            spread = self.shown(deviation, kind)
+            places = 1 - _magnitude(spread, 2)
+            return f"{_decimal(shown, places)} ± {_decimal(spread, places)}{unit}"
+        decimals = decimals_of(kind, self.name)
+        return (
+            _decimal(shown, _ANSWER_FIGURES - 1 - _magnitude(shown, _ANSWER_FIGURES) if decimals is None else decimals) + unit
+        )
+
+
+def _is_zero(value: float, kind: str) -> bool:
+    return abs(value) <= _ZERO.get(kind, _ZERO_OF_OTHERS)
+
+
+def _magnitude(value: float, figures: int) -> int:
+    """The power of ten of the first figure, after rounding to so many figures."""
+    return int(f"{value:.{figures - 1}e}".partition("e")[2])
+
+
+def _places(shown: float, least: int | None) -> int:
+    """Decimals of a number in the working."""
+    figures = _WORKING_FIGURES - 1 - _magnitude(shown, _WORKING_FIGURES)
+    return max(figures if least is None else max(least, min(figures, least + 2)), 0)
+
+
+def _decimal(value: float, places: int) -> str:
+    """A number with so many decimals, or rounded to a power of ten, and never -0."""
+    # Above this a digit before the point can round beyond the range of floats.
+    rounded = value if abs(value) > 1e300 else round(value, places)
+    text = f"{rounded:.{max(places, 0)}f}"
+    return text.lstrip("-") if float(text) == 0.0 else text
+
+
+def _named(powers: Powers) -> str:
+    """The label of a product of units."""
+    over: list[str] = []
+    under: list[str] = []
+    for label, power in powers:
+        size = abs(power)
+        loose = ("/" in label and len(powers) > 1) or ("*" in label and power < 0.0)
+        base = f"({label})" if loose or (size != 1.0 and not label.isalpha()) else label
+        (over if power > 0.0 else under).append(base if size == 1.0 else f"{base}**{size:g}")
+    return " / ".join([" * ".join(over) or "1", *under])
+
+
+def powers_of(label: str) -> Powers:
+    """The powers of a unit by itself."""
+    if label.startswith("1/"):
+        return ((label[2:], -1.0),)
+    return ((label, 1.0),) if label else ()
+
+
+def _multiplied(left: Powers, right: Powers, power: int) -> Powers:
+    """The powers of units of a product with a power."""
+    found = dict(left)
+    for label, exponent in right:
+        found[label] = found.get(label, 0.0) + power * exponent
+    return tuple((label, exponent) for label, exponent in sorted(found.items()) if exponent)
+
+
+@dataclass(frozen=True, slots=True)
+class Pen:
     """How to write: as LaTeX or as plain text, with the numbers of a system of units or, without one, with symbols.
 
     Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry their own degree sign.
+    ``conversions`` takes down each number that converts units, with the units that it stands between.
     """
 
     latex: bool
     system: System | None = None
     more: int = 0
     marked: bool = False
+    conversions: list[tuple[str, str, str]] = field(default_factory=list)
 
 
 class Written(NamedTuple):
     """A written part: its text, how firmly it holds together, and by what the SI value was multiplied to print it.
 
-    ``worth`` is what the numbers of the text come to as they are printed, and ``conversions`` are those among them.
+    ``worth`` is what the numbers of the text come to as they are printed.
     """
 
     text: str
@@ -36,7 +176,6 @@ class Written(NamedTuple):
     scale: float = 1.0
     powers: Powers = ()
     worth: float = math.nan
-    conversions: tuple[Conversion, ...] = ()
 
     def within(self, rank: int, pen: Pen) -> str:
         """The text, in brackets where it is looser than that."""
@@ -44,80 +183,80 @@ class Written(NamedTuple):
             return self.text
         return rf"\left({self.text}\right)" if pen.latex else f"({self.text})"
 
+    def converted(self, scale: float, powers: Powers, pen: Pen) -> Written:
+        """The same times what turns it into another unit."""
+        factor = scale / self.scale
+        if pen.system is None or abs(factor - 1.0) < 1e-9 or self.text == "0":
+            return self._replace(scale=scale, powers=powers)
+        # A number to divide by is easier to recognize than its reciprocal below 1.
+        divides = factor < 1.0
+        size = 1.0 / factor if divides else factor
+        number = f"{size:.{6 + pen.more}g}" if size < 999999.5 else f"{size:.{pen.more}f}"
+        one, other = (powers, self.powers) if divides else (self.powers, powers)
+        pen.conversions.append((_named(one), number, _named(other)))
+        if pen.latex:
+            times = rf" \cdot \frac{{1}}{{{number}}}" if divides else rf" \cdot {number}"
+        else:
+            times = f" / {number}" if divides else f" * {number}"
+        worth = self.worth / float(number) if divides else self.worth * float(number)
+        return Written(self.within(_PRODUCT, pen) + times, _PRODUCT, scale, powers, worth)
+
 
 class Expression:
-    """A formula: what it is worth in SI, how large its terms are, and how it is written."""
+    """A formula: its ``value`` in SI, how large its terms are (``size``), and how a pen writes it."""
 
-    value: float
-    size: float
+    def __init__(self, value: float, size: float) -> None:
+        self.value, self.size = value, size
 
     def write(self, pen: Pen) -> Written:
         """The formula as the pen has it."""
         raise NotImplementedError
 
     def __add__(self, other: Expression | float) -> Expression:
-        return Sum(self, of(other), 1.0)
+        return Sum(self, _expression(other), 1.0)
 
     def __radd__(self, other: float) -> Expression:
-        return Sum(of(other), self, 1.0)
+        return Sum(Literal(other), self, 1.0)
 
     def __sub__(self, other: Expression | float) -> Expression:
-        return Sum(self, of(other), -1.0)
+        return Sum(self, _expression(other), -1.0)
 
     def __rsub__(self, other: float) -> Expression:
-        return Sum(of(other), self, -1.0)
+        return Sum(Literal(other), self, -1.0)
 
+    # A factor of 1 is not written.
     def __mul__(self, other: Expression | float) -> Expression:
-        return Product(self, of(other))
+        return self if _is_one(other) else Product(self, _expression(other))
 
     def __rmul__(self, other: float) -> Expression:
-        return Product(of(other), self)
+        return self if _is_one(other) else Product(Literal(other), self)
 
     def __truediv__(self, other: Expression | float) -> Expression:
-        return Quotient(self, of(other))
+        return self if _is_one(other) else Quotient(self, _expression(other))
 
     def __rtruediv__(self, other: float) -> Expression:
-        return Quotient(of(other), self)
+        return Quotient(Literal(other), self)
 
     def __neg__(self) -> Expression:
         return Negative(self)
+
+    def plus(self, sign: float, other: Expression) -> Expression:
+        """The sum with another, or the difference where the sign is negative."""
+        return Sum(self, other, 1.0 if sign > 0.0 else -1.0)
 
     def squared(self) -> Expression:
         """Its square."""
         return Square(self)
 
 
-class Symbol(Expression):
-    """A quantity with a letter: what it is, and what it is worth in SI."""
-
-    def __init__(self, latex: str, text: str, value: float, kind: str) -> None:
-        self.latex, self.text, self.kind = latex, text, kind
-        self.value = float(value)
-        self.size = abs(self.value)
-
-    def write(self, pen: Pen) -> Written:
-        """Its letter, or its number."""
-        if pen.system is None:
-            return Written(self.latex if pen.latex else self.text, _ATOM)
-        printed = pen.system.working(self.value, self.kind, pen.more)
-        rank = _SUM if printed.startswith("-") else _ATOM
-        worth = float(printed) if math.isfinite(self.value) else self.value
-        label = pen.system.label(self.kind)
-        if pen.marked and self.kind == "angle":
-            printed += r"^\circ" if pen.latex else f" {label}"
-        return Written(printed, rank, pen.system.scale(self.kind), powers_of(label), worth)
-
-
 class Literal(Expression):
     """A number that belongs to the formula."""
 
     def __init__(self, value: float) -> None:
-        self.value = value
-        self.size = abs(value)
+        super().__init__(float(value), abs(value))
 
     def write(self, pen: Pen) -> Written:
-        """The number itself."""
-        return Written(f"{self.value:g}", _ATOM, worth=self.value)
+        return Written(f"{self.value:g}", ATOM, worth=self.value)
 
 
 class Sum(Expression):
@@ -125,18 +264,14 @@ class Sum(Expression):
 
     def __init__(self, left: Expression, right: Expression, sign: float) -> None:
         self.left, self.right, self.sign = left, right, sign
-        self.value = left.value + sign * right.value
-        self.size = left.size + right.size
+        super().__init__(left.value + sign * right.value, left.size + right.size)
 
     def write(self, pen: Pen) -> Written:
-        """Both terms with the sign between them."""
         left, right = self.left.write(pen), self.right.write(pen)
-        if pen.system is not None:
-            right = converted(right, left.scale, left.powers, pen)
-        mark = "+" if self.sign > 0.0 else "-"
-        text = f"{left.text} {mark} {right.within(_PRODUCT, pen)}"
+        right = right.converted(left.scale, left.powers, pen)
+        text = f"{left.text} {'+' if self.sign > 0.0 else '-'} {right.within(_PRODUCT, pen)}"
         worth = left.worth + self.sign * right.worth
-        return Written(text, _SUM, left.scale, left.powers, worth, left.conversions + right.conversions)
+        return Written(text, SUM, left.scale, left.powers, worth)
 
 
 class Product(Expression):
@@ -144,38 +279,37 @@ class Product(Expression):
 
     def __init__(self, left: Expression, right: Expression) -> None:
         self.left, self.right = left, right
-        self.value = left.value * right.value
-        self.size = left.size * right.size
+        super().__init__(left.value * right.value, left.size * right.size)
 
     def write(self, pen: Pen) -> Written:
-        """Both factors; between numbers with a sign, between letters of LaTeX with a small space."""
         left, right = self.left.write(pen), self.right.write(pen)
+        # Between numbers of LaTeX a sign, between its symbols a small space.
         times = " * " if not pen.latex else r"\," if pen.system is None else r" \cdot "
         text = left.within(_PRODUCT, pen) + times + right.within(_PRODUCT, pen)
-        scale, powers = left.scale * right.scale, multiplied(left.powers, right.powers, 1)
-        return Written(text, _PRODUCT, scale, powers, left.worth * right.worth, left.conversions + right.conversions)
+        scale, powers = left.scale * right.scale, _multiplied(left.powers, right.powers, 1)
+        return Written(text, _PRODUCT, scale, powers, left.worth * right.worth)
 
 
 class Quotient(Expression):
-    """One over another."""
+    """One over another; not known where what it is over has cancelled to 0, and the page says so."""
 
     def __init__(self, over: Expression, under: Expression) -> None:
         self.over, self.under = over, under
-        # What has cancelled to nothing gives no number, and the page says so.
-        lost = under.value == 0.0
-        self.value = math.nan if lost else over.value / under.value
-        self.size = math.nan if lost else over.size / abs(under.value) * (under.size / abs(under.value))
+        if under.value == 0.0:
+            super().__init__(math.nan, math.nan)
+        else:
+            size = over.size / abs(under.value) * (under.size / abs(under.value))
+            super().__init__(over.value / under.value, size)
 
     def write(self, pen: Pen) -> Written:
-        """A fraction."""
         over, under = self.over.write(pen), self.under.write(pen)
         if pen.latex:
             text = rf"\frac{{{over.text}}}{{{under.text}}}"
         else:
             text = f"{over.within(_PRODUCT, pen)} / {under.within(_POWER, pen)}"
-        scale, powers = over.scale / under.scale, multiplied(over.powers, under.powers, -1)
+        scale, powers = over.scale / under.scale, _multiplied(over.powers, under.powers, -1)
         worth = over.worth / under.worth if under.worth else math.nan
-        return Written(text, _PRODUCT, scale, powers, worth, over.conversions + under.conversions)
+        return Written(text, _PRODUCT, scale, powers, worth)
 
 
 class Negative(Expression):
@@ -183,12 +317,11 @@ class Negative(Expression):
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner
-        self.value, self.size = 0.0 - inner.value, inner.size
+        super().__init__(0.0 - inner.value, inner.size)
 
     def write(self, pen: Pen) -> Written:
-        """A minus sign before it."""
         inner = self.inner.write(pen)
-        return inner._replace(text="-" + inner.within(_PRODUCT, pen), rank=_SUM, worth=-inner.worth)
+        return inner._replace(text="-" + inner.within(_PRODUCT, pen), rank=SUM, worth=-inner.worth)
 
 
 class Square(Expression):
@@ -196,17 +329,16 @@ class Square(Expression):
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner
-        self.value, self.size = inner.value * inner.value, inner.size * inner.size
+        super().__init__(inner.value * inner.value, inner.size * inner.size)
 
     def write(self, pen: Pen) -> Written:
-        """With an exponent."""
         inner = self.inner.write(pen)
-        held = inner.within(_ATOM, pen)
-        if pen.latex and "'" in held and pen.system is None and inner.rank == _ATOM:
-            held = f"{{{held}}}"
-        text = held + ("^2" if pen.latex else "**2")
-        powers = multiplied((), inner.powers, 2)
-        return Written(text, _POWER, inner.scale**2, powers, inner.worth * inner.worth, inner.conversions)
+        base = inner.within(ATOM, pen)
+        if pen.latex and pen.system is None and "'" in base and inner.rank == ATOM:
+            base = f"{{{base}}}"
+        text = base + ("^2" if pen.latex else "**2")
+        powers = _multiplied((), inner.powers, 2)
+        return Written(text, _POWER, inner.scale**2, powers, inner.worth * inner.worth)
 
 
 class Function(Expression):
@@ -214,30 +346,31 @@ class Function(Expression):
 
     def __init__(self, name: str, inner: Expression) -> None:
         self.name, self.inner = name, inner
-        self.value = _FUNCTIONS[name](inner.value)
-        self.size = math.sqrt(inner.size) if name == "sqrt" else 1.0 + inner.size if name in ("cos", "sin") else inner.size
+        size = math.sqrt(inner.size) if name == "sqrt" else 1.0 + inner.size if name in ("cos", "sin") else inner.size
+        super().__init__(_FUNCTIONS[name](inner.value), size)
 
     def write(self, pen: Pen) -> Written:
-        """With its argument in brackets, under the root sign or between bars."""
         if self.name in ("cos", "sin"):
             return self._of_angle(pen)
         inner = self.inner.write(pen)
-        shape = rf"\sqrt{{{inner.text}}}" if self.name == "sqrt" else rf"\lvert {inner.text} \rvert"
-        text = shape if pen.latex else f"{self.name}({inner.text})"
+        latex = rf"\sqrt{{{inner.text}}}" if self.name == "sqrt" else rf"\lvert {inner.text} \rvert"
+        text = latex if pen.latex else f"{self.name}({inner.text})"
         if self.name == "abs":
-            return inner._replace(text=text, rank=_ATOM, worth=abs(inner.worth))
-        halved = tuple((label, power / 2) for label, power in inner.powers)
-        worth = math.sqrt(max(inner.worth, 0.0))
-        return Written(text, _ATOM, math.sqrt(inner.scale), halved, worth, inner.conversions)
+            return inner._replace(text=text, rank=ATOM, worth=abs(inner.worth))
+        powers = tuple((label, power / 2) for label, power in inner.powers)
+        return Written(text, ATOM, math.sqrt(inner.scale), powers, math.sqrt(max(inner.worth, 0.0)))
 
     def _of_angle(self, pen: Pen) -> Written:
         degrees = pen.system is not None and pen.system.label("angle") == "deg"
-        inner = self.inner.write(pen._replace(marked=degrees))
+        inner = self.inner.write(replace(pen, marked=True) if degrees else pen)
         worth = _FUNCTIONS[self.name](math.radians(inner.worth) if degrees else inner.worth)
         if not pen.latex:
-            return Written(f"{self.name}({inner.text})", _POWER, worth=worth)
-        held = inner.text if degrees and inner.rank == _ATOM else rf"\left({inner.text}\right)"
-        return Written(rf"\{self.name} {held}" if held is inner.text else rf"\{self.name}{held}", _POWER, worth=worth)
+            text = f"{self.name}({inner.text})"
+        elif degrees and inner.rank == ATOM:
+            text = rf"\{self.name} {inner.text}"
+        else:
+            text = rf"\{self.name}\left({inner.text}\right)"
+        return Written(text, _POWER, worth=worth)
 
 
 class Direction(Expression):
@@ -245,42 +378,51 @@ class Direction(Expression):
 
     def __init__(self, x: Expression, y: Expression) -> None:
         self.x, self.y = x, y
-        self.value = math.atan2(y.value + 0.0, x.value)
-        self.size = math.pi
+        super().__init__(math.atan2(y.value + 0.0, x.value), math.pi)
 
     def write(self, pen: Pen) -> Written:
-        """As calculators and computers have it, with the second component first."""
+        # As calculators and computers have it, with the second component first.
         y, x = self.y.write(pen), self.x.write(pen)
         name, left, right = (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
         text = f"{name}{left}{y.text}, {x.text}{right}"
         if pen.system is None:
             return Written(text, _POWER)
-        scale, worth = pen.system.scale("angle"), math.atan2(y.worth + 0.0, x.worth)
-        label = pen.system.label("angle")
-        return Written(text, _POWER, scale, powers_of(label), worth * scale, y.conversions + x.conversions)
+        scale, powers = pen.system.scale("angle"), powers_of(pen.system.label("angle"))
+        worth = math.atan2(y.worth + 0.0, x.worth) * scale
+        return Written(text, _POWER, scale, powers, worth)
 
 
-def of(value: Expression | float) -> Expression:
-    """An expression as it is, a number as one."""
-    return value if isinstance(value, Expression) else Literal(float(value))
+ONE = Literal(1.0)
+HALF = Quotient(ONE, Literal(2.0))
 
 
-HALF = Quotient(Literal(1.0), Literal(2.0))
+def _expression(value: Expression | float) -> Expression:
+    return value if isinstance(value, Expression) else Literal(value)
+
+
+def _is_one(value: Expression | float) -> bool:
+    return value == 1.0 or (isinstance(value, Literal) and value.value == 1.0)
+
+
+def signed_total(terms: Iterable[tuple[float, Expression]]) -> Expression:
+    """The sum of terms, each with the sign before it."""
+    (sign, first), *others = terms
+    found = first if sign > 0.0 else -first
+    for sign, term in others:
+        found = found.plus(sign, term)
+    return found
 
 
 def total(*terms: Expression) -> Expression:
     """The sum of terms."""
-    found = terms[0]
-    for term in terms[1:]:
-        found = found + term
-    return found
+    return signed_total((1.0, term) for term in terms)
 
 
 def over(what: Expression, by: Expression) -> Expression:
     """One over another; over the reciprocal of a quantity, the product with that quantity."""
     if isinstance(what, Negative):
         return -over(what.inner, by)
-    if isinstance(by, Quotient) and isinstance(by.over, Literal) and by.over.value == 1.0:
+    if isinstance(by, Quotient) and _is_one(by.over):
         return by.under * what
     return what / by
 
@@ -290,26 +432,7 @@ def root(inner: Expression) -> Expression:
     return Function("sqrt", inner)
 
 
-def converted(written: Written, scale: float, powers: Powers, pen: Pen) -> Written:
-    """A written part times what turns it into another unit."""
-    assert pen.system is not None
-    factor = scale / written.scale
-    if abs(factor - 1.0) < 1e-9 or written.text == "0":
-        return written._replace(scale=scale, powers=powers)
-    conversion = pen.system.conversion(factor, written.powers, powers, pen.more)
-    divides, number = conversion.divides, conversion.number
-    held = written.within(_PRODUCT, pen)
-    if pen.latex:
-        text = rf"{held} \cdot \frac{{1}}{{{number}}}" if divides else rf"{held} \cdot {number}"
-    else:
-        text = f"{held} / {number}" if divides else f"{held} * {number}"
-    worth = written.worth / float(number) if divides else written.worth * float(number)
-    return Written(text, _PRODUCT, scale, powers, worth, (*written.conversions, conversion))
-
-
-def multiplied(left: Powers, right: Powers, power: int) -> Powers:
-    """The powers of units of a product."""
-    found = dict(left)
-    for label, exponent in right:
-        found[label] = found.get(label, 0.0) + power * exponent
-    return tuple((label, exponent) for label, exponent in sorted(found.items()) if exponent)
+def magnitude(x: Expression, y: Expression) -> Expression:
+    """The length of a vector, without a component that is 0."""
+    parts = [part for part in (x, y) if part.value] or [x]
+    return Function("abs", parts[0]) if len(parts) == 1 else root(total(*(part.squared() for part in parts)))

@@ -6,16 +6,18 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from .expressions import Expression, Pen, Symbol, Written, converted
-from .rounding import System, powers_of
+from .expressions import Expression, Pen, System, powers_of
+from .symbols import Symbol
 
 # Figures that a line may have beyond those of the working; with these it has all that there are.
 _MOST = 12
+# The columns of most tables.
+HEAD = ("of", "quantity", "value")
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
 
 class Page:
-    """What is written, in order. ``off`` holds of each equation how far it is off its result, and the size of its terms."""
+    """What is written, in order, with the conversions of units that were printed, by the units they stand between."""
 
     def __init__(
         self,
@@ -27,7 +29,7 @@ class Page:
         self.system, self.latex = system, latex
         self.deviations, self.ranges = dict(deviations), dict(ranges or {})
         self.parts: list[str] = []
-        self.off: list[tuple[str, float, float]] = []
+        self.conversions: dict[tuple[str, str], str] = {}
 
     def title(self, text: str) -> None:
         """The heading of the page."""
@@ -48,14 +50,13 @@ class Page:
     def table(self, head: tuple[str, str, str], rows: Sequence[tuple[str, str, str]]) -> None:
         """A table of three columns."""
         if self.latex:
-            lines = [head, ("---", "---", "---"), *rows]
-            self.parts.append("\n".join(f"| {' | '.join(line)} |" for line in lines))
-            return
-        wide = [max(len(row[i]) for row in (head, *rows)) for i in range(3)]
-        lines = [head, ("-" * wide[0], "-" * wide[1], "-" * wide[2]), *rows]
-        self.parts.append(
-            "\n".join("  ".join(part.ljust(width) for part, width in zip(r, wide, strict=True)).rstrip() for r in lines)
-        )
+            lines = [f"| {' | '.join(line)} |" for line in (head, ("---", "---", "---"), *rows)]
+        else:
+            widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+            rule = tuple("-" * width for width in widths)
+            padded = ((part.ljust(width) for part, width in zip(line, widths, strict=True)) for line in (head, rule, *rows))
+            lines = ["  ".join(line).rstrip() for line in padded]
+        self.parts.append("\n".join(lines))
 
     def listed(self, lines: Sequence[str]) -> None:
         """A list."""
@@ -66,7 +67,7 @@ class Page:
         plain = " ".join(text.split())
         return _MARKS.sub(r"\\\1", plain) if self.latex else plain
 
-    def letter(self, symbol: Symbol) -> str:
+    def symbol(self, symbol: Symbol) -> str:
         """A symbol within a sentence."""
         return f"${symbol.latex}$" if self.latex else symbol.text
 
@@ -77,7 +78,7 @@ class Page:
 
     def shown(self, symbol: Symbol) -> str:
         """A symbol and its number within a sentence."""
-        return f"{self.letter(symbol)} = {self.number(symbol.value, symbol.kind)}"
+        return f"{self.symbol(symbol)} = {self.number(symbol.value, symbol.kind)}"
 
     def answer(self, name: str, value: float, kind: str) -> str:
         """An answer, rounded to its standard deviation where one is known for the attribute of this name, or with its range."""
@@ -87,44 +88,66 @@ class Page:
         low, high = (self.system.answer(end, kind) for end in self.ranges[name])
         return f"{printed} ({low.removesuffix(self.system.unit(kind, False))} to {high})"
 
-    def equation(self, caption: str, left: Symbol, right: Expression) -> Symbol:
-        """Symbol = formula = numbers = what the symbol is worth: the number of the result, which the formula must give."""
+    def equation(self, caption: str, left: Symbol, right: Expression) -> None:
+        """Symbol = formula = numbers = the value of the symbol: the number of the result, which the formula must give."""
         printed = self.system.working(left.value, left.kind)
-        (numbers,), fits = self._numbers([(right, left.value)], left.kind, right.size)
-        lines = [right.write(Pen(self.latex)).text]
+        (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
+        lines = [self._in_symbols(right)]
         if numbers not in (lines[0], printed):
             lines.append(numbers)
-        lines.append(printed + self.system.unit(left.kind, self.latex))
-        self._lines(caption, left.write(Pen(self.latex)).text, lines)
-        self._check(caption, left, right, fits)
-        return left
+        self._lines(caption, self._in_symbols(left), [*lines, printed + self.system.unit(left.kind, self.latex)])
+        self._excuse(fits)
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
-        """Formula = formula, in symbols, in numbers, and what both sides are worth."""
-        symbols = Pen(self.latex)
-        sides = [side.write(symbols).text for side in (left, right)]
-        numbers, fits = self._numbers([(left, left.value), (right, right.value)], kind, left.size + right.size)
-        values = [self.system.working(side.value, kind) for side in (left, right)]
-        lines = [sides[1], f"{numbers[0]} = {numbers[1]}", f"{values[0]} = {values[1]}{self.system.unit(kind, self.latex)}"]
-        self._lines(caption, sides[0], lines[:1], lines[1:])
-        self._check(caption, Symbol("", "", left.value, kind), right, fits, left.size)
+        """Formula = formula, in symbols, in numbers, and the value of both sides."""
+        sides = (left, right)
+        numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
+        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self.system.unit(kind, self.latex)
+        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values])
+        self._excuse(fits)
 
-    def _numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
-        """Formulas in numbers, with as many figures as it takes that they come to what is printed; and whether any do."""
+    def collected(
+        self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
+    ) -> None:
+        """Number = numbers times symbols that are still unknown; the numbers belong to the units printed."""
+        times, right = r"\," if self.latex else " * ", ""
+        for factor, symbol in zip(row[1:], symbols, strict=True):
+            name, size = self._in_symbols(symbol), self.system.figures(abs(factor), more=more)
+            part = name if size == "1" else f"{size}{times}{name}"
+            mark = "-" if factor < 0.0 else "+" if right else ""
+            right += f" {mark} {part}" if right else f"{mark}{part}"
+        unknown = " and ".join(self.system.label(symbol.kind) for symbol in symbols)
+        left = self.system.figures(row[0], more=more)
+        self._lines(f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}", left, [right])
+
+    def figures_to_solve(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
+        """How many more figures two equations (number, and factor of each unknown) need to have the printed solution."""
         for more in range(_MOST + 1):
-            found = [self._in_numbers(side, kind, more) for side, _ in sides]
+            (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
+            solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
+            if all(self._comes_to(one, by.value, by.kind, by.size) for one, by in zip(solved, unknowns, strict=True)):
+                return more
+        return 0
+
+    def text(self) -> str:
+        """The whole page."""
+        return "\n\n".join(self.parts) + "\n"
+
+    def _in_symbols(self, formula: Expression) -> str:
+        return formula.write(Pen(self.latex)).text
+
+    def _in_numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
+        """Formulas in numbers, with as many figures as it takes that they come to what is printed; and whether any do."""
+        scale, unit = self.system.scale(kind), powers_of(self.system.label(kind))
+        for more in (*range(_MOST + 1), 0):
+            pen = Pen(self.latex, self.system, more)
+            found = [side.write(pen).converted(scale, unit, pen) for side, _ in sides]
             fits = all(self._comes_to(one.worth, value, kind, size) for one, (_, value) in zip(found, sides, strict=True))
             if fits:
                 break
-        else:
-            found = [self._in_numbers(side, kind, 0) for side, _ in sides]
-        for one in found:
-            self.system.use(one.conversions)
+        for one, number, other in pen.conversions:
+            self.conversions[one, other] = max(self.conversions.get((one, other), ""), number, key=len)
         return [one.text for one in found], fits
-
-    def _in_numbers(self, formula: Expression, kind: str, more: int) -> Written:
-        pen = Pen(self.latex, self.system, more)
-        return converted(formula.write(pen), self.system.scale(kind), powers_of(self.system.label(kind)), pen)
 
     def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
         """Whether printed numbers that are worth so much are, rounded, the number printed for a value."""
@@ -134,50 +157,25 @@ class Page:
         # A little more than half a unit, for the rounding of what is just between two numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
-    def collected(self, caption: str, left: float, terms: Sequence[tuple[float, Symbol]], unit: str, more: int = 0) -> None:
-        """Number = numbers times letters that are still unknown; the numbers belong to the units printed."""
-        right = ""
-        for factor, symbol in terms:
-            times = r"\," if self.latex else " * "
-            size = self.system.figures(abs(factor), more=more)
-            part = self._letters(symbol) if size == "1" else f"{size}{times}{self._letters(symbol)}"
-            mark = "-" if factor < 0.0 else "+" if right else ""
-            right += f" {mark} {part}" if right else f"{mark}{part}"
-        held = f"{unit}, with the unknowns in {' and '.join(self.system.label(symbol.kind) for _, symbol in terms)}"
-        self._lines(f"{caption}, in {held}", self.system.figures(left, more=more), [right])
-
-    def enough(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
-        """How many more figures two equations (number, and factor of each unknown) need to have the printed solution."""
-        for more in range(_MOST + 1):
-            (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
-            solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
-            if all(self._comes_to(one, by.value, by.kind, by.size) for one, by in zip(solved, unknowns, strict=True)):
-                return more
-        return 0
-
-    def _letters(self, symbol: Symbol) -> str:
-        return symbol.latex if self.latex else symbol.text
-
-    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = ()) -> None:
-        if self.latex:
-            body = " \\\\\n".join([f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])])
-            body = " \\\\\n".join([body, *(line.replace(" = ", " &= ", 1) for line in below)])
-            whole = body if "\\\\" not in body else f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"
-            self.parts.append(f"{caption}:\n\n$$\n{whole.replace('&=', '=') if whole is body else whole}\n$$")
-            return
-        pad = " " * (len(left) + 2)
-        lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
-        self.parts.append("\n".join([f"{caption}:", *lines]))
-
-    def _check(self, caption: str, left: Symbol, right: Expression, fits: bool, size: float = 0.0) -> None:
-        """An equation whose form loses the digits that the result has kept says so, instead of seeming to be wrong."""
-        self.off.append((caption, abs(left.value - right.value), size + right.size + left.size))
+    def _excuse(self, fits: bool) -> None:
+        """An equation whose form loses the digits of the result says so, instead of seeming to be wrong."""
         if not fits:
             self.say(
                 "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
                 "worked out in a form that keeps its digits."
             )
 
-    def text(self) -> str:
-        """The whole page."""
-        return "\n\n".join(self.parts) + "\n"
+    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = ()) -> None:
+        """The left side once, below each other what it equals, and other equations ``below``."""
+        if not self.latex:
+            pad = " " * (len(left) + 2)
+            lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
+            self.parts.append("\n".join([f"{caption}:", *lines]))
+            return
+        lines = [f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])]
+        lines += [line.replace(" = ", " &= ", 1) for line in below]
+        if len(lines) == 1:
+            formula = lines[0].replace("&=", "=")
+        else:
+            formula = "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+        self.parts.append(f"{caption}:\n\n$$\n{formula}\n$$")

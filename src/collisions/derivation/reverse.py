@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..impact import Impact
 from ..kernels.linear import shares
 from ..provenance import Reconstruction
-from .eccentric import Lever
-from .expressions import HALF, Expression, Symbol, root
+from .contact import delta_v
+from .eccentric import impulse_in_scene_axes, levers_of
+from .expressions import HALF, ONE, Expression, root
 from .page import Page
-from .pinned import impulse_in_scene_axes
-from .symbols import AFTER, Body, Contact, bodies, letter
+from .symbols import AFTER, Symbol, Symbols
 
 _CENTRAL = {
     "va": "velocity of A before",
@@ -19,6 +21,7 @@ _CENTRAL = {
     "restitution": "restitution",
     "energy_loss": "energy lost",
 }
+_VELOCITIES = ("va", "vb", "va_after", "vb_after")
 _KNOWN = {
     "speed_a": "speed of A before",
     "speed_b": "speed of B before",
@@ -29,14 +32,13 @@ _KNOWN = {
 }
 
 
-def chosen(page: Page, impact: Impact) -> None:
+def why_this_model(page: Page, impact: Impact) -> None:
     """How ``solve`` came to the model."""
     choice = impact.choice
     if choice is None:
         return
     page.heading("Why this model")
     limit = page.number(choice.tolerance, "speed")
-    cheaper = [f"{name}: {page.number(error, 'speed')}" for name, error in choice.errors.items()]
     page.say(
         f"The least model was taken whose predicted error, times 1.15, is within the accepted {limit}, against the eccentric "
         f"model. The error is that of the delta-V vector together with radius of gyration times yaw rate, for the worse of "
@@ -45,20 +47,26 @@ def chosen(page: Page, impact: Impact) -> None:
     if choice.tolerance == 0.0 or " m/s" not in choice.reason:
         page.say(f"Reason: {choice.reason.partition(': ')[2] or choice.reason}.")
     page.say("Predicted errors:")
-    page.listed([line.replace("_", r"\_") if page.latex else line for line in cheaper])
+    errors = [f"{name}: {page.number(error, 'speed')}" for name, error in choice.errors.items()]
+    page.listed([line.replace("_", r"\_") if page.latex else line for line in errors])
 
 
-def found(page: Page, impact: Impact) -> None:
-    """How a reverse solver came to the state before."""
-    origin = impact.reconstruction
+def state_before(page: Page, s: Symbols) -> None:
+    """How a reverse solver came to the state before; of one that is not known here only what was known."""
+    origin = s.impact.reconstruction
     if origin is None:
         return
-    told(page, origin)
-    {"central": _central, "planar": _planar, "speeds": _speeds}.get(origin.method, _forward)(page, impact, origin.known)
+    what_was_known(page, origin)
+    if origin.method == "central":
+        _central(page, s, origin.known)
+    elif origin.method == "planar":
+        _planar(page, s, origin.known[0])
+    elif origin.method == "speeds":
+        _speeds(page, s, origin.known)
     page.say("What follows is the same impact forwards, from the state that was found; it ends in what was known.")
 
 
-def told(page: Page, origin: Reconstruction) -> None:
+def what_was_known(page: Page, origin: Reconstruction) -> None:
     """Which reverse solver found the state before, from what, how well-posed that was, and whether it is the only answer."""
     page.heading("How the state before was found")
     words = _CENTRAL if origin.method == "central" else _KNOWN
@@ -75,193 +83,135 @@ def told(page: Page, origin: Reconstruction) -> None:
         )
 
 
-def _forward(page: Page, impact: Impact, known: tuple[str, ...]) -> None:
-    """Of a solver that is not known here nothing is shown but the forward derivation."""
-
-
-def _central(page: Page, impact: Impact, known: tuple[str, ...]) -> None:
+def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     """In-line impact: three of six known."""
-    a, b = bodies(impact)
-    contact = Contact(impact)
-    e, g = contact.e, contact.closing
-    names = ("va", "vb", "va_after", "vb_after")
-    v = dict(zip(names, (a.straight(), b.straight(), a.straight(AFTER), b.straight(AFTER)), strict=True))
-    given = [name for name in names if name in known]
-    separation = letter("r", "r", impact.separation_speed, "speed")
+    (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
+    v = dict(zip(_VELOCITIES, (a.straight(), b.straight(), a.straight(AFTER), b.straight(AFTER)), strict=True))
+    given = [name for name in _VELOCITIES if name in known]
     if len(given) == 3:
-        (missing,) = set(names) - set(given)
-        _last_velocity(page, (a, b), v, missing)
+        _last_velocity(page, s, v, *set(_VELOCITIES).difference(given))
         page.equation("Restitution, as in (9)", e, (v["vb_after"] - v["va_after"]) / (v["va"] - v["vb"]))
         return
     share_a, share_b, *_ = shares(a.start.mass, b.start.mass)
-    f_a, f_b = letter("f_A", "f_A", share_a, "number"), letter("f_B", "f_B", share_b, "number")
-    for share, own, other in ((f_a, a, b), (f_b, b, a)):
-        if own.fixed or other.fixed:
-            page.say(f"Share of {own.label} in the change of relative velocity, as one mass is infinite: {page.shown(share)}.")
+    share = {"a": Symbol("f_A", share_a, "number"), "b": Symbol("f_B", share_b, "number")}
+    for symbol, own, other in ((share["a"], a, b), (share["b"], b, a)):
+        caption = f"Share of {own.label} in the change of relative velocity"
+        if a.fixed or b.fixed:
+            page.say(f"{caption}, as one mass is infinite: {page.shown(symbol)}.")
         else:
-            page.equation(f"Share of {own.label} in the change of relative velocity", share, other.mass / (a.mass + b.mass))
-    squares = g.squared() - separation.squared()
-    mass = contact.mass
+            page.equation(caption, symbol, other.mass / (a.mass + b.mass))
     if len(given) == 1:
-        page.equation("Closing speed, from (8)", g, root(2.0 * contact.loss / (mass * (1.0 - e.squared()))))
+        page.equation("Closing speed, from (8)", g, root(2.0 * s.loss / (s.mass * (1.0 - e.squared()))))
     elif "restitution" in known:
-        page.equation("Closing speed, from (5), (6) and (9)", g, _closing(v, given, e, f_a, f_b))
+        difference, per_closing = _relation(v, share, given, ONE, e)
+        page.equation("Closing speed, from (5), (6) and (9)", g, difference / per_closing)
     else:
         page.say(
-            f"With the closing speed {page.letter(g)} and the separation speed {page.letter(separation)} = e g there are two "
-            f"equations; {page.shown(g)} and {page.shown(separation)} solve them:"
+            f"With the closing speed {page.symbol(g)} and the separation speed {page.symbol(r)} = e g there are two "
+            f"equations; {page.shown(g)} and {page.shown(r)} solve them:"
         )
-        left, right = _relation(v, given, g, separation, f_a, f_b)
-        page.balance("From both known velocities, (5) and (6)", left, right, "speed")
-        page.balance("From the known energy (8)", contact.loss, HALF * mass * squares, "energy")
-        page.equation("Restitution", e, separation / g)
-    _others(page, v, given, (1.0 + e) * g, f_a, f_b, g)
+        page.balance("From both known velocities, (5) and (6)", *_relation(v, share, given, g, r), "speed")
+        page.balance("From the known energy (8)", s.loss, HALF * s.mass * (g.squared() - r.squared()), "energy")
+        page.equation("Restitution", e, r / g)
+    for name, other_name, sign in (("va", "vb", 1.0), ("vb", "va", -1.0)):
+        if name in given:
+            continue
+        if other_name not in given and f"{name}_after" in given:
+            found = v[f"{name}_after"].plus(sign, share[name[1]] * ((1.0 + e) * g))
+        else:
+            found = v[other_name].plus(sign, g)
+        page.equation(f"Velocity of {name[1].upper()} before", v[name], found)
 
 
-def _last_velocity(page: Page, pair: tuple[Body, Body], v: dict[str, Symbol], missing: str) -> None:
+def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str) -> None:
     """The fourth velocity from momentum, or from the rest of a body that nothing moves."""
-    a, b = pair
-    own, other = (a, b) if missing[1] == "a" else (b, a)
-    if own.fixed or other.fixed:
+    a, b = s.bodies
+    if a.fixed or b.fixed:
         page.say(f"A mass is infinite, so the velocity of that body is the same before and after. {page.shown(v[missing])}.")
         return
-    label = missing[1]
-    opposite = "b" if label == "a" else "a"
-    partner = f"v{label}" if missing.endswith("after") else f"v{label}_after"
-    change = v[f"v{opposite}"] - v[f"v{opposite}_after"]
-    if not missing.endswith("after"):
-        change = v[f"v{opposite}_after"] - v[f"v{opposite}"]
-    a_terms = (a.mass * v["va"], a.mass * v["va_after"])
-    b_terms = (b.mass * v["vb"], b.mass * v["vb_after"])
-    page.balance("Momentum is conserved (2)", a_terms[0] + b_terms[0], a_terms[1] + b_terms[1], "impulse")
-    words = f"Velocity of {own.label} {'after' if missing.endswith('after') else 'before'}, from it"
-    page.equation(words, v[missing], v[partner] + other.mass / own.mass * change)
-
-
-def _closing(v: dict[str, Symbol], given: list[str], e: Symbol, f_a: Symbol, f_b: Symbol) -> Expression:
-    """The closing speed from two velocities and the restitution."""
-    match tuple(given):
-        case ("va", "vb"):
-            return v["va"] - v["vb"]
-        case ("va", "va_after"):
-            return (v["va"] - v["va_after"]) / (f_a * (1.0 + e))
-        case ("vb", "vb_after"):
-            return (v["vb_after"] - v["vb"]) / (f_b * (1.0 + e))
-        case ("va", "vb_after"):
-            return (v["va"] - v["vb_after"]) / (f_a - f_b * e)
-        case ("vb", "va_after"):
-            return (v["va_after"] - v["vb"]) / (f_b - f_a * e)
-    return (v["vb_after"] - v["va_after"]) / e
+    before, after = (a.mass * v[f"va{when}"] + b.mass * v[f"vb{when}"] for when in ("", "_after"))
+    page.balance("Momentum is conserved (2)", before, after, "impulse")
+    own, other = (a, b) if missing[1] == "a" else (b, a)
+    here, there = ("_after", "") if missing.endswith("after") else ("", "_after")
+    of_other = f"v{other.label.lower()}"
+    change = v[of_other + there] - v[of_other + here]
+    page.equation(
+        f"Velocity of {own.label} {'after' if here else 'before'}, from it",
+        v[missing],
+        v[missing[:2] + there] + other.mass / own.mass * change,
+    )
 
 
 def _relation(
-    v: dict[str, Symbol], given: list[str], g: Symbol, r: Symbol, f_a: Symbol, f_b: Symbol
+    v: Mapping[str, Symbol], share: Mapping[str, Symbol], given: list[str], g: Expression, r: Expression
 ) -> tuple[Expression, Expression]:
-    """What two velocities say of closing and separation speed."""
-    match tuple(given):
-        case ("va", "vb"):
-            return v["va"] - v["vb"], g
-        case ("va", "va_after"):
-            return v["va"] - v["va_after"], f_a * (g + r)
-        case ("vb", "vb_after"):
-            return v["vb_after"] - v["vb"], f_b * (g + r)
-        case ("va", "vb_after"):
-            return v["va"] - v["vb_after"], f_a * g - f_b * r
-        case ("vb", "va_after"):
-            return v["va_after"] - v["vb"], f_b * g - f_a * r
-    return v["vb_after"] - v["va_after"], r
+    """The difference of two known velocities, and what it is of closing speed g and separation speed r."""
+    first, second = given
+    difference = v[first] - v[second] if first == "va" else v[second] - v[first]
+    if second == "vb":
+        return difference, g
+    if first == "va_after":
+        return difference, r
+    own, other = share[first[1]], share[second[1]]
+    return difference, own * (g + r) if own is other else own * g - other * r
 
 
-def _others(
-    page: Page, v: dict[str, Symbol], given: list[str], change: Expression, f_a: Symbol, f_b: Symbol, g: Symbol
-) -> None:
-    """The velocities before that were not known."""
-    for name, other, label in (("va", "vb", "A"), ("vb", "va", "B")):
-        if name in given:
-            continue
-        caption = f"Velocity of {label} before"
-        if other in given:
-            page.equation(caption, v[name], v[other] + g if label == "A" else v[other] - g)
-        elif f"{name}_after" in given:
-            own, way = (f_a, 1.0) if label == "A" else (f_b, -1.0)
-            after = v[f"{name}_after"]
-            page.equation(caption, v[name], after + own * change if way > 0.0 else after - own * change)
-        else:
-            page.equation(caption, v[name], v[other] + g if label == "A" else v[other] - g)
-
-
-def _planar(page: Page, impact: Impact, known: tuple[str, ...]) -> None:
+def _planar(page: Page, s: Symbols, kind: str) -> None:
     """Time reversed, an impact is an impact."""
-    a, b = bodies(impact)
-    contact = Contact(impact)
-    separation = letter("r", "r", impact.separation_speed, "speed")
+    e, g, r = s.e, s.closing, s.separation
+    a, b = levers = levers_of(s.impact)
     page.say(
         "Reversed in time, an impact is an impact: from the motions after come the separation speed and the slip after at the "
         "contact, from these the impulse, and taken off the motions after it leaves those before."
     )
-    for body in (a, b):
-        if body.start.pivot is not None or body.turns or not body.fixed:
-            Lever(body).at_contact(page, AFTER, f"Velocity of {body.label} at the contact after")
-    page.equation("Separation speed", separation, b.along("n", AFTER, True) - a.along("n", AFTER, True))
-    e, g, kind = contact.e, contact.closing, known[0]
+    for body in levers:
+        if body.pinned or body.turns or not body.fixed:
+            body.at_contact(page, AFTER, f"Velocity of {body.label} at the contact after")
+    page.equation("Separation speed", r, b.along("n", AFTER, True) - a.along("n", AFTER, True))
     if kind == "restitution":
-        page.equation("Closing speed (11)", g, separation / e)
-    elif kind == "closing_speed":
-        page.say(f"The closing speed was known: {page.shown(g)}.")
-        page.equation("Restitution (11)", e, separation / g)
+        page.equation("Closing speed (11)", g, r / e)
     else:
-        page.say(f"The energy lost was known; the closing speed that goes with it is {page.shown(g)}.")
-        page.equation("Restitution (11)", e, separation / g)
-        if contact.tangential.value != 0.0:
-            slips = contact.tangential * (contact.slip + contact.slip_after)
-            right = HALF * (g - separation) * contact.normal - HALF * slips
-        else:
-            right = HALF * (g - separation) * contact.normal
-        page.equation("The energy that these lose", contact.loss, right)
+        by_energy = "The energy lost was known; the closing speed that goes with it is"
+        page.say(f"{'The closing speed was known:' if kind == 'closing_speed' else by_energy} {page.shown(g)}.")
+        page.equation("Restitution (11)", e, r / g)
+    if kind == "energy_loss":
+        loss = HALF * (g - r) * s.normal
+        if s.tangential.value != 0.0:
+            loss = loss - HALF * (s.tangential * (s.slip + s.slip_after))
+        page.equation("The energy that these lose", s.loss, loss)
     page.say(
-        f"The regime is {impact.regime}, with the impulse {page.shown(contact.normal)} and {page.shown(contact.tangential)} on "
+        f"The regime is {s.impact.regime}, with the impulse {page.shown(s.normal)} and {page.shown(s.tangential)} on "
         "B: of all that the law allows it is the one that leads to these motions after."
     )
-    impulse_in_scene_axes(page, contact)
-    for body in (a, b):
-        if body.start.pivot is None and not body.fixed:
+    impulse_in_scene_axes(page, s)
+    for body in levers:
+        if not body.pinned and not body.fixed:
             for axis in "xy":
-                change = contact.impulse(axis) / body.mass
-                after = body.along(axis, AFTER)
-                page.equation(
-                    f"Velocity of {body.label} before, along {axis}",
-                    body.along(axis),
-                    after - change if body.sign > 0.0 else after + change,
-                )
-        lever = Lever(body)
-        if lever.turns:
-            page.equation(
-                f"Yaw rate of {body.label} before", body.spin(), body.spin(AFTER) - lever.torque(contact) / lever.inertia
-            )
+                found = body.along(axis, AFTER).plus(-body.sign, s.impulse(axis) / body.mass)
+                page.equation(f"Velocity of {body.label} before, along {axis}", body.along(axis), found)
+        if body.turns:
+            found = body.spin(AFTER) - body.torque(s) / body.resistance
+            page.equation(f"Yaw rate of {body.label} before", body.spin(), found)
 
 
-def _speeds(page: Page, impact: Impact, known: tuple[str, ...]) -> None:
+def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
     """Two of speeds, delta-V and energy."""
-    contact = Contact(impact)
     page.say(
-        f"Within one regime of the contact (here {impact.regime}) the impulse is linear in both speeds, and energies are "
+        f"Within one regime of the contact (here {s.impact.regime}) the impulse is linear in both speeds, and energies are "
         "quadratic. Each regime was solved for the two that were known, and a pair of speeds was kept if the impact, solved "
         "forwards, is in that regime. For this one:"
     )
-    for body in bodies(impact):
-        x, y = body.along("x"), body.along("y")
-        label, side = body.label.lower(), body.side
-        if f"speed_{label}" in known:
-            speed = letter(rf"\lvert v_{body.label} \rvert", f"|v_{body.label}|", side.before.speed, "speed")
-            page.equation(f"Speed of {body.label} before, known", speed, root(x.squared() + y.squared()))
-        if f"delta_v_{label}" in known and not body.fixed:
-            pn, pt = contact.normal, contact.tangential
-            delta = letter(rf"\Delta v_{body.label}", f"dv_{body.label}", side.delta_v, "speed")
-            page.equation(f"Delta-V of {body.label}, known", delta, root(pn.squared() + pt.squared()) / body.mass)
+    for body in s.bodies:
+        label = body.label
+        if f"speed_{label.lower()}" in known:
+            speed = Symbol(rf"\lvert v_{label} \rvert", body.start.speed, "speed")
+            by_components = root(body.along("x").squared() + body.along("y").squared())
+            page.equation(f"Speed of {label} before, known", speed, by_components)
+        if f"delta_v_{label.lower()}" in known and not body.fixed:
+            by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
+            page.equation(f"Delta-V of {label}, known", delta_v(label, "", body.side.delta_v), by_impulse)
     if "energy_loss" in known:
-        page.say(f"The energy lost, known: {page.shown(contact.loss)}.")
+        page.say(f"The energy lost, known: {page.shown(s.loss)}.")
     if "ees_a" in known:
-        absorbed = letter("E_c", "E_c", impact.energy_absorbed, "energy")
-        page.equation(
-            "Energy of both EES, known, absorbed along the normal", absorbed, HALF * contact.closing * contact.compression
-        )
+        absorbed = Symbol("E_c", s.impact.energy_absorbed, "energy")
+        page.equation("Energy of both EES, known, absorbed along the normal", absorbed, HALF * s.closing * s.compression)

@@ -1,54 +1,79 @@
-"""The letters of the derivation: one for each quantity, with the number that the result holds."""
+"""The symbols of a derivation: one for each quantity, with the number that the result holds."""
 
 from __future__ import annotations
 
 import math
+import re
+from functools import cache
 from typing import Any
 
 from ..impact import Impact
 from ..side import Side
 from ..vehicle import Vehicle
-from .expressions import Expression, Symbol
+from .expressions import ATOM, SUM, Expression, Pen, Written, powers_of, signed_total
 
 # At the start, at the end of compression, and after.
 BEFORE, COMPRESSED, AFTER = "before", "at_compression", "after"
-_STATES = {BEFORE: ("", ""), COMPRESSED: ("^0", "0"), AFTER: ("'", "'")}
+_PRIME = {BEFORE: "", COMPRESSED: "", AFTER: "'"}
+# How plain text writes what LaTeX has a command for; every other command is written as its name.
+_PLAIN = {
+    r"\Delta ": "d",
+    r"\omega": "w",
+    r"\var": "",
+    r"\lvert ": "|",
+    r" \rvert": "|",
+    r"\int ": "int_",
+    r"\,": "_",
+    "\\": "",
+}
 
 
-def letter(latex: str, text: str, value: Any, kind: str) -> Symbol:
-    """A symbol of any kind."""
-    return Symbol(latex, text, float(value), kind)
+class Symbol(Expression):
+    """A quantity with its symbol, its value in SI and its kind; the plain text of the symbol follows from its LaTeX."""
+
+    def __init__(self, latex: str, value: Any, kind: str, text: str = "") -> None:
+        self.latex, self.text, self.kind = latex, text or _plain_symbol(latex), kind
+        super().__init__(float(value), abs(float(value)))
+
+    def write(self, pen: Pen) -> Written:
+        if pen.system is None:
+            return Written(self.latex if pen.latex else self.text, ATOM)
+        printed = pen.system.working(self.value, self.kind, pen.more)
+        rank = SUM if printed.startswith("-") else ATOM
+        worth = float(printed) if math.isfinite(self.value) else self.value
+        label = pen.system.label(self.kind)
+        if pen.marked and self.kind == "angle":
+            printed += r"^\circ" if pen.latex else f" {label}"
+        return Written(printed, rank, pen.system.scale(self.kind), powers_of(label), worth)
+
+
+@cache
+def _plain_symbol(latex: str) -> str:
+    r"""A symbol in plain text: ``\bar{I}_A`` is I_A, ``v_{An}'`` is v'_An, ``\Delta v_A`` is dv_A, ``\omega_A^0`` is w0_A."""
+    text = re.sub(r"\\(?:bar|mathrm)(?=\{)|[{}]", "", latex)
+    for command, plain in _PLAIN.items():
+        text = text.replace(command, plain)
+    # What marks the state stands before the index.
+    return re.sub(r"_(\w+?)(?:\^(0)|('))", r"\2\3_\1", text).replace("^", "")
 
 
 class Body:
-    """The letters of one vehicle in an impact."""
+    """The symbols of one vehicle in an impact."""
 
     def __init__(self, impact: Impact, label: str) -> None:
         self.impact, self.label = impact, label
         self.side: Side = impact.a if label == "A" else impact.b
         self.start: Vehicle = self.side.before
+        # The impulse on A is the opposite of that on B.
         self.sign = -1.0 if label == "A" else 1.0
-
-    @property
-    def fixed(self) -> bool:
-        """Whether no impulse moves it."""
-        return math.isinf(self.start.mass)
-
-    @property
-    def turns(self) -> bool:
-        """Whether an impulse can turn it."""
-        return self.start.yaw_inertia is not None and math.isfinite(self.start.yaw_inertia)
-
-    @property
-    def mass(self) -> Symbol:
-        """Its mass."""
-        return letter(rf"m_{self.label}", f"m_{self.label}", self.start.mass, "mass")
+        self.fixed = math.isinf(self.start.mass)
+        self.pinned = self.start.pivot is not None
+        self.mass = Symbol(f"m_{label}", self.start.mass, "mass")
 
     @property
     def inertia(self) -> Symbol:
         """Its yaw inertia about the centre of mass."""
-        value = 0.0 if self.start.yaw_inertia is None else self.start.yaw_inertia
-        return letter(rf"\bar{{I}}_{self.label}", f"I_{self.label}", value, "inertia")
+        return Symbol(rf"\bar{{I}}_{self.label}", self.start.yaw_inertia or 0.0, "inertia")
 
     def state(self, when: str) -> Vehicle:
         """Its motion."""
@@ -57,101 +82,85 @@ class Body:
 
     def arm(self, axis: str) -> Symbol:
         """From the pivot of a pinned body to its centre of mass, along a scene axis."""
-        pivot, start = self.start.pivot or (0.0, 0.0), self.start
-        place = (start.x, pivot[0]) if axis == "x" else (start.y, pivot[1])
-        value = math.nan if place[0] is None else place[0] - place[1]
-        return letter(rf"d_{{{self.label}{axis}}}", f"d_{self.label}{axis}", value, "length")
+        pivot_x, pivot_y = self.start.pivot or (0.0, 0.0)
+        center, pivot = (self.start.x, pivot_x) if axis == "x" else (self.start.y, pivot_y)
+        return Symbol(rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length")
 
     def along(self, direction: str, when: str = BEFORE, contact: bool = False) -> Symbol:
         """Component "x", "y", "n" or "t" of the velocity of its centre of mass, or of the place at the contact."""
-        state = self.state(when)
-        point = self.impact.point
+        state, point, index = self.state(when), self.impact.point, f"{self.label}{direction}"
         vx, vy = state.velocity_at(point) if contact and point is not None else (state.vx, state.vy)
         nx, ny = self.impact.normal
         value = {"x": vx, "y": vy, "n": nx * vx + ny * vy, "t": nx * vy - ny * vx}[direction]
-        mark = "'" if when == AFTER else ""
+        if contact and when == COMPRESSED:
+            # The paper has u with and without a bar; without bars the place at the contact needs another symbol.
+            return Symbol(f"u_{{{index}}}", value, "speed", f"c0_{index}")
         if contact:
-            # The paper has u with and without a bar; without bars the place at the contact needs another letter.
-            base, text = ("u", "c0") if when == COMPRESSED else ("c", f"c{mark}")
-            return letter(rf"{base}_{{{self.label}{direction}}}{mark}", f"{text}_{self.label}{direction}", value, "speed")
+            return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed")
         base = "u" if when == COMPRESSED else "v"
         bar = rf"\bar{{{base}}}" if self.impact.model == "eccentric" else base
-        return letter(rf"{bar}_{{{self.label}{direction}}}{mark}", f"{base}{mark}_{self.label}{direction}", value, "speed")
+        return Symbol(f"{bar}_{{{index}}}{_PRIME[when]}", value, "speed")
 
     def straight(self, when: str = BEFORE) -> Symbol:
-        """Velocity along the line of a linear impact, which needs no component in its letter."""
-        found = self.along("n", when)
-        mark = "'" if when == AFTER else ""
-        return letter(rf"v_{self.label}{mark}", f"v{mark}_{self.label}", found.value, "speed")
+        """Velocity along the line of a linear impact, which needs no component in its symbol."""
+        return Symbol(f"v_{self.label}{_PRIME[when]}", self.along("n", when).value, "speed")
 
     def axis(self, name: str, when: str = BEFORE) -> Symbol:
-        """Velocity of its centre of mass along a scene axis, by the letter that the derivation has for it."""
+        """Velocity of its centre of mass along a scene axis, by the symbol that the derivation has for it."""
         lined = self.impact.model == "linear_central" and self.impact.normal == (1.0, 0.0) and name == "x"
         return self.straight(when) if lined else self.along(name, when)
 
     def spin(self, when: str = BEFORE) -> Symbol:
         """Yaw rate."""
-        latex, text = _STATES[when]
-        return letter(rf"\omega_{self.label}{latex}", f"w{text}_{self.label}", self.state(when).yaw_rate, "yaw rate")
+        return Symbol(
+            rf"\omega_{self.label}{'^0' if when == COMPRESSED else _PRIME[when]}", self.state(when).yaw_rate, "yaw rate"
+        )
 
 
-class Contact:
-    """The letters of the contact."""
+class Symbols:
+    """The symbols of an impact: those of the contact, and of both bodies."""
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact
-        self.e = letter("e", "e", impact.restitution, "number")
-        self.closing = letter("g", "g", impact.closing_speed, "speed")
-        self.slip = letter("s", "s", impact.slip_before, "speed")
-        self.slip_after = letter("s'", "s'", impact.slip_after, "speed")
-        self.mass = letter("m_e", "m_e", impact.effective_mass, "mass")
-        self.normal = letter("P_n", "P_n", impact.normal_impulse, "impulse")
-        self.tangential = letter("P_t", "P_t", impact.tangential_impulse, "impulse")
-        self.compression = letter(r"\int P\,dt", "int_P_dt", impact.compression_impulse, "impulse")
-        self.restitution = letter(r"\int R\,dt", "int_R_dt", impact.restitution_impulse, "impulse")
-        self.ratio = letter(r"\mu_P", "mu_P", impact.impulse_ratio, "number")
-        self.critical = letter(r"\mu_c", "mu_c", impact.critical_impulse_ratio, "number")
-        self.loss = letter(r"\Delta E", "dE", impact.energy_loss, "energy")
-        self.loss_n = letter(r"\Delta E_n", "dE_n", impact.energy_loss_normal, "energy")
-        self.loss_t = letter(r"\Delta E_t", "dE_t", impact.energy_loss_tangential, "energy")
-        self.nx, self.ny = (
-            letter(f"n_{axis}", f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True)
-        )
+        self.a, self.b = self.bodies = Body(impact, "A"), Body(impact, "B")
+        self.e = Symbol("e", impact.restitution, "number")
+        self.closing = Symbol("g", impact.closing_speed, "speed")
+        self.separation = Symbol("r", impact.separation_speed, "speed")
+        self.slip = Symbol("s", impact.slip_before, "speed")
+        self.slip_after = Symbol("s'", impact.slip_after, "speed")
+        self.mass = Symbol("m_e", impact.effective_mass, "mass")
+        self.normal = Symbol("P_n", impact.normal_impulse, "impulse")
+        self.tangential = Symbol("P_t", impact.tangential_impulse, "impulse")
+        self.compression = Symbol(r"\int P\,dt", impact.compression_impulse, "impulse")
+        self.restitution = Symbol(r"\int R\,dt", impact.restitution_impulse, "impulse")
+        self.critical = Symbol(r"\mu_c", impact.critical_impulse_ratio, "number")
+        self.ratio = Symbol(r"\mu_P", impact.impulse_ratio, "number")
+        self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
+        self.nx, self.ny = (Symbol(f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True))
 
     def dot(self, x: Expression, y: Expression) -> Expression:
         """The component of a vector along the normal."""
-        return _weighed((self.nx, x, 1.0), (self.ny, y, 1.0))
+        return _weighed((1.0, self.nx, x), (1.0, self.ny, y))
 
     def cross(self, x: Expression, y: Expression) -> Expression:
         """The component of a vector along the tangent."""
-        return _weighed((self.nx, y, 1.0), (self.ny, x, -1.0))
+        return _weighed((1.0, self.nx, y), (-1.0, self.ny, x))
 
     def scene(self, axis: str, n: Expression, t: Expression) -> Expression:
         """The component along a scene axis of a vector that is known along the normal and the tangent."""
-        return (
-            _weighed((self.nx, n, 1.0), (self.ny, t, -1.0)) if axis == "x" else _weighed((self.ny, n, 1.0), (self.nx, t, 1.0))
-        )
+        if axis == "x":
+            return _weighed((1.0, self.nx, n), (-1.0, self.ny, t))
+        return _weighed((1.0, self.ny, n), (1.0, self.nx, t))
 
     def impulse(self, axis: str) -> Symbol:
         """Component of the impulse on B in scene axes."""
-        value = self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y
-        return letter(f"P_{axis}", f"P_{axis}", value, "impulse")
+        return Symbol(f"P_{axis}", self.impact.b.impulse_x if axis == "x" else self.impact.b.impulse_y, "impulse")
 
 
-def _weighed(*terms: tuple[Symbol, Expression, float]) -> Expression:
+def _weighed(*terms: tuple[float, Symbol, Expression]) -> Expression:
     """A sum of parts of a vector, without those that the direction leaves out and without factors of 1."""
-    found: Expression | None = None
-    for weight, part, sign in terms:
-        if weight.value == 0.0:
-            continue
-        term = part if abs(weight.value) == 1.0 else weight * part
-        way = sign * weight.value if abs(weight.value) == 1.0 else sign
-        term = term if way > 0.0 or found is not None else -term
-        found = term if found is None else found + term if way > 0.0 else found - term
-    assert found is not None
-    return found
-
-
-def bodies(impact: Impact) -> tuple[Body, Body]:
-    """The letters of A and of B."""
-    return Body(impact, "A"), Body(impact, "B")
+    return signed_total(
+        (sign * weight.value, part) if abs(weight.value) == 1.0 else (sign, weight * part)
+        for sign, weight, part in terms
+        if weight.value != 0.0
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..derivation import answers, momentum
+from ..derivation.explain import kinds_of_answers
 from ..errors import InputError
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution
@@ -24,9 +24,9 @@ class Known:
     def __init__(self, impact: Impact | MomentumSolution | Fit, uncertainty: Propagation | None) -> None:
         self.impact = impact
         self.outputs: dict[str, Output] = {}
-        names = momentum.NAMES if isinstance(impact, MomentumSolution) else answers.NAMES
-        self.kind_of = momentum.kind_of if isinstance(impact, MomentumSolution) else answers.kind_of
-        paths = {name.replace(".", "_"): name for name in names} | {name: name for name in names}
+        kinds = kinds_of_answers(impact)
+        self.kind_of = kinds.__getitem__
+        paths = {name.replace(".", "_"): name for name in kinds} | {name: name for name in kinds}
         for output in () if uncertainty is None else uncertainty.outputs.values():
             name = paths.get(output.name)
             if name is not None and output.unit in (None, SI_UNITS[self.kind_of(name)]):

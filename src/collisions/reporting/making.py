@@ -10,10 +10,10 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from ..contact_effects import left_out
-from ..derivation.explaining import NOT_EXPLAINED, explain, no_uncertainty
-from ..derivation.fit import fit
+from ..derivation.evidence import fit
+from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
+from ..derivation.expressions import System
 from ..derivation.page import Page
-from ..derivation.rounding import System
 from ..diagnostics import diagnose
 from ..errors import InputError, ShapeError
 from ..impact import Impact

@@ -9,8 +9,10 @@ from typing import Any
 
 from .. import reference
 from ..contact_effects import LeftOut, LeftOutSide
-from ..derivation import answers, reverse
-from ..derivation import momentum as derivation
+from ..derivation import evidence as derivation
+from ..derivation import reverse
+from ..derivation.explain import answers
+from ..derivation.explain import inputs as inputs_of_impact
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.finding import Findings, read_limits
 from ..errors import Status
@@ -83,7 +85,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
     backwards = impact.reconstruction is not None
     sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
     aside = sheet.aside()
-    answers.given(aside, impact)
+    inputs_of_impact(aside, impact)
     vehicles = {"A": impact.a.before, "B": impact.b.before}
     rows: list[tuple[str, str, str]] = []
     for of, quantity, value in _rows(aside):
@@ -111,9 +113,9 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
         "only its direction; it stands here in the units of this page. The record has all digits."
     )
-    reverse.chosen(sheet, impact)
+    reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
-        reverse.told(sheet, impact.reconstruction)
+        reverse.what_was_known(sheet, impact.reconstruction)
         told = knowns(sheet, impact)
         if told:
             sheet.table(_HEAD, told)
@@ -126,7 +128,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
         given |= {f"{name}[{at}]": part for at, part in enumerate(value)} if isinstance(value, list) else {name: value}
     sheet.heading("Inputs")
     rows = []
-    for of, what, name, number, kind in derivation.inputs(solution):
+    for of, what, name, number, kind in derivation.momentum_inputs(solution):
         text = given.get(name)
         rows.append((of, what, sheet.as_given(number, kind, text if isinstance(text, str) else None)))
     sheet.table(_HEAD, [*rows, *_damage(sheet, evidence)])
@@ -254,7 +256,7 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     """What came out, with the EES of a stated share."""
     aside = sheet.aside()
-    answers.answers(aside, impact)
+    answers(aside, impact)
     rows = _rows(aside)
     if share_a is not None:
         reader = ArgumentReader()

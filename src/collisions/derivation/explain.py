@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
 from ..amounts import at_least_zero
 from ..errors import InputError, ShapeError, Status
 from ..impact import Impact
+from ..kernels.contact_laws import RULES
 from ..one_case import need_one_case
 from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution
@@ -16,24 +18,59 @@ from ..solving import error_of
 from ..uncertainty.result import Propagation
 from ..unit_systems import SI_UNITS, UnitSystem, bad_system
 from ..units import shown
-from . import answers, momentum
-from .central import linear
-from .changes import changes
+from ..vehicle import Vehicle
+from .central import linear, oblique
+from .contact import motions
 from .eccentric import eccentric
-from .fit import fit
-from .oblique import oblique
-from .page import Page
-from .reverse import chosen, found
-from .rounding import System
+from .evidence import MOMENTUM_ANSWERS, fit, momentum
+from .expressions import Function, System
+from .page import HEAD, Page
+from .reverse import state_before, why_this_model
+from .symbols import Symbol, Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
-_FORMS = get_args(Form)
 # What to do about a result that holds no more than its number.
 NOT_EXPLAINED = (
     ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
     "help(collisions.reconstruct.crush_energy), help(collisions.travel.speed), help(collisions.travel.path)"
 )
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
+
+_SIDE = {
+    "after.vx": ("velocity after, along x", "speed"),
+    "after.vy": ("velocity after, along y", "speed"),
+    "after.speed": ("speed after", "speed"),
+    "after.course": ("course after", "angle"),
+    "after.yaw_rate": ("yaw rate after", "yaw rate"),
+    "delta_v": ("delta-V", "speed"),
+    "delta_vx": ("delta-V along x", "speed"),
+    "delta_vy": ("delta-V along y", "speed"),
+    "delta_yaw_rate": ("change of yaw rate", "yaw rate"),
+    "pdof": ("PDOF (0 from ahead, positive clockwise)", "angle"),
+    "pivot_impulse_x": ("impulse of the pivot, along x", "impulse"),
+    "pivot_impulse_y": ("impulse of the pivot, along y", "impulse"),
+}
+_BEFORE = {
+    "before.vx": ("velocity before, along x", "speed"),
+    "before.vy": ("velocity before, along y", "speed"),
+    "before.speed": ("speed before", "speed"),
+    "before.yaw_rate": ("yaw rate before", "yaw rate"),
+}
+_CONTACT = {
+    "closing_speed": ("closing speed", "speed"),
+    "separation_speed": ("separation speed", "speed"),
+    "slip_before": ("slip before", "speed"),
+    "slip_after": ("slip after", "speed"),
+    "restitution": ("restitution", "number"),
+    "normal_impulse": ("normal impulse", "impulse"),
+    "tangential_impulse": ("tangential impulse", "impulse"),
+    "impulse_ratio": ("impulse ratio", "number"),
+    "energy_absorbed": ("energy absorbed along the normal at the end of compression", "energy"),
+    "energy_loss": ("energy lost", "energy"),
+}
+_OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
+_IMPACT_ANSWERS = {f"{label}.{name}": kind for label in "ab" for name, (_, kind) in (_BEFORE | _SIDE).items()}
+_IMPACT_ANSWERS |= {name: kind for name, (_, kind) in _CONTACT.items()}
 
 
 def explain(
@@ -47,7 +84,7 @@ def explain(
 
     Every line is a formula, the same with numbers, and the number of the result: nothing is solved again, and a formula that
     did not give the result's number would say so. Equation numbers, as (5), are those of "Application of Impulse Momentum
-    Theory to Vehicle Collisions". An energy gain is told first.
+    Theory to Vehicle Collisions". An energy gain comes first.
 
     The working keeps a number as it is if six figures hold it, else four figures (all that stand before the decimal point; of
     small speeds, angles, lengths and ratios two decimals more than an answer has). Where a line needs more figures than that to
@@ -102,22 +139,26 @@ def explain(
     problem = bad_system(units)
     if problem is not None:
         raise problem
-    _allowed("form", form, _FORMS)
+    if not isinstance(form, str) or form not in get_args(Form):
+        raise InputError(
+            f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}", code="bad_option", argument="form"
+        )
     need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of)
-    system = System(units)
+    if isinstance(impact, Fit) and uncertainty is not None:
+        raise no_uncertainty()
+    deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, kinds_of_answers(impact))
+    page = Page(System(units), form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):
-        if uncertainty is not None:
-            raise no_uncertainty()
-        page = Page(system, form == "markdown", {})
         page.title("Fit to evidence, step by step")
         fit(page, impact)
     elif isinstance(impact, MomentumSolution):
-        page = Page(system, form == "markdown", *_spread(uncertainty, momentum.NAMES, momentum.kind_of))
         page.title("Planar momentum, step by step")
-        _gain(page, impact.status, impact.translational_energy_loss)
-        momentum.momentum(page, impact)
+        _energy_gain(page, impact.status, impact.translational_energy_loss)
+        momentum(page, impact)
     else:
-        page = _of_impact(impact, system, form, uncertainty)
+        page.title("The impact, step by step")
+        _energy_gain(page, impact.status, impact.energy_loss)
+        _impact(page, impact)
     _notes(page, uncertainty, of_impact=not isinstance(impact, Fit))
     return page.text()
 
@@ -132,22 +173,99 @@ def no_uncertainty() -> InputError:
     )
 
 
-def _of_impact(impact: Impact, system: System, form: str, uncertainty: Any) -> Page:
-    page = Page(system, form == "markdown", *_spread(uncertainty, answers.NAMES, answers.kind_of))
-    page.title("The impact, step by step")
-    _gain(page, impact.status, impact.energy_loss)
+def kinds_of_answers(result: Impact | MomentumSolution | Fit) -> Mapping[str, str]:
+    """The answers that an uncertainty may be of, by name, with the kind of each."""
+    return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
+
+
+def _impact(page: Page, impact: Impact) -> None:
+    s = Symbols(impact)
     page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
-    answers.given(page, impact)
-    answers.direction(page, impact)
-    chosen(page, impact)
-    found(page, impact)
-    _MODELS[impact.model](page, impact)
-    changes(page, impact)
-    answers.answers(page, impact)
-    return page
+    inputs(page, impact)
+    _normal(page, s)
+    why_this_model(page, impact)
+    state_before(page, s)
+    _MODELS[impact.model](page, s)
+    motions(page, s)
+    answers(page, impact)
 
 
-def _gain(page: Page, status: Any, loss: float) -> None:
+def inputs(page: Page, impact: Impact) -> None:
+    """What went in, as a table."""
+    rows: list[tuple[str, str, str]] = []
+    for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
+        name = f"{label} ({page.name(vehicle.name)})" if vehicle.name and vehicle.name != label else label
+        rows += [(name, what, text) for what, text in _vehicle(page, vehicle)]
+    direction = page.number(impact.normal_angle, "angle")
+    bare = impact.inputs.bare_normal
+    if bare is not None:
+        direction += f", given as {bare:.6g} without a unit"
+    rows.append(("contact", "normal, direction from A into B", direction))
+    if impact.point is not None and impact.model == "eccentric":
+        rows.append(("contact", "contact point (x, y)", _place(page, impact.point)))
+    rows.append(("contact", "restitution e", page.number(impact.restitution, "number")))
+    if impact.model != "linear_central":
+        rows.append(("contact", RULES[impact.inputs.rule].meaning, page.number(impact.inputs.rule_value, "number")))
+        rows.append(("contact", "law of restitution and no slip", impact.law or ""))
+    page.table(HEAD, rows)
+
+
+def _vehicle(page: Page, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
+    for what, value, kind in (
+        ("mass", vehicle.mass, "mass"),
+        ("velocity along x", vehicle.vx, "speed"),
+        ("velocity along y", vehicle.vy, "speed"),
+        ("yaw rate", vehicle.yaw_rate or None, "yaw rate"),
+        ("yaw inertia about the centre of mass", vehicle.yaw_inertia, "inertia"),
+        ("position x of the centre of mass", vehicle.x, "length"),
+        ("position y of the centre of mass", vehicle.y, "length"),
+        ("heading", vehicle.heading, "angle"),
+    ):
+        if value is not None:
+            yield what, page.number(value, kind)
+    if vehicle.pivot is not None:
+        yield "pivot O (x, y)", _place(page, vehicle.pivot)
+
+
+def _place(page: Page, place: tuple[float, float]) -> str:
+    return ", ".join(page.number(part, "length") for part in place)
+
+
+def _normal(page: Page, s: Symbols) -> None:
+    """The components of the normal, which the formulas need wherever it is not the x axis."""
+    if s.impact.normal == (1.0, 0.0):
+        return
+    if 0.0 in s.impact.normal:
+        page.say(f"Components of the normal: {page.shown(s.nx)} and {page.shown(s.ny)}.")
+        return
+    phi = Symbol(r"\varphi", s.impact.normal_angle, "angle")
+    page.equation(f"Normal along x, from its direction {page.symbol(phi)}", s.nx, Function("cos", phi))
+    page.equation("Normal along y", s.ny, Function("sin", phi))
+
+
+def answers(page: Page, impact: Impact) -> None:
+    """What came out, rounded, as a table."""
+    rows = []
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
+            if impact.model != "eccentric" and name.endswith("yaw_rate"):
+                continue
+            if side.before.pivot is None and name.startswith("pivot"):
+                continue
+            if name == "after.course" and page.system.working(side.after.speed, "speed") == "0":
+                continue
+            value = attrgetter(name)(side)
+            if value is not None and not math.isnan(value):
+                rows.append((label.upper(), what, page.answer(f"{label}.{name}", value, kind)))
+    for name, (what, kind) in _CONTACT.items():
+        shown_already = name == "restitution" and impact.reconstruction is None
+        if not shown_already and not (impact.model == "linear_central" and name in _OF_FRICTION):
+            rows.append(("contact", what, page.answer(name, getattr(impact, name), kind)))
+    page.heading("Answers")
+    page.table(HEAD, rows)
+
+
+def _energy_gain(page: Page, status: Any, loss: float) -> None:
     """An energy gain comes before anything else."""
     if status == Status.ENERGY_GAIN:
         page.stress(
@@ -178,35 +296,22 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
             "A range in brackets is no ±: an interval is among the inputs, and of its values none is said to be likelier than "
             f"another. The range holds {held}."
         )
-    if page.system.conversions:
-        lines.append("Numbers that convert units: " + "; ".join(page.system.conversions).replace("**", "^") + ".")
+    if page.conversions:
+        conversions = "; ".join(f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items())
+        lines.append(f"Numbers that convert units: {conversions.replace('**', '^')}.")
     page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
 
 
-def _allowed(argument: str, value: Any, allowed: tuple[str, ...]) -> None:
-    if not isinstance(value, str) or value not in allowed:
-        raise InputError(
-            f"{argument} must be one of {', '.join(map(repr, allowed))}, got {shown(value)}",
-            code="bad_option",
-            argument=argument,
-        )
-
-
-def _spread(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
+def _spread(uncertainty: Any, kinds: Mapping[str, str]) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
     """Standard deviations in SI, by the name of the answer; or ranges, where there is no distribution to have a deviation."""
-    if uncertainty is None:
-        return {}, {}
-    known = {**{name.replace(".", "_"): name for name in names}, **{name: name for name in names}}
+    known = {name.replace(".", "_"): name for name in kinds} | {name: name for name in kinds}
     if isinstance(uncertainty, Propagation):
         outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}
         if not outputs:
-            raise _unknown(", ".join(uncertainty), names)
+            raise _unknown(", ".join(uncertainty), kinds)
         # With an interval among the inputs there are two deviations, and how far the interval goes is in neither.
-        open_ended = {name for name, output in outputs.items() if isinstance(output.std, tuple)}
-        return (
-            {name: float(output.std) for name, output in outputs.items() if name not in open_ended},
-            {name: outputs[name].interval() for name in outputs if name in open_ended},
-        )
+        deviations = {name: float(output.std) for name, output in outputs.items() if not isinstance(output.std, tuple)}
+        return deviations, {name: output.interval() for name, output in outputs.items() if name not in deviations}
     if not isinstance(uncertainty, Mapping):
         raise InputError(
             f"uncertainty must be a Propagation, or a dict of standard deviations by name, got {type(uncertainty).__name__}",
@@ -215,11 +320,11 @@ def _spread(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> tuple[dic
         )
     stray = [shown(name) for name in uncertainty if name not in known]
     if stray:
-        raise _unknown(", ".join(stray), names)
+        raise _unknown(", ".join(stray), kinds)
     reader = ArgumentReader()
     found = {}
     for name, value in uncertainty.items():
-        read = reader.number(value, SI_UNITS[kind_of(known[name])], name)
+        read = reader.number(value, SI_UNITS[kinds[known[name]]], name)
         found[known[name]] = at_least_zero(reader, read, value, name, "negative_deviation", "give the standard deviation")
     reader.close()
     for name, value in found.items():
@@ -228,9 +333,9 @@ def _spread(uncertainty: Any, names: tuple[str, ...], kind_of: Any) -> tuple[dic
     return found, {}
 
 
-def _unknown(given: str, names: tuple[str, ...]) -> InputError:
+def _unknown(given: str, kinds: Mapping[str, str]) -> InputError:
     return InputError(
-        f"uncertainty names no answer of this derivation: {given}; the answers are {', '.join(names)}",
+        f"uncertainty names no answer of this derivation: {given}; the answers are {', '.join(kinds)}",
         code="no_output",
         argument="uncertainty",
     )

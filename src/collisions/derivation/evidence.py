@@ -1,0 +1,319 @@
+"""The derivations that need no impact model: planar momentum, and a fit to evidence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..reconstruct import Fit, MomentumSolution
+from ..unit_systems import KIND_OF
+from .contact import delta_v, impulse_direction, seen_from
+from .expressions import Direction, Expression, Function, magnitude, signed_total, total
+from .page import HEAD, Page
+from .symbols import Symbol
+
+_SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+# The answers of planar momentum, by name, with the kind of each.
+MOMENTUM_ANSWERS = {
+    **dict.fromkeys((*_SPEEDS, "delta_v_a", "delta_v_b"), "speed"),
+    **dict.fromkeys(("pdof_a", "pdof_b"), "angle"),
+    "closing_speed": "speed",
+    "restitution": "number",
+    "translational_energy_loss": "energy",
+}
+_FULL_TURN_OFF = 1e-9 * math.tau  # an angle by the short way round differs by a whole turn, which is more than rounding
+
+
+class _Momenta:
+    """Planar momentum with the symbols of masses, speeds and courses; what rests has no course."""
+
+    def __init__(self, solution: MomentumSolution) -> None:
+        self.solution = solution
+        self.mass = {"a": Symbol("m_A", solution.mass_a, "mass"), "b": Symbol("m_B", solution.mass_b, "mass")}
+        self.speed: dict[str, Symbol] = {}
+        self.course: dict[str, Symbol] = {}
+        for name in _SPEEDS:
+            index = name[6].upper() + ("'" if name.endswith("after") else "")
+            self.speed[name] = Symbol(f"v_{index}", getattr(solution, name), "speed")
+            course = getattr(solution, name.replace("speed", "course"))
+            if course is not None:
+                self.course[name] = Symbol(rf"\theta_{index}", course, "angle")
+        outside = {axis: getattr(solution, f"outside_impulse_{axis}") for axis in "xy"}
+        self.outside = {axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None}
+
+    def along(self, name: str, function: str, axis: Symbol | None = None) -> Expression | None:
+        """The component of a velocity along x or an axis at another angle; None of what rests."""
+        if name not in self.course:
+            return None
+        course = self.course[name] if axis is None else self.course[name] - axis
+        return self.speed[name] * Function(function, course)
+
+
+def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str, float, str]]:
+    """What was given: of what, in words, by which argument, its number and its kind."""
+    for label in "ab":
+        yield label.upper(), "mass", f"mass_{label}", getattr(solution, f"mass_{label}"), "mass"
+    shared = "speed_a_after" in solution.unknowns and _together(solution)
+    for name in _SPEEDS:
+        label, when = name[6].upper(), _when(name)
+        course = name.replace("speed", "course")
+        if getattr(solution, course) is not None:
+            yield label, f"course {when}", course, getattr(solution, course), "angle"
+        if name not in solution.unknowns and not (name == "speed_b_after" and shared):
+            yield label, f"speed {when}", name, getattr(solution, name), "speed"
+    for label in "ab":
+        heading = getattr(solution, f"heading_{label}")
+        if heading is not None:
+            yield label.upper(), "heading", f"heading_{label}", heading, "angle"
+    if solution.normal_angle is not None:
+        yield "contact", "normal, direction from A into B", "normal", solution.normal_angle, "angle"
+    for at, axis in enumerate("xy"):
+        outside = getattr(solution, f"outside_impulse_{axis}")
+        if outside is not None:
+            yield "both", f"impulse from outside, along {axis}", f"outside_impulse[{at}]", outside, "impulse"
+
+
+def momentum(page: Page, solution: MomentumSolution) -> None:
+    """Two unknown speeds from courses that cross."""
+    m = _Momenta(solution)
+    rows = [(of, what, page.number(value, kind)) for of, what, _, value, kind in momentum_inputs(solution)]
+    page.heading("Given")
+    page.table(HEAD, rows)
+    page.heading("Planar momentum")
+    page.say(
+        "The momentum of both vehicles together is the same before and after, along x and along y (1), (2). Nothing is assumed "
+        "of restitution, friction or rotation. Unknown are the two speeds along their courses."
+    )
+    for axis, function in (("x", "cos"), ("y", "sin")):
+        _balance(page, m, axis, function)
+    first, second = solution.unknowns
+    page.say(
+        f"Counted across the course of one unknown speed, the balance holds the other one alone. This gives "
+        f"{page.symbol(m.speed[first])} and {page.symbol(m.speed[second])}."
+    )
+    for name, across in ((first, second), (second, first)):
+        _solved(page, m, name, m.course[across])
+    angle = m.course[first] - m.course[second]
+    page.equation(
+        "Condition, from the angle between both courses (1 at right angles)",
+        Symbol(r"\kappa", solution.condition, "number"),
+        (1.0 + Function("abs", Function("cos", angle))) / Function("abs", Function("sin", angle)),
+    )
+    page.heading("Changes of velocity and energy")
+    for label in "ab":
+        _delta_v(page, m, label)
+    if solution.normal_angle is not None:
+        _along_normal(page, m, solution.normal_angle)
+    energies = [m.mass[name[6]] * speed.squared() / 2.0 for name, speed in m.speed.items()]
+    loss = Symbol(r"\Delta E", solution.translational_energy_loss, "energy")
+    page.equation("Energy of translation lost (7)", loss, signed_total(zip((1.0, 1.0, -1.0, -1.0), energies, strict=True)))
+    page.heading("Answers")
+    page.table(HEAD, list(_momentum_answers(page, solution)))
+
+
+def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
+    """The balance of momentum along an axis."""
+    sides: list[Expression] = []
+    for when in ("before", "after"):
+        moving = [name for name in m.course if _when(name) == when]
+        terms = [m.mass[name[6]] * m.speed[name] * Function(function, m.course[name]) for name in moving]
+        sides.append(total(*terms) if terms else Symbol("0", 0.0, "impulse"))
+    left, right = sides
+    if axis in m.outside:
+        page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}.")
+        left = left + m.outside[axis]
+    page.balance(f"Momentum along {axis} (2)", left, right, "impulse")
+
+
+def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
+    """One of both speeds, by the balance counted across the course of the other."""
+    mass: Expression = m.mass[name[6]]
+    own, when = [name], _when(name)
+    if when == "after" and _together(m.solution):
+        own, mass = ["speed_a_after", "speed_b_after"], m.mass["a"] + m.mass["b"]
+    # What is on the other side of the balance counts forwards, what is on the side of the unknown backwards.
+    terms: list[tuple[float, Expression]] = [
+        (-1.0 if _when(other) == when else 1.0, m.mass[other[6]] * m.speed[other] * Function("sin", course - across))
+        for other, course in m.course.items()
+        if other not in own and course.value != across.value and m.speed[other].value
+    ]
+    terms.sort(key=lambda term: -term[0])
+    if m.outside:
+        moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
+        terms.append((1.0 if when == "after" else -1.0, moment))
+    if not terms:
+        page.say(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.")
+        return
+    page.equation(
+        f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}",
+        m.speed[name],
+        signed_total(terms) / (mass * Function("sin", m.course[name] - across)),
+    )
+
+
+def _when(name: str) -> str:
+    return "after" if name.endswith("after") else "before"
+
+
+def _together(solution: MomentumSolution) -> bool:
+    """Whether the vehicles left as one."""
+    return bool(solution.speed_a_after == solution.speed_b_after and solution.course_a_after == solution.course_b_after)
+
+
+def _delta_v(page: Page, m: _Momenta, label: str) -> None:
+    """Delta-V of one vehicle, and its direction seen from the vehicle where that had a heading."""
+    name = label.upper()
+    parts = []
+    for axis, function in (("x", "cos"), ("y", "sin")):
+        change = _difference(m.along(f"speed_{label}_after", function), m.along(f"speed_{label}", function))
+        parts.append(delta_v(name, axis, change.value))
+        page.equation(f"Delta-V of {name} along {axis} (definition)", parts[-1], change)
+    x, y = parts
+    size = getattr(m.solution, f"delta_v_{label}")
+    page.equation(f"Delta-V of {name} (definition)", delta_v(name, "", size), magnitude(x, y))
+    heading, pdof = getattr(m.solution, f"heading_{label}"), getattr(m.solution, f"pdof_{label}")
+    if heading is None or math.isnan(pdof):
+        return
+    alpha = impulse_direction(name, math.atan2(y.value + 0.0, x.value))
+    page.equation(f"Direction of the delta-V of {name} (definition)", alpha, Direction(x, y))
+    seen_from(page, name, heading, alpha, pdof)
+
+
+def _difference(end: Expression | None, start: Expression | None) -> Expression:
+    """One less the other, of which one that is None does not move."""
+    if end is None:
+        return Symbol("0", 0.0, "speed") if start is None else -start
+    return end if start is None else end - start
+
+
+def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
+    """Closing speed and restitution of the centres of mass."""
+    phi = Symbol(r"\varphi", normal_angle, "angle")
+    before_a, before_b, after_a, after_b = (m.along(name, "cos", phi) for name in _SPEEDS)
+    departure = _difference(after_b, after_a)
+    closing = Symbol("g", m.solution.closing_speed, "speed")
+    parting = Symbol("r", departure.value, "speed")
+    page.equation(
+        f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)",
+        closing,
+        _difference(before_a, before_b),
+    )
+    page.equation("Separation speed (definition)", parting, departure)
+    if _is_known(m.solution.restitution):
+        page.equation("Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing)
+
+
+def _is_known(value: float | None) -> bool:
+    return value is not None and not math.isnan(value)
+
+
+def _momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
+    """The rows of what came out."""
+    rows = [(name[6].upper(), f"speed {_when(name)}", name) for name in solution.unknowns]
+    for label in "ab":
+        rows.append((label.upper(), "delta-V", f"delta_v_{label}"))
+        rows.append((label.upper(), "PDOF (0 from ahead, positive clockwise)", f"pdof_{label}"))
+    rows += [
+        ("centres", "closing speed along the normal", "closing_speed"),
+        ("centres", "restitution along the normal", "restitution"),
+        ("both", "energy of translation lost", "translational_energy_loss"),
+    ]
+    for of, what, name in rows:
+        value = getattr(solution, name)
+        if _is_known(value):
+            yield of, what, page.answer(name, value, MOMENTUM_ANSWERS[name])
+
+
+def fit(page: Page, found: Fit) -> None:
+    """How far each observation is from what the model computes, and what that says of the unknowns."""
+    page.heading("Given")
+    page.table(HEAD, list(_given(page, found)))
+    page.say(
+        "Each ± is one standard error, as it was stated. The model, a function of whoever asked, is not on this page; its "
+        "computed values are those at the answer."
+    )
+    page.heading("Misfit")
+    page.table(HEAD, list(_misfit(page, found)))
+    ratios = [_residual(page, found, number, name) for number, name in enumerate(found.residuals, 1)]
+    chi_squared = Symbol(r"\chi^2", found.chi_squared, "number")
+    page.equation("Chi-squared, which the answer makes least", chi_squared, total(*(ratio.squared() for ratio in ratios)))
+    searches = found.searches
+    page.say(
+        f"Searches that ended here: {searches['here']} of {searches['starts']}; at another minimum: "
+        f"{searches['elsewhere']}; where the model refuses: {searches['refused']}; at no minimum: {searches['without_end']}."
+    )
+    page.listed([page.name(sentence) + "." for sentence in found.statements])
+    page.heading("Answers")
+    page.table(HEAD, [row for name in found.names for row in _unknown(page, found, name)])
+    page.say(
+        "Each ± is one standard error and each range holds 95 percent, given the stated errors and as far as the model is "
+        "straight there. They are not widened by the misfit."
+    )
+
+
+def _given(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
+    for one in found.residuals.values():
+        value = f"{_number(page, one.observed, one.unit)} ± {_number(page, one.sigma, one.unit)}"
+        yield page.name(one.name), "known before" if one.is_prior else "observed", value
+    for name, ends in found.bounds.items():
+        if any(map(math.isfinite, ends)):
+            yield page.name(name), "bounds", " to ".join(_number(page, end, found.units[name]) for end in ends)
+
+
+def _misfit(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
+    for name, one in found.residuals.items():
+        yield page.name(name), "computed at the answer", _number(page, one.computed, one.unit)
+        yield page.name(name), "stated less computed, over the standard error", f"{one.over_sigma:+.2f}"
+    yield "all", "chi-squared", f"{found.chi_squared:.4g}"
+    freedom = "degrees of freedom (observations and priors less the unknowns they determine)"
+    yield "all", freedom, str(found.degrees_of_freedom)
+    chance = "none to tell" if math.isnan(found.p_value) else f"{found.p_value:.2g}"
+    yield "all", "chance of such a chi-squared or a larger one", chance
+    off = "not known" if math.isnan(found.nonlinearity) else f"{100.0 * found.nonlinearity:.0f} percent"
+    yield "all", "by how much the 95 percent intervals are off, as the model bends", off
+
+
+def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
+    """One residual, over its standard error."""
+    one = found.residuals[name]
+    kind = KIND_OF.get(one.unit, "number")
+    y, f, sigma, d = (
+        Symbol(f"{latex}_{{{number}}}", value, kind)
+        for latex, value in (("y", one.observed), ("f", one.computed), (r"\sigma", one.sigma), ("d", one.residual))
+    )
+    difference = y - f
+    if abs(difference.value - d.value) > _FULL_TURN_OFF and one.unit == "rad":
+        page.say(f"From the computed {page.shown(f)} to the stated {page.shown(y)} the short way round is {page.shown(d)}.")
+        difference = d
+    ratio = Symbol(f"r_{{{number}}}", one.over_sigma, "number")
+    page.equation(f"{number}, {page.name(name)}: stated less computed, over the standard error", ratio, difference / sigma)
+    return ratio
+
+
+def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]]:
+    """What is known of one unknown: estimate, range, what its error comes of, and its correlations."""
+    one, at = found[name], found.names.index(name)
+    of = page.name(name)
+    if not one.determined:
+        yield of, "estimate", "not determined"
+        return
+    bound = f", at its {one.at_bound} bound" if one.at_bound else ""
+    unit = f" {page.system.label(KIND_OF[one.unit]) if one.unit in KIND_OF else one.unit}".rstrip()
+    ends = (_number(page, end, one.unit, one.standard_error).partition(" ± ")[0] for end in one.interval(0.95))
+    low, high = (end.removesuffix(unit) for end in ends)
+    yield of, "estimate", _number(page, one.value, one.unit, one.standard_error) + bound
+    yield of, "95 percent interval", f"{low} to {high}{unit}"
+    for by, share in found.contributions[name].items():
+        if math.isfinite(share):  # where the model turns round on a bound, slopes share nothing
+            yield of, f"share of the variance by {page.name(by)}", f"{100.0 * share:.0f} percent"
+    correlations = found.correlation_matrix[at, at + 1 :].tolist()
+    for other, correlation in zip(found.names[at + 1 :], correlations, strict=True):
+        if math.isfinite(correlation):
+            yield of, f"correlation with {page.name(other)}", f"{correlation:.2f}"
+
+
+def _number(page: Page, value: float, unit: str, deviation: float | None = None) -> str:
+    """A number of the working or, with its standard error, an answer; a unit of no known kind stays."""
+    kind = KIND_OF.get(unit, "number")
+    text = page.number(value, kind) if deviation is None else page.system.answer(value, kind, deviation)
+    return text if unit in KIND_OF else f"{text} {unit}".rstrip()
