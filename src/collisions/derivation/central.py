@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from .contact import Mobility, along_tangent, components, energy, impulses, kinetic_energies, scene_axes, unmoved
+from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, Expression
 from .page import Page
-from .symbols import AFTER, COMPRESSED, Symbol, Symbols
+from .symbols import AFTER, BEFORE, COMPRESSED, Symbol, Symbols
 
 
 def linear(page: Page, s: Symbols) -> None:
@@ -87,7 +87,7 @@ def oblique(page: Page, s: Symbols) -> None:
         "into B, and t is n turned by 90 degrees counter-clockwise."
     )
     for body in s.bodies:
-        components(page, body, s)
+        velocity_before(page, body, s)
     page.equation("Closing speed", s.closing, a.along("n") - b.along("n"))
     page.equation("Slip, of B relative to A", s.slip, b.along("t") - a.along("t"))
     if a.fixed or b.fixed:
@@ -101,13 +101,8 @@ def oblique(page: Page, s: Symbols) -> None:
     page.equation("Impulse of the restitution period, area A2 = e A1", s.restitution, s.e * s.compression)
     page.heading("Velocities after")
     for body in s.bodies:
-        if body.fixed:
-            unmoved(page, body)
-            continue
-        after = body.along("n").plus(body.sign, s.normal / body.mass)
-        page.equation(f"Velocity of {body.label} after, along the normal", body.along("n", AFTER), after)
-        along_tangent(page, body, s)
-        scene_axes(page, body, s)
+        caption = f"Velocity of {body.label} after, along the normal"
+        velocity_after(page, body, s, [(caption, BEFORE, AFTER, s.normal)])
     page.equation("Check: restitution (9)", s.e, -((b.along("n", AFTER) - a.along("n", AFTER)) / (b.along("n") - a.along("n"))))
     page.equation("Slip after", s.slip_after, b.along("t", AFTER) - a.along("t", AFTER))
     energy(page, s)

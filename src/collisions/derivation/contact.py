@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
 from ..vehicle import Vehicle
-from .expressions import HALF, Direction, Expression, magnitude, over, signed_total, total
+from .expressions import HALF, Direction, Expression, magnitude, signed_total, total
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
 
@@ -20,41 +21,35 @@ class Mobility(NamedTuple):
     coupling: Expression | None
 
 
-def components(page: Page, body: Body, s: Symbols) -> None:
-    """The velocity before along n and t."""
+def velocity_before(page: Page, body: Body, s: Symbols) -> None:
+    """The velocity of the centre of mass before, along n and t."""
+    n, t, x, y = (body.along(direction) for direction in "ntxy")
     if body.start.speed == 0.0:
-        page.say(f"The velocity of {body.label} before is 0: {page.shown(body.along('n'))} and {page.shown(body.along('t'))}.")
+        page.say(f"The velocity of {body.label} before is 0: {page.shown(n)} and {page.shown(t)}.")
         return
-    x, y = body.along("x"), body.along("y")
-    page.equation(f"Velocity of {body.label} before, along the normal", body.along("n"), s.dot(x, y))
-    page.equation(f"Velocity of {body.label} before, along the tangent", body.along("t"), s.cross(x, y))
+    page.equation(f"Velocity of {body.label} before, along the normal", n, s.dot(x, y))
+    page.equation(f"Velocity of {body.label} before, along the tangent", t, s.cross(x, y))
 
 
-def unmoved(page: Page, body: Body) -> None:
-    """The velocity after of a body of infinite mass."""
-    n, t = body.along("n", AFTER), body.along("t", AFTER)
-    page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
-
-
-def along_tangent(page: Page, body: Body, s: Symbols) -> None:
-    """The velocity after of a body that is free to move, along the tangent."""
-    before, after = body.along("t"), body.along("t", AFTER)
-    caption = f"Velocity of {body.label} after, along the tangent"
-    if s.tangential.value == 0.0:
-        page.equation(f"{caption}, as before", after, before)
-    else:
-        page.equation(caption, after, before.plus(body.sign, s.tangential / body.mass))
-
-
-def scene_axes(page: Page, body: Body, s: Symbols) -> None:
-    """The velocity after in scene axes, where they are not those of the contact."""
+def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[str, str, str, Symbol]]) -> None:
+    """The velocity of the centre of mass after: along n by periods (caption, start, end, impulse), along t, x and y."""
     n, t, x, y = (body.along(direction, AFTER) for direction in "ntxy")
+    if body.fixed:
+        page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
+        return
+    for caption, start, end, impulse in periods:
+        page.equation(caption, body.along("n", end), body.along("n", start).plus(body.sign, impulse / body.mass))
+    along_t = f"Velocity of {body.label} after, along the tangent"
+    if s.tangential.value == 0.0:
+        page.equation(f"{along_t}, as before", t, body.along("t"))
+    else:
+        page.equation(along_t, t, body.along("t").plus(body.sign, s.tangential / body.mass))
     if s.impact.normal == (1.0, 0.0):
         same = " and ".join(f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
         page.say(f"The normal is the x axis and the tangent the y axis, so {same}.")
-        return
-    page.equation(f"Velocity of {body.label} after, along x", x, s.scene("x", n, t))
-    page.equation(f"Velocity of {body.label} after, along y", y, s.scene("y", n, t))
+    else:
+        page.equation(f"Velocity of {body.label} after, along x", x, s.scene("x", n, t))
+        page.equation(f"Velocity of {body.label} after, along y", y, s.scene("y", n, t))
 
 
 def impulses(page: Page, s: Symbols, k: Mobility) -> None:
@@ -74,7 +69,7 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
             CRITICAL_FRACTION: "A critical fraction of 0 leaves no tangential impulse",
         }
         page.say(f"{why[rule]}: {page.shown(s.tangential)}.")
-        page.equation("Normal impulse", s.normal, over(change, k.normal))
+        page.equation("Normal impulse", s.normal, change / k.normal)
         return
     else:
         no_slip = Symbol("N_s", s.impact._output("no_slip_normal"), "impulse")
@@ -89,7 +84,7 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
             page.equation("Tangential impulse", s.tangential, no_slip_t)
             return
     resistance = k.normal if k.coupling is None else k.normal + s.ratio * k.coupling
-    page.equation("Normal impulse", s.normal, over(change, resistance))
+    page.equation("Normal impulse", s.normal, change / resistance)
     page.equation("Tangential impulse", s.tangential, s.ratio * s.normal)
 
 
@@ -103,8 +98,8 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
     change = (1.0 + s.e) * s.closing
     stopped = (1.0 + s.e) * s.slip if law.compression_limit else s.slip
     if k.coupling is None:
-        page.equation("Its normal component", normal, over(change, k.normal))
-        page.equation("Its tangential component", tangential, over(-stopped, k.tangential))
+        page.equation("Its normal component", normal, change / k.normal)
+        page.equation("Its tangential component", tangential, -(stopped / k.tangential))
     else:
         page.say("Both are found from two equations at once:")
         page.balance("Along the normal", k.normal * normal + k.coupling * tangential, change, "speed")

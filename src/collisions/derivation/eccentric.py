@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ..impact import Impact
 from ..kernels.eccentric import response
 from ..models import body_numbers
-from .contact import Mobility, along_tangent, components, energy, impulses, scene_axes, unmoved
+from .contact import Mobility, energy, impulses, velocity_after, velocity_before
 from .expressions import Expression, total
 from .page import Page
 from .symbols import AFTER, BEFORE, COMPRESSED, Body, Symbol, Symbols
@@ -82,7 +82,7 @@ def eccentric(page: Page, s: Symbols) -> None:
     page.heading("Velocities of the contact points before")
     for body in levers:
         if not body.pinned:
-            components(page, body, s)
+            velocity_before(page, body, s)
         if body.start.speed != 0.0 or body.start.yaw_rate != 0.0:
             body.at_contact(page, BEFORE, f"Velocity of {body.label} at the contact")
         else:
@@ -100,7 +100,6 @@ def eccentric(page: Page, s: Symbols) -> None:
             _turned_about_pivot(page, body, s)
         else:
             _moved(page, body, s)
-            _turned(page, body, s)
     _moments_about_pivot(page, s, levers)
     page.heading("Check at the contact")
     for body in levers:
@@ -156,45 +155,25 @@ def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
     return Mobility(k_nn, k_tt, k_nt)
 
 
-def _moved(page: Page, body: Body, s: Symbols) -> None:
-    """The velocity of the centre of mass of a body without a pivot after the impact."""
-    if body.fixed:
-        unmoved(page, body)
-        return
-    for name, number, start, end, impulse in (
-        ("at the end of deformation", "12", BEFORE, COMPRESSED, s.compression),
-        ("after", "14", COMPRESSED, AFTER, s.restitution),
-    ):
-        page.equation(
-            f"Velocity of the centre of mass of {body.label} {name}, along the normal ({number})",
-            body.along("n", end),
-            body.along("n", start).plus(body.sign, impulse / body.mass),
-        )
-    along_tangent(page, body, s)
-    scene_axes(page, body, s)
-
-
-def _turned(page: Page, body: Lever, s: Symbols) -> None:
-    """The yaw rate of a body without a pivot after the impact."""
+def _moved(page: Page, body: Lever, s: Symbols) -> None:
+    """The motion of a body without a pivot after the impact."""
+    label = body.label
+    deformation = "at the end of deformation", BEFORE, COMPRESSED, s.compression
+    restitution = "after", COMPRESSED, AFTER, s.restitution
+    along_n = [
+        (f"Velocity of the centre of mass of {label} {when}, along the normal ({number})", start, end, impulse)
+        for number, (when, start, end, impulse) in ((12, deformation), (14, restitution))
+    ]
+    velocity_after(page, body, s, along_n)
     if not body.turns:
-        page.say(f"{body.label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
-        return
-    if s.tangential.value != 0.0:
-        page.equation(
-            f"Yaw rate of {body.label} after, (13) and (15) with the moment of both components",
-            body.spin(AFTER),
-            body.spin() + body.torque(s) / body.resistance,
-        )
-        return
-    for name, number, start, end, impulse in (
-        ("at the end of deformation", "13", BEFORE, COMPRESSED, s.compression),
-        ("after", "15", COMPRESSED, AFTER, s.restitution),
-    ):
-        page.equation(
-            f"Yaw rate of {body.label} {name} ({number})",
-            body.spin(end),
-            body.spin(start).plus(-body.sign, body.t * impulse / body.resistance),
-        )
+        page.say(f"{label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
+    elif s.tangential.value != 0.0:
+        caption = f"Yaw rate of {label} after, (13) and (15) with the moment of both components"
+        page.equation(caption, body.spin(AFTER), body.spin() + body.torque(s) / body.resistance)
+    else:
+        for number, (when, start, end, impulse) in ((13, deformation), (15, restitution)):
+            found = body.spin(start).plus(-body.sign, body.t * impulse / body.resistance)
+            page.equation(f"Yaw rate of {label} {when} ({number})", body.spin(end), found)
 
 
 def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:

@@ -224,7 +224,7 @@ class Expression:
     def __rsub__(self, other: float) -> Expression:
         return Sum(Literal(other), self, -1.0)
 
-    # A factor of 1 is not written.
+    # A factor of 1 is not written, and over the reciprocal of a quantity stands the product with that quantity.
     def __mul__(self, other: Expression | float) -> Expression:
         return self if _is_one(other) else Product(self, _expression(other))
 
@@ -232,6 +232,8 @@ class Expression:
         return self if _is_one(other) else Product(Literal(other), self)
 
     def __truediv__(self, other: Expression | float) -> Expression:
+        if isinstance(other, Quotient) and _is_one(other.over):
+            return other.under * self
         return self if _is_one(other) else Quotient(self, _expression(other))
 
     def __rtruediv__(self, other: float) -> Expression:
@@ -416,15 +418,6 @@ def signed_total(terms: Iterable[tuple[float, Expression]]) -> Expression:
 def total(*terms: Expression) -> Expression:
     """The sum of terms."""
     return signed_total((1.0, term) for term in terms)
-
-
-def over(what: Expression, by: Expression) -> Expression:
-    """One over another; over the reciprocal of a quantity, the product with that quantity."""
-    if isinstance(what, Negative):
-        return -over(what.inner, by)
-    if isinstance(by, Quotient) and _is_one(by.over):
-        return by.under * what
-    return what / by
 
 
 def root(inner: Expression) -> Expression:

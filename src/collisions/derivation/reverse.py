@@ -13,16 +13,15 @@ from .expressions import HALF, ONE, Expression, root
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
-_CENTRAL = {
+_VELOCITIES = {
     "va": "velocity of A before",
     "vb": "velocity of B before",
     "va_after": "velocity of A after",
     "vb_after": "velocity of B after",
-    "restitution": "restitution",
-    "energy_loss": "energy lost",
 }
-_VELOCITIES = ("va", "vb", "va_after", "vb_after")
+# What may be known; of anything else the name of the argument says it.
 _KNOWN = {
+    **_VELOCITIES,
     "speed_a": "speed of A before",
     "speed_b": "speed of B before",
     "delta_v_a": "delta-V of A",
@@ -69,8 +68,7 @@ def state_before(page: Page, s: Symbols) -> None:
 def what_was_known(page: Page, origin: Reconstruction) -> None:
     """Which reverse solver found the state before, from what, how well-posed that was, and whether it is the only answer."""
     page.heading("How the state before was found")
-    words = _CENTRAL if origin.method == "central" else _KNOWN
-    known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
+    known = ", ".join(_KNOWN.get(name, name.replace("_", " ")) for name in origin.known)
     page.say(f"Backwards, by reconstruct.{origin.method}: known beside masses and geometry were {known}.")
     page.say(
         f"Condition {page.system.answer(origin.condition, 'number')}: by so much a relative error of what was given may be "
