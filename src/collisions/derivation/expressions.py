@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from ..errors import InputError
 from ..quantities import in_words
 from ..unit_systems import decimals_of, scale_of, unit_of
-
-# Labels of units with their powers.
-Powers: TypeAlias = tuple[tuple[str, float], ...]
 
 # What is this near to 0 in SI is what rounding left of it, and printed as 0.
 _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
@@ -25,6 +22,33 @@ _NO_SPREAD = 1e-12  # relative: a spread this small is what rounding left of non
 _FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
 # How firmly a written part holds together: what is looser than its place wants is put in brackets.
 SUM, _PRODUCT, _POWER, ATOM = range(4)
+
+
+class Unit(NamedTuple):
+    """The unit of a written number: what the SI value was multiplied by, and labels of units with their powers."""
+
+    scale: float = 1.0
+    powers: tuple[tuple[str, float], ...] = ()
+
+    def times(self, other: Unit, power: float) -> Unit:
+        """The unit of a product with a power of a number."""
+        powers = dict(self.powers)
+        for label, exponent in other.powers:
+            powers[label] = powers.get(label, 0.0) + power * exponent
+        found = sorted((label, exponent) for label, exponent in powers.items() if exponent)
+        return Unit(self.scale * other.scale**power, tuple(found))
+
+    @property
+    def name(self) -> str:
+        """As a product and quotient of labels."""
+        over: list[str] = []
+        under: list[str] = []
+        for label, power in self.powers:
+            size = abs(power)
+            loose = ("/" in label and len(self.powers) > 1) or ("*" in label and power < 0.0)
+            base = f"({label})" if loose or (size != 1.0 and not label.isalpha()) else label
+            (over if power > 0.0 else under).append(base if size == 1.0 else f"{base}**{size:g}")
+        return " / ".join([" * ".join(over) or "1", *under])
 
 
 class System:
@@ -47,6 +71,12 @@ class System:
     def scale(self, kind: str) -> float:
         """What an SI value of this kind is multiplied by."""
         return scale_of(kind, self.name)
+
+    def unit_of(self, kind: str) -> Unit:
+        """The unit of a kind by itself."""
+        label = self.label(kind)
+        powers = ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),)
+        return Unit(self.scale(kind), powers if label else ())
 
     def shown(self, value: float, kind: str) -> float:
         """An SI value of this kind in the unit it is written in."""
@@ -95,9 +125,9 @@ class System:
             places = 1 - _magnitude(spread, 2)
             return f"{_decimal(shown, places)} ± {_decimal(spread, places)}{unit}"
         decimals = decimals_of(kind, self.name)
-        return (
-            _decimal(shown, _ANSWER_FIGURES - 1 - _magnitude(shown, _ANSWER_FIGURES) if decimals is None else decimals) + unit
-        )
+        if decimals is None:
+            decimals = _ANSWER_FIGURES - 1 - _magnitude(shown, _ANSWER_FIGURES)
+        return _decimal(shown, decimals) + unit
 
 
 def _is_zero(value: float, kind: str) -> bool:
@@ -123,33 +153,6 @@ def _decimal(value: float, places: int) -> str:
     return text.lstrip("-") if float(text) == 0.0 else text
 
 
-def _named(powers: Powers) -> str:
-    """The label of a product of units."""
-    over: list[str] = []
-    under: list[str] = []
-    for label, power in powers:
-        size = abs(power)
-        loose = ("/" in label and len(powers) > 1) or ("*" in label and power < 0.0)
-        base = f"({label})" if loose or (size != 1.0 and not label.isalpha()) else label
-        (over if power > 0.0 else under).append(base if size == 1.0 else f"{base}**{size:g}")
-    return " / ".join([" * ".join(over) or "1", *under])
-
-
-def powers_of(label: str) -> Powers:
-    """The powers of a unit by itself."""
-    if label.startswith("1/"):
-        return ((label[2:], -1.0),)
-    return ((label, 1.0),) if label else ()
-
-
-def _multiplied(left: Powers, right: Powers, power: int) -> Powers:
-    """The powers of units of a product with a power."""
-    found = dict(left)
-    for label, exponent in right:
-        found[label] = found.get(label, 0.0) + power * exponent
-    return tuple((label, exponent) for label, exponent in sorted(found.items()) if exponent)
-
-
 @dataclass(frozen=True, slots=True)
 class Pen:
     """How to write: as LaTeX or as plain text, with the numbers of a system of units or, without one, with symbols.
@@ -166,16 +169,12 @@ class Pen:
 
 
 class Written(NamedTuple):
-    """A written part: its text, how firmly it holds together, and by what the SI value was multiplied to print it.
-
-    ``worth`` is what the numbers of the text come to as they are printed.
-    """
+    """A written part: its text, how firmly it holds together, and of numbers what they come to as printed, in which unit."""
 
     text: str
     rank: int
-    scale: float = 1.0
-    powers: Powers = ()
     worth: float = math.nan
+    unit: Unit = Unit()
 
     def within(self, rank: int, pen: Pen) -> str:
         """The text, in brackets where it is looser than that."""
@@ -183,23 +182,23 @@ class Written(NamedTuple):
             return self.text
         return rf"\left({self.text}\right)" if pen.latex else f"({self.text})"
 
-    def converted(self, scale: float, powers: Powers, pen: Pen) -> Written:
+    def converted(self, unit: Unit, pen: Pen) -> Written:
         """The same times what turns it into another unit."""
-        factor = scale / self.scale
+        factor = unit.scale / self.unit.scale
         if pen.system is None or abs(factor - 1.0) < 1e-9 or self.text == "0":
-            return self._replace(scale=scale, powers=powers)
+            return self._replace(unit=unit)
         # A number to divide by is easier to recognize than its reciprocal below 1.
         divides = factor < 1.0
         size = 1.0 / factor if divides else factor
         number = f"{size:.{6 + pen.more}g}" if size < 999999.5 else f"{size:.{pen.more}f}"
-        one, other = (powers, self.powers) if divides else (self.powers, powers)
-        pen.conversions.append((_named(one), number, _named(other)))
+        one, other = (unit, self.unit) if divides else (self.unit, unit)
+        pen.conversions.append((one.name, number, other.name))
         if pen.latex:
             times = rf" \cdot \frac{{1}}{{{number}}}" if divides else rf" \cdot {number}"
         else:
             times = f" / {number}" if divides else f" * {number}"
         worth = self.worth / float(number) if divides else self.worth * float(number)
-        return Written(self.within(_PRODUCT, pen) + times, _PRODUCT, scale, powers, worth)
+        return Written(self.within(_PRODUCT, pen) + times, _PRODUCT, worth, unit)
 
 
 class Expression:
@@ -270,10 +269,9 @@ class Sum(Expression):
 
     def write(self, pen: Pen) -> Written:
         left, right = self.left.write(pen), self.right.write(pen)
-        right = right.converted(left.scale, left.powers, pen)
+        right = right.converted(left.unit, pen)
         text = f"{left.text} {'+' if self.sign > 0.0 else '-'} {right.within(_PRODUCT, pen)}"
-        worth = left.worth + self.sign * right.worth
-        return Written(text, SUM, left.scale, left.powers, worth)
+        return Written(text, SUM, left.worth + self.sign * right.worth, left.unit)
 
 
 class Product(Expression):
@@ -288,8 +286,7 @@ class Product(Expression):
         # Between numbers of LaTeX a sign, between its symbols a small space.
         times = " * " if not pen.latex else r"\," if pen.system is None else r" \cdot "
         text = left.within(_PRODUCT, pen) + times + right.within(_PRODUCT, pen)
-        scale, powers = left.scale * right.scale, _multiplied(left.powers, right.powers, 1)
-        return Written(text, _PRODUCT, scale, powers, left.worth * right.worth)
+        return Written(text, _PRODUCT, left.worth * right.worth, left.unit.times(right.unit, 1))
 
 
 class Quotient(Expression):
@@ -309,9 +306,8 @@ class Quotient(Expression):
             text = rf"\frac{{{over.text}}}{{{under.text}}}"
         else:
             text = f"{over.within(_PRODUCT, pen)} / {under.within(_POWER, pen)}"
-        scale, powers = over.scale / under.scale, _multiplied(over.powers, under.powers, -1)
         worth = over.worth / under.worth if under.worth else math.nan
-        return Written(text, _PRODUCT, scale, powers, worth)
+        return Written(text, _PRODUCT, worth, over.unit.times(under.unit, -1))
 
 
 class Negative(Expression):
@@ -339,8 +335,7 @@ class Square(Expression):
         if pen.latex and pen.system is None and "'" in base and inner.rank == ATOM:
             base = f"{{{base}}}"
         text = base + ("^2" if pen.latex else "**2")
-        powers = _multiplied((), inner.powers, 2)
-        return Written(text, _POWER, inner.scale**2, powers, inner.worth * inner.worth)
+        return Written(text, _POWER, inner.worth * inner.worth, Unit().times(inner.unit, 2))
 
 
 class Function(Expression):
@@ -359,8 +354,7 @@ class Function(Expression):
         text = latex if pen.latex else f"{self.name}({inner.text})"
         if self.name == "abs":
             return inner._replace(text=text, rank=ATOM, worth=abs(inner.worth))
-        powers = tuple((label, power / 2) for label, power in inner.powers)
-        return Written(text, ATOM, math.sqrt(inner.scale), powers, math.sqrt(max(inner.worth, 0.0)))
+        return Written(text, ATOM, math.sqrt(max(inner.worth, 0.0)), Unit().times(inner.unit, 0.5))
 
     def _of_angle(self, pen: Pen) -> Written:
         degrees = pen.system is not None and pen.system.label("angle") == "deg"
@@ -387,11 +381,8 @@ class Direction(Expression):
         y, x = self.y.write(pen), self.x.write(pen)
         name, left, right = (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
         text = f"{name}{left}{y.text}, {x.text}{right}"
-        if pen.system is None:
-            return Written(text, _POWER)
-        scale, powers = pen.system.scale("angle"), powers_of(pen.system.label("angle"))
-        worth = math.atan2(y.worth + 0.0, x.worth) * scale
-        return Written(text, _POWER, scale, powers, worth)
+        unit = Unit() if pen.system is None else pen.system.unit_of("angle")
+        return Written(text, _POWER, math.atan2(y.worth + 0.0, x.worth) * unit.scale, unit)
 
 
 ONE = Literal(1.0)

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from .expressions import Expression, Pen, System, powers_of
+from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
 # Figures that a line may have beyond those of the working; with these it has all that there are.
@@ -138,10 +138,9 @@ class Page:
 
     def _in_numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
         """Formulas in numbers, with as many figures as it takes that they come to what is printed; and whether any do."""
-        scale, unit = self.system.scale(kind), powers_of(self.system.label(kind))
         for more in (*range(_MOST + 1), 0):
             pen = Pen(self.latex, self.system, more)
-            found = [side.write(pen).converted(scale, unit, pen) for side, _ in sides]
+            found = [side.write(pen).converted(self.system.unit_of(kind), pen) for side, _ in sides]
             fits = all(self._comes_to(one.worth, value, kind, size) for one, (_, value) in zip(found, sides, strict=True))
             if fits:
                 break

@@ -10,7 +10,7 @@ from typing import Any
 from ..impact import Impact
 from ..side import Side
 from ..vehicle import Vehicle
-from .expressions import ATOM, SUM, Expression, Pen, Written, powers_of, signed_total
+from .expressions import ATOM, SUM, Expression, Pen, Written, signed_total
 
 # At the start, at the end of compression, and after.
 BEFORE, COMPRESSED, AFTER = "before", "at_compression", "after"
@@ -41,10 +41,9 @@ class Symbol(Expression):
         printed = pen.system.working(self.value, self.kind, pen.more)
         rank = SUM if printed.startswith("-") else ATOM
         worth = float(printed) if math.isfinite(self.value) else self.value
-        label = pen.system.label(self.kind)
         if pen.marked and self.kind == "angle":
-            printed += r"^\circ" if pen.latex else f" {label}"
-        return Written(printed, rank, pen.system.scale(self.kind), powers_of(label), worth)
+            printed += r"^\circ" if pen.latex else f" {pen.system.label(self.kind)}"
+        return Written(printed, rank, worth, pen.system.unit_of(self.kind))
 
 
 @cache
