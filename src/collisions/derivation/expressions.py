@@ -7,17 +7,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from ..errors import InputError
-from ..quantities import in_words
-from ..unit_systems import decimals_of, scale_of, unit_of
+from ..formatting import Numbers, places, with_decimals
+from ..unit_systems import decimals_of
 
 # What is this near to 0 in SI is what rounding left of it, and printed as 0.
 _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
 _ZERO_OF_OTHERS = 1e-10
-_ANSWER_FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
-_WORKING_FIGURES = 4
+_FIGURES = 4
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
-_NO_SPREAD = 1e-12  # relative: a spread this small is what rounding left of none
 
 _FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
 # How firmly a written part holds together: what is looser than its place wants is put in brackets.
@@ -51,26 +48,8 @@ class Unit(NamedTuple):
         return " / ".join([" * ".join(over) or "1", *under])
 
 
-class System:
-    """One system of units, and how numbers are printed in it."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-    def label(self, kind: str) -> str:
-        """The unit of a kind, as pint writes it."""
-        return unit_of(kind, self.name)
-
-    def unit(self, kind: str, latex: bool) -> str:
-        """The unit behind a number, with the space before it."""
-        label = self.label(kind)
-        if not label:
-            return ""
-        return rf"\ \mathrm{{{label.replace('**2', '^2').replace('*', chr(92) + ',')}}}" if latex else f" {label}"
-
-    def scale(self, kind: str) -> float:
-        """What an SI value of this kind is multiplied by."""
-        return scale_of(kind, self.name)
+class System(Numbers):
+    """The numbers of one system of units as answers and, with more figures, in the working."""
 
     def unit_of(self, kind: str) -> Unit:
         """The unit of a kind by itself."""
@@ -78,29 +57,20 @@ class System:
         powers = ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),)
         return Unit(self.scale(kind), powers if label else ())
 
-    def shown(self, value: float, kind: str) -> float:
-        """An SI value of this kind in the unit it is written in."""
-        shown = value * self.scale(kind)
-        if math.isinf(shown):
-            raise InputError(
-                f"{value:.6g} {unit_of(kind, 'si')} is too large to be written in {self.label(kind)}; look for a slipped digit",
-                code="out_of_range",
-                argument="units",
-            )
-        return shown
-
     def working(self, value: float, kind: str, more: int = 0) -> str:
         """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
-        shown = self.shown(value, kind)
-        return "0" if _is_zero(value, kind) else self.figures(shown, decimals_of(kind, self.name), more)
+        number = self.converted(value, kind)
+        return "0" if _is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
 
-    def figures(self, shown: float, least: int | None = None, more: int = 0) -> str:
+    def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
         """A number as it is if six figures hold it, else four figures, or at least so many decimals and two more at most."""
-        exact = f"{shown:.6g}"
-        near = abs(float(exact) - shown) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(shown)
-        return exact if near and len(exact) <= 9 and "e" not in exact else _decimal(shown, _places(shown, least) + more)
+        exact = f"{number:.6g}"
+        near = abs(float(exact) - number) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(number)
+        if near and len(exact) <= 9 and "e" not in exact:
+            return exact
+        return with_decimals(number, _decimals(number, least) + more)
 
     def half_unit(self, value: float, kind: str, size: float) -> float:
         """Half a unit, as printed, of the last of the figures that the working promises of this number.
@@ -109,48 +79,20 @@ class System:
         """
         scale = self.scale(kind)
         if _is_zero(value, kind) and 0.0 < size < math.inf:
-            promised = _places(size * scale, None)
+            promised = _decimals(size * scale, None)
         else:
-            promised = _places(value * scale, decimals_of(kind, self.name))
+            promised = _decimals(value * scale, decimals_of(kind, self.name))
         return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
-
-    def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
-        """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
-        if not math.isfinite(value):
-            return in_words(value)
-        shown = self.shown(value, kind)
-        unit = self.unit(kind, False)
-        if deviation is not None and math.isfinite(deviation) and deviation > _NO_SPREAD * abs(value):
-            spread = self.shown(deviation, kind)
-            places = 1 - _magnitude(spread, 2)
-            return f"{_decimal(shown, places)} ± {_decimal(spread, places)}{unit}"
-        decimals = decimals_of(kind, self.name)
-        if decimals is None:
-            decimals = _ANSWER_FIGURES - 1 - _magnitude(shown, _ANSWER_FIGURES)
-        return _decimal(shown, decimals) + unit
 
 
 def _is_zero(value: float, kind: str) -> bool:
     return abs(value) <= _ZERO.get(kind, _ZERO_OF_OTHERS)
 
 
-def _magnitude(value: float, figures: int) -> int:
-    """The power of ten of the first figure, after rounding to so many figures."""
-    return int(f"{value:.{figures - 1}e}".partition("e")[2])
-
-
-def _places(shown: float, least: int | None) -> int:
+def _decimals(number: float, least: int | None) -> int:
     """Decimals of a number in the working."""
-    figures = _WORKING_FIGURES - 1 - _magnitude(shown, _WORKING_FIGURES)
+    figures = places(number, _FIGURES)
     return max(figures if least is None else max(least, min(figures, least + 2)), 0)
-
-
-def _decimal(value: float, places: int) -> str:
-    """A number with so many decimals, or rounded to a power of ten, and never -0."""
-    # Above this a digit before the point can round beyond the range of floats.
-    rounded = value if abs(value) > 1e300 else round(value, places)
-    text = f"{rounded:.{max(places, 0)}f}"
-    return text.lstrip("-") if float(text) == 0.0 else text
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,10 +71,16 @@ class Page:
         """A symbol within a sentence."""
         return f"${symbol.latex}$" if self.latex else symbol.text
 
+    def _unit(self, kind: str) -> str:
+        """The unit behind a number, with the space before it."""
+        label = self.system.label(kind)
+        if not label or not self.latex:
+            return self.system.unit(kind)
+        return rf"\ \mathrm{{{label.replace('**2', '^2').replace('*', chr(92) + ',')}}}"
+
     def number(self, value: float, kind: str) -> str:
         """A number of the working within a sentence, with its unit."""
-        label = self.system.label(kind)
-        return self.system.working(value, kind) + (f" {label}" if label and math.isfinite(value) else "")
+        return self.system.working(value, kind) + (self.system.unit(kind) if math.isfinite(value) else "")
 
     def shown(self, symbol: Symbol) -> str:
         """A symbol and its number within a sentence."""
@@ -86,7 +92,7 @@ class Page:
         if name not in self.ranges:
             return printed
         low, high = (self.system.answer(end, kind) for end in self.ranges[name])
-        return f"{printed} ({low.removesuffix(self.system.unit(kind, False))} to {high})"
+        return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
         """Symbol = formula = numbers = the value of the symbol: the number of the result, which the formula must give."""
@@ -95,14 +101,14 @@ class Page:
         lines = [self._in_symbols(right)]
         if numbers not in (lines[0], printed):
             lines.append(numbers)
-        self._lines(caption, self._in_symbols(left), [*lines, printed + self.system.unit(left.kind, self.latex)])
+        self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)])
         self._excuse(fits)
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Formula = formula, in symbols, in numbers, and the value of both sides."""
         sides = (left, right)
         numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
-        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self.system.unit(kind, self.latex)
+        values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
         self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values])
         self._excuse(fits)
 

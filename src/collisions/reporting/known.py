@@ -158,5 +158,5 @@ def _both(figure: Any) -> tuple[float, ...]:
 def _ends(sheet: Sheet, low: float, high: float, kind: str, deviation: float) -> str:
     """The ends of an interval with the digits of the mean."""
     first, second = (sheet.system.answer(end, kind, deviation).partition(" ± ")[0] for end in (low, high))
-    label = sheet.system.unit(kind, False)
+    label = sheet.system.unit(kind)
     return f"{first.removesuffix(label)} to {second.removesuffix(label)}{label}"
