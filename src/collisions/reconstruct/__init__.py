@@ -6,8 +6,7 @@ from .crush import crush_energy
 from .fit import fit
 from .fit_result import Fit
 from .inline import inline_closing_speed
-from .momentum import momentum
-from .momentum_solution import MomentumSolution
+from .momentum import MomentumSolution, momentum
 from .observed import friction, restitution
 from .planar import planar
 from .speeds import speeds

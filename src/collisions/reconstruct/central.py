@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError
-from ..impact import Impact, found_by
+from ..impact import Impact
 from ..inputs import Inputs, OnFailure
 from ..kernels.contact_laws import FRICTION
 from ..kernels.elementwise import POSITIVE, RESTITUTION
 from ..kernels.linear import shares
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
-from ..kernels.status import EPS, Status
+from ..kernels.status import Status
 from ..provenance import Reconstruction
 from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle
-from .common import Cases, exactly, input_faults, settle
+from .common import Cases, exactly, finish, input_faults, refusal_alone, run_forward
 
-_ALONG: Any = (1.0, 0.0)
-_NONE: Any = 0.0
-_MOST_ROUNDING = 0.01  # of e; beyond it the data tell nothing, and are not bent further
+_ALONG_X: Any = (1.0, 0.0)
+_FRICTIONLESS: Any = 0.0
+_MOST_ROUNDING = 0.01  # of e; beyond it the data say nothing, and are not bent further
 _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
+
+
+class Candidate(NamedTuple):
+    """Velocities before and restitution that agree with what is known, their closing speed, and whether they are an impact."""
+
+    va: Any
+    vb: Any
+    restitution: Any
+    closing: Any
+    fits: Any
 
 
 def central(
@@ -104,122 +113,97 @@ def central(
         "central",
     )
     reader = ArgumentReader()
-    masses = reader.number(mass_a, "kg", "mass_a", POSITIVE), reader.number(mass_b, "kg", "mass_b", POSITIVE)
-    known = {name: _read(reader, value, name) for name, value in given.items()}
+    numbers = {
+        "mass_a": reader.number(mass_a, "kg", "mass_a", POSITIVE),
+        "mass_b": reader.number(mass_b, "kg", "mass_b", POSITIVE),
+    }
+    for name, value in given.items():
+        if name == "energy_loss":
+            numbers[name] = amount(reader, value, "J", name)
+        elif name == "restitution":
+            numbers[name] = reader.number(value, "", name, RESTITUTION)
+        else:
+            numbers[name] = reader.number(value, "m/s", name)
     reader.close()
     texts = reader.texts
-    written = [
+    of_bodies = [
         {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts} for label in "ab"
     ]
-    told = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
-    cases = Cases.of({**_named(masses), **known})
-    eps = EPS if cases.shape is None else float(np.finfo(cases.dtype).eps)
-    numbers = {name: np.asarray(value, dtype=np.float64) for name, value in {**_named(masses), **known}.items()}
+    others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
+    cases = Cases.of(numbers)
+    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
-        answers = _answers(numbers, eps)
-        one, other = answers[0], answers[-1]
-        which = np.where(one["fits"] | (~other["fits"] & (one["closing"] > 0.0)), 0, len(answers) - 1)
-        found = {name: np.choose(which, [answer[name] for answer in answers]) for name in answers[0]}
-        found |= _limits(numbers)
-        condition = _condition(numbers, found, which, eps)
-        ambiguous = _differ(answers, eps)
+        candidates = _candidates(arrays, cases.eps)
+        one, other = candidates[0], candidates[-1]
+        which = np.where(one.fits | (~other.fits & (one.closing > 0.0)), 0, len(candidates) - 1)
+        found = Candidate(*(np.choose(which, parts) for parts in zip(*candidates, strict=True)))
+        condition = _condition(arrays, found, which, cases.eps)
+        apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
+        ambiguous = one.fits & other.fits & apart
         status = cases.first_status(
-            (
-                *input_faults({**_named(masses), **known}),
-                (ambiguous, Status.AMBIGUOUS),
-                (found["fits"], Status.OK),
-                *_faults(masses, known, found),
-            )
+            (*input_faults(arrays), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
         )
-    sure = np.equal(status, Status.OK)
-    origin = Reconstruction(
-        method="central",
-        known=tuple(known),
-        condition=cases.values(np.where(sure, condition, np.nan)),
-        answers=cases.whole(np.where(ambiguous, len(answers), 1)),
-        contact_velocity=_without_slip(cases, np.where(sure, found["closing"], np.nan)),
-    )
 
-    def asked(answer: dict[str, Any], keep: Any) -> Inputs:
+    def provenance(found: Candidate, condition: Any, answers: Any, where: Any = True) -> Reconstruction:
+        condition, closing, slip = (
+            cases.values(np.where(where, v, np.nan)) for v in (condition, found.closing, 0.0 * found.closing)
+        )
+        return Reconstruction(
+            method="central",
+            known=tuple(given),
+            condition=condition,
+            answers=answers,
+            contact_velocity=(closing, slip),
+        )
+
+    def inputs_of(found: Candidate, keep: Any) -> Inputs:
+        va, vb, e = (cases.values(np.where(keep, value, np.nan)) for value in found[:3])
         # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
         still: Any = 0.0 if np.all(keep) else cases.values(np.where(keep, 0.0, np.nan))
         a, b = (
-            Vehicle(mass=mass)._moved(cases.values(np.where(keep, answer[name], np.nan)), still, still)._told(given_as)
-            for mass, name, given_as in zip(masses, ("va", "vb"), written, strict=True)
+            Vehicle(mass=numbers[f"mass_{label}"])._moved(speed, still, still)._told(given_as)
+            for label, speed, given_as in zip("ab", (va, vb), of_bodies, strict=True)
         )
-        e = cases.values(np.where(keep, answer["e"], np.nan))
-        return Inputs("linear_central", a, b, e, _ALONG, FRICTION, _NONE, None, None, told)
-
-    def solution(which: int) -> Impact:
-        with np.errstate(all="ignore"):
-            condition = cases.values(_condition(numbers, answers[which], np.intp(which), eps))
-        velocity = _without_slip(cases, answers[which]["closing"])
-        impact = Impact._solved(asked(answers[which], True)._changed(contact_velocity=velocity))
-        one = replace(origin, condition=condition, answers=len(answers), contact_velocity=velocity)
-        return found_by(one, impact.inputs, impact._raw, Status.OK)
+        return Inputs("linear_central", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
-        if cases.shape is None and status == Status.AMBIGUOUS:
-            solutions = tuple(solution(k) for k in range(len(answers)))
-            both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
-            return AmbiguousSolutionError(
-                f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity of the other kind decides",
-                code="ambiguous",
-                solutions=solutions,
-            )
-        code = int(np.asarray(status)[index])
-        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in {**_named(masses), **known}.items()}
-        if code == Status.AMBIGUOUS:
-            try:
-                central(**of_case)
-            except CollisionsError as both:
-                return both
-        given = {name: of_case[name] for name in known}
-        return _error(code, {name: cases.one(value, index) for name, value in found.items()}, given)
+        if cases.shape is not None:
+            of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
+            return refusal_alone(partial(central, **of_case), status[index])
+        if status != Status.AMBIGUOUS:
+            return _refusal(status, found, arrays)
+        solutions = tuple(map(solution, range(len(candidates))))
+        both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
+        return AmbiguousSolutionError(
+            f"two impacts fit {', '.join(given)}: {both}; both are in .solutions, and a velocity of the other kind decides",
+            code="ambiguous",
+            solutions=solutions,
+        )
 
-    return settle(partial(asked, found), status, origin, on_failure, error)
+    def solution(i: int) -> Impact:
+        with np.errstate(all="ignore"):
+            condition = _condition(arrays, candidates[i], np.intp(i), cases.eps)
+            origin = provenance(candidates[i], condition, len(candidates))
+        return run_forward(partial(inputs_of, candidates[i]), Status.OK, origin)
 
-
-def _read(reader: ArgumentReader, value: Any, name: str) -> Any:
-    if name == "restitution":
-        return reader.number(value, "", name, RESTITUTION)
-    if name != "energy_loss":
-        return reader.number(value, "m/s", name)
-    return amount(reader, value, "J", name)
+    with np.errstate(all="ignore"):
+        count = cases.counts(np.where(ambiguous, len(candidates), 1))
+        origin = provenance(found, condition, count, np.equal(status, Status.OK))
+    return finish(partial(inputs_of, found), status, origin, on_failure, error)
 
 
-def _without_slip(cases: Cases, closing: Any) -> tuple[Any, Any]:
-    return cases.values(closing), cases.values(0.0 * closing)
-
-
-def _named(masses: tuple[Any, Any]) -> dict[str, Any]:
-    return dict(zip(("mass_a", "mass_b"), masses, strict=True))
-
-
-def _answers(numbers: dict[str, Any], eps: float) -> list[dict[str, Any]]:
-    """What fits, one dictionary a candidate, and whether it is an impact at all."""
+def _candidates(numbers: dict[str, Any], eps: float) -> list[Candidate]:
+    """The impacts that agree with what is known, be they possible or not: one or two."""
     share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
     return [
-        _whole(numbers, share_a, share_b, closing, separation, fixed, eps)
+        _candidate(numbers, share_a, share_b, closing, separation, fixed, eps)
         for closing, separation in inline_speeds(numbers, share_a, share_b, reduced, eps)
     ]
 
 
-def _limits(numbers: dict[str, Any]) -> dict[str, Any]:
-    """What the velocities allow, for the messages."""
-    share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
-    least, most = allowed_losses(numbers, share_a, share_b, reduced)
-    asked = "energy_loss" in numbers
-    return {
-        "least": least if asked else np.nan,
-        "most": most if asked else np.nan,
-        "apart": moving_apart(numbers, share_a, share_b),
-    }
-
-
-def _whole(
+def _candidate(
     known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any, eps: float
-) -> dict[str, Any]:
+) -> Candidate:
     """The impact of a pair of closing and separation speed."""
     total = closing + separation
     va, vb = known.get("va"), known.get("vb")
@@ -232,89 +216,91 @@ def _whole(
         va = vb + closing
     if vb is None:
         vb = va - closing
-    # What rounding leaves of an e of exactly 0 or 1; the change of velocity of a heavy body tells little of the impact.
+    # What rounding leaves of an e of exactly 0 or 1; the change of velocity of a heavy body says little of the impact.
     scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
-    told = {"a": share_a, "b": share_b, "": 1.0}[_needs_motion_of(known)]
-    rounding = np.fmin(16.0 * eps * (1.0 + scale / (told * abs(closing))), _MOST_ROUNDING)
+    share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
+    rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
     e = known.get("restitution", separation / closing)
     e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
     fits = (closing > 0.0) & (e >= 0.0) & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
-    return {"va": va, "vb": vb, "e": e, "closing": closing, "fits": fits}
+    return Candidate(va, vb, e, closing, fits)
 
 
-def _differ(answers: list[dict[str, Any]], eps: float) -> Any:
-    """Whether two answers fit, which are not one that rounding has split."""
-    if len(answers) == 1:
-        return False
-    one, other = answers
-    apart = abs(one["closing"] - other["closing"]) > 64.0 * eps * abs(one["closing"])
-    return one["fits"] & other["fits"] & apart
-
-
-def _condition(numbers: dict[str, Any], found: dict[str, Any], which: Any, eps: float) -> Any:
+def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float) -> Any:
     """Sum over what was given of the change of the speeds before, in closing speeds, by its own relative change."""
     total = np.zeros(())
     for name, value in numbers.items():
-        answers = _answers({**numbers, name: value * (1.0 + _STEP)}, eps)
-        change = sum(abs(np.choose(which, [answer[v] for answer in answers]) - found[v]) for v in ("va", "vb"))
+        moved = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps)
+        change = sum(abs(np.choose(which, [one[i] for one in moved]) - found[i]) for i in range(2))
         total = total + np.where(np.isinf(value), 0.0, change)
-    condition = total / (_STEP * abs(found["closing"]))
+    condition = total / (_STEP * abs(found.closing))
     return np.where(np.isfinite(condition), condition, np.inf)
 
 
-def _faults(masses: tuple[Any, Any], known: dict[str, Any], found: dict[str, Any]) -> list[tuple[Any, int]]:
-    """Why nothing fits, the first that applies."""
-    restitution: Any = known.get("restitution", 0.5)
-    silent = _needs_motion_of(known)
-    at_rest_a, at_rest_b = (np.isinf(mass) for mass in masses)
-    return [
-        (at_rest_a & at_rest_b, Status.IMMOVABLE),
-        ((at_rest_a & ("a" in silent)) | (at_rest_b & ("b" in silent)), Status.INFINITE_MASS),
-        (np.equal(restitution, 0.0) & (known.keys() == {"va_after", "vb_after", "restitution"}), Status.INVERSE_E0),
-        (np.isnan(found["closing"]) & np.equal(known.get("energy_loss", 0.0), 0.0), Status.UNDETERMINED),
-        (((found["closing"] < 0.0) & np.isfinite(found["closing"])) | found["apart"], Status.SEPARATING),
-        (found["closing"] == 0.0, Status.NO_CLOSING),
-        (found["e"] < 0.0, Status.NOT_SEPARATING),
-        (True, Status.CONTRADICTORY),
-    ]
-
-
-def _needs_motion_of(known: dict[str, Any]) -> str:
-    """Which body's change of velocity is asked about the impact, and tells nothing if its mass is infinite."""
+def _only_changing(known: dict[str, Any]) -> str:
+    """The body whose change of velocity is all that is known of the impact: nothing, if its mass is infinite."""
     v = [name for name in VELOCITIES if name in known]
     if len(v) == 3:
         return "a" if {"va", "va_after"} <= set(v) else "b"
     return "a" if v == ["va", "va_after"] else "b" if v == ["vb", "vb_after"] else ""
 
 
-def _error(status: int, found: dict[str, float], known: dict[str, float]) -> CollisionsError:
-    closing, e = found["closing"], found["e"]
+def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
+    """Why nothing fits, the first that applies."""
+    share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
+    fixed = {label: np.isinf(known[f"mass_{label}"]) for label in "ab"}
+    plastic_end = np.equal(known.get("restitution", 0.5), 0.0) & ({"va_after", "vb_after"} <= known.keys())
+    apart = moving_apart(known, share_a, share_b)
+    return [
+        (fixed["a"] & fixed["b"], Status.IMMOVABLE),
+        (fixed.get(_only_changing(known), False), Status.INFINITE_MASS),
+        (plastic_end, Status.INVERSE_E0),
+        (np.isnan(found.closing) & np.equal(known.get("energy_loss", 0.0), 0.0), Status.UNDETERMINED),
+        (((found.closing < 0.0) & np.isfinite(found.closing)) | apart, Status.SEPARATING),
+        (found.closing == 0.0, Status.NO_CLOSING),
+        (found.restitution < 0.0, Status.NOT_SEPARATING),
+        (True, Status.CONTRADICTORY),
+    ]
+
+
+def _refusal(status: int, found: Candidate, numbers: dict[str, Any]) -> CollisionsError:
+    closing, e = float(found.closing), float(found.restitution)
+    known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
     given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
     along = "velocities are counted along the line from A to B, A behind"
-    speed = "no approach" if np.isnan(closing) else f"a closing speed of {closing:.6g} m/s"
-    texts: dict[int, str] = {
-        Status.SEPARATING: f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B",
-        Status.NO_CLOSING: f"{given} mean a closing speed of 0, so there was no impact; {along}",
-        Status.NOT_SEPARATING: f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: "
-        f"one of them would pass through the other{_limit(found)}",
-        Status.INVERSE_E0: f"{given}: after a plastic impact (restitution = 0) both have one velocity"
-        f"{_difference(known)}, and nothing is left of the closing speed; give energy_loss, va or vb instead of restitution",
-        Status.INFINITE_MASS: f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a "
-        f"velocity of the other body",
-        Status.IMMOVABLE: "both masses are infinite, so nothing can yield; give at least one a finite mass",
-        Status.UNDETERMINED: f"{given} fit any closing speed; give another velocity",
-    }
-    text = texts.get(status) or _contradiction(given, found, known)
+    match status:
+        case Status.SEPARATING:
+            speed = "no approach" if np.isnan(closing) else f"a closing speed of {closing:.6g} m/s"
+            text = f"{given} mean {speed}, so the bodies moved apart; {along}: change the signs, or exchange A and B"
+        case Status.NO_CLOSING:
+            text = f"{given} mean a closing speed of 0, so there was no impact; {along}"
+        case Status.NOT_SEPARATING:
+            text = (
+                f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: one of them "
+                f"would pass through the other{_allowed_losses(numbers)}"
+            )
+        case Status.INVERSE_E0:
+            apart = known["vb_after"] - known["va_after"]
+            differs = f" (here vb_after - va_after is {apart:.6g} m/s, which contradicts that)" if apart else ""
+            text = (
+                f"{given}: after a plastic impact (restitution = 0) both have one velocity{differs}, and nothing is left of "
+                f"the closing speed; give energy_loss, va or vb instead of restitution"
+            )
+        case Status.INFINITE_MASS:
+            text = (
+                f"{given}: a body of infinite mass keeps its velocity, which tells nothing of the impact; give a velocity of "
+                f"the other body"
+            )
+        case Status.IMMOVABLE:
+            text = "both masses are infinite, so nothing can yield; give at least one a finite mass"
+        case Status.UNDETERMINED:
+            text = f"{given} fit any closing speed; give another velocity"
+        case _:
+            text = _contradiction(given, known, e, numbers)
     return error_of(status, text, restitution=e, closing_speed=closing)
 
 
-def _difference(known: dict[str, float]) -> str:
-    """By how much the two velocities after are not one, where they are not."""
-    apart = known.get("vb_after", 0.0) - known.get("va_after", 0.0)
-    return f" (here vb_after - va_after is {apart:.6g} m/s, which contradicts that)" if apart else ""
-
-
-def _contradiction(given: str, found: dict[str, float], known: dict[str, float]) -> str:
+def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[str, Any]) -> str:
     """What does not go together, and by how much."""
     names = [name for name in VELOCITIES if name in known]
     if "energy_loss" not in known and len(names) == 2:
@@ -325,14 +311,18 @@ def _contradiction(given: str, found: dict[str, float], known: dict[str, float])
         )
     if len(names) == 1:
         return f"{given}: an elastic impact (restitution = 1) loses no energy; give energy_loss = 0 and two velocities"
-    if found["e"] > 1.0:
-        return f"{given} mean a restitution of {found['e']:.6g}, above 1: the impact would gain energy; check masses and signs"
-    return f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{_limit(found)}"
+    if e > 1.0:
+        return f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
+    return (
+        f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{_allowed_losses(numbers)}"
+    )
 
 
-def _limit(found: dict[str, float]) -> str:
-    """What energy the masses and two velocities allow, where they say."""
-    least, most = found["least"], found["most"]
-    if np.isnan(least):
+def _allowed_losses(numbers: dict[str, Any]) -> str:
+    """What energy the masses and two velocities allow, where an energy was given and they say."""
+    with np.errstate(all="ignore"):
+        share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
+        least, most = allowed_losses(numbers, share_a, share_b, reduced)
+    if "energy_loss" not in numbers or np.isnan(least):
         return ""
     return f"; they allow at least {least:.6g} J" + ("" if np.isinf(most) else f" and at most {most:.6g} J")

@@ -1,4 +1,4 @@
-"""What every reverse solver ends with: the forward solver's answer to what it found, or the reason why there is none."""
+"""What reverse solvers share: known values, single cases and batches alike, and the forward solver's answer at the end."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
+from ..models import body_numbers
 from ..provenance import Reconstruction
 from ..quantities import lock
 from ..reading import broadcast
-from ..solving import check_options, first_refused, warn_of_refusals
+from ..solving import check_options, error_of, first_refused, warn_of_refusals
 from ..vehicle import Vehicle
+from ..warning import quietly
 
+# The forward kernel, called with the numbers of two bodies in this order.
+forward: Callable[..., Any] = eccentric
+NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # How the names of numbers begin that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
-
-
-def parted(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
-    """The texts that a vehicle was given as: of what stays, and of these parts of its motion, which will be others."""
-    texts = body._given or {}
-    kept = {name: text for name, text in texts.items() if name not in motion}
-    return kept, {name: text for name, text in texts.items() if name in motion}
+# For functions whose answer has no status to look at.
+ASK_ALONE = "asked alone, each says why"
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
-    """The values that were given, if they are as many as the question needs."""
+    """The values that were given, if they are as many as the solver needs."""
     given = {name: value for name, value in known.items() if value is not None}
     if len(given) == count:
         return given
@@ -49,16 +49,34 @@ def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
     )
 
 
-# The forward kernel, called with the numbers of two bodies in this order.
-forward: Callable[..., Any] = eccentric
-NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
+def check_both_ees(ees_a: Any, ees_b: Any) -> None:
+    """Refuses the EES of one vehicle without that of the other."""
+    if (ees_a is None) != (ees_b is None):
+        raise InputError(
+            "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
+        )
 
-# For functions that answer with plain numbers, which have no status.
-ASK_ALONE = "asked alone, each says why"
+
+def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
+    """The texts that a vehicle was given as: of what stays, and of these parts of its motion, which the answer replaces."""
+    texts = body._given or {}
+    staying = {name: text for name, text in texts.items() if name not in motion}
+    return staying, {name: text for name, text in texts.items() if name in motion}
+
+
+def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()) -> dict[str, Any]:
+    """The numbers of a contact and of both vehicles, by the names in messages; ``state`` goes with a and b, as in a_after."""
+    found = {inputs.rule: inputs.rule_value, "normal[0]": inputs.normal[0], "normal[1]": inputs.normal[1]}
+    found |= {f"point[{i}]": part for i, part in enumerate(inputs.point or ())}
+    bodies = ((f"a{state}", inputs.a), (f"b{state}", inputs.b))
+    for label, body in bodies:
+        numbers = zip(NUMBERS, body_numbers(body, inputs.point), strict=True)
+        found |= {f"{label}.{name}": value for name, value in numbers if name not in without}
+    return found | {f"{label}.heading": body.heading for label, body in bodies if body.heading is not None}
 
 
 class Cases(NamedTuple):
-    """What the answers to one question are: a single case, or a batch of a shape and a precision."""
+    """What is solved: a single case, or a batch of a shape and a precision."""
 
     shape: tuple[int, ...] | None
     dtype: Any
@@ -68,6 +86,11 @@ class Cases(NamedTuple):
         """As many cases as the arrays among the values go together to."""
         return cls(broadcast(values), precision(values.values()))
 
+    @property
+    def eps(self) -> float:
+        """The rounding of the precision."""
+        return float(np.finfo(np.float64 if self.shape is None else self.dtype).eps)
+
     def values(self, found: Any) -> Any:
         """A plain float for a single case, a locked array of its own for a batch."""
         if self.shape is None:
@@ -76,17 +99,13 @@ class Cases(NamedTuple):
         with np.errstate(over="ignore"):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
-    def alike(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """The values by name, their arrays in the precision of the batch."""
-        return {name: value.astype(self.dtype) if isinstance(value, np.ndarray) else value for name, value in values.items()}
-
     def beyond(self, found: Any) -> Any:
         """Where an answer is not finite, or would not be in the precision of the batch."""
         with np.errstate(over="ignore"):
             return ~np.isfinite(np.asarray(found).astype(self.dtype))
 
-    def whole(self, found: Any) -> Any:
-        """The same of what is counted."""
+    def counts(self, found: Any) -> Any:
+        """An int for a single case, a locked array of them for a batch."""
         return int(found) if self.shape is None else lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
 
     def first_status(self, findings: Sequence[tuple[Any, int]]) -> Any:
@@ -106,51 +125,50 @@ def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
-            kind = name.rpartition(".")[2]
-            domain = (
-                POSITIVE
-                if kind.startswith(("mass", "yaw_inertia"))
-                else RESTITUTION
-                if kind == "restitution"
-                else RULES[kind].domain
-                if kind in RULES
-                else FINITE
-            )
-            found += [(fault(value), status) for fault, status in domain.faults]
-            if kind.startswith(_AMOUNTS):
+            found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2]).faults]
+            if name.startswith(_AMOUNTS):
                 found.append((value < 0.0, Status.CONTRADICTORY))
     return found
 
 
-def settle(
-    asked: Callable[[Any], Inputs],
+def _domain(name: str) -> Any:
+    if name.startswith(("mass", "yaw_inertia")):
+        return POSITIVE
+    if name in RULES:
+        return RULES[name].domain
+    return RESTITUTION if name == "restitution" else FINITE
+
+
+def finish(
+    inputs_of: Callable[[Any], Inputs],
     status: Any,
     origin: Reconstruction,
     on_failure: Any,
     error: Callable[[tuple[int, ...]], CollisionsError],
 ) -> Impact:
-    """The forward solver's impact from the state that was found; ``error`` gives the refusal of the case at an index.
+    """The impact from the state that was found, or what ``on_failure`` wants of cases that have none.
 
-    ``asked`` puts the question of the cases that it is told to keep; what was looked for is NaN in the others.
+    ``inputs_of`` gives the inputs with NaN for what was looked for, but in the cases it is called with. ``error`` gives the
+    refusal of the case at an index.
     """
     check_options(on_failure)
-    single = not isinstance(status, np.ndarray)
-    if single and status != Status.OK and on_failure != "nan":
-        raise error(())
-    found = answered(asked, status, origin, on_failure if single else "nan")
-    if not single:
-        raise_or_warn(found._raw.status, on_failure, error)
+    if not isinstance(status, np.ndarray):
+        if status != Status.OK and on_failure != "nan":
+            raise error(())
+        return run_forward(inputs_of, status, origin, on_failure)
+    found = run_forward(inputs_of, status, origin, "nan")
+    raise_or_warn(found.status, on_failure, error)
     return found
 
 
-def answered(asked: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any) -> Impact:
+def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:
     """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
     sure = np.equal(status, Status.OK)
-    impact = Impact._solved(asked(sure)._changed(contact_velocity=origin.contact_velocity), on_failure=on_failure)
-    question = impact.inputs
+    impact = Impact._solved(inputs_of(sure)._changed(contact_velocity=origin.contact_velocity), on_failure=on_failure)
+    inputs = impact.inputs
     if np.any(sure & impact.refused):
-        question = asked(sure & np.logical_not(impact.refused))
-    return found_by(origin, question, impact._raw, status)
+        inputs = inputs_of(sure & np.logical_not(impact.refused))
+    return found_by(origin, inputs, impact._raw, status)
 
 
 def raise_or_warn(
@@ -163,3 +181,13 @@ def raise_or_warn(
             problem = error(index)
             raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
         warn_of_refusals(status, *([] if advice is None else [advice]))
+
+
+def refusal_alone(solve: Callable[[], Any], status: int) -> CollisionsError:
+    """The refusal of one case of a batch, from the case by itself; in double precision there may be none."""
+    try:
+        with quietly():
+            solve()
+    except CollisionsError as problem:
+        return problem
+    return error_of(status, Status(status).sentence)

@@ -10,7 +10,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..units import shown
+from .common import Cases
 
+# Where a restitution that depends on the answer is looked for.
+_GRID = np.linspace(0.0, 1.0, 129)
 _PIECES = 16
 # Sixteenths of a grid cell until they are rounding.
 _ROUNDS = 13
@@ -22,24 +25,24 @@ _STEP = 1e-4
 _Mismatch = Callable[[Any], Sequence[Any]]
 
 
-def crossings(mismatch: _Mismatch, grid: Any) -> list[tuple[int, float]]:
-    """Every root of each row of ``mismatch(values)`` that the grid shows: row and root.
+def crossings(mismatch: _Mismatch) -> list[tuple[int, float]]:
+    """Every root of each row of ``mismatch(restitution)`` that a grid of restitutions shows: row and root.
 
     NaN marks where a row has no answer. A change of sign is narrowed down, also between the grid and the place where a row
     ends; where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there.
     """
-    values = np.stack(list(mismatch(grid)))
+    values = np.stack(list(mismatch(_GRID)))
     signs, known = np.sign(values), np.isfinite(values)
-    brackets = [_Brackets(row, grid[i], grid[i + 1]) for row, i in [np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)]]
+    brackets = [_Brackets(row, _GRID[i], _GRID[i + 1]) for row, i in [np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)]]
 
     row, i = np.nonzero(known[:, :-1] != known[:, 1:])
     i, outside = np.where(known[row, i], (i, i + 1), (i + 1, i))
-    ending = _Brackets(row, grid[i], grid[outside])
-    brackets.append(_Brackets(row, grid[i], _narrowed(mismatch, ending, _last_answer, 1).low))
+    ending = _Brackets(row, _GRID[i], _GRID[outside])
+    brackets.append(_Brackets(row, _GRID[i], _narrowed(mismatch, ending, _last_answer, 1).low))
 
     size, same = abs(values), signs[:, :-1] * signs[:, 1:] > 0.0
     row, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
-    around, side = _Brackets(row, grid[i], grid[i + 2]), signs[row, i][:, np.newaxis]
+    around, side = _Brackets(row, _GRID[i], _GRID[i + 2]), signs[row, i][:, np.newaxis]
     turn = _narrowed(mismatch, around, lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1, 2).low
     brackets += [_Brackets(row, around.low, turn), _Brackets(row, turn, around.high)]
 
@@ -94,7 +97,11 @@ def _last_answer(values: Any) -> Any:
 class RestitutionOf:
     """A caller's function of the closing speed, whose values outside 0 to 1 are no answer."""
 
-    def __init__(self, function: Callable[[float], Any]) -> None:
+    def __init__(self, function: Callable[[float], Any], cases: Cases) -> None:
+        if cases.shape is not None:
+            raise InputError(
+                "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
+            )
         self.function = function
         self.refused = ""
 
@@ -116,16 +123,16 @@ class RestitutionOf:
 
     def _one(self, closing: float) -> float:
         if not closing > 0.0:
-            return float("nan")
+            return math.nan
         try:
             given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
             self.refused = f"restitution({closing:.6g}) raised {type(error).__name__}: {error}"
-            return float("nan")
+            return math.nan
         if not 0.0 <= e <= 1.0:
             self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from 0 to 1"
-            return float("nan")
+            return math.nan
         return e
 
     def complain(self) -> None:

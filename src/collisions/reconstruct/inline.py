@@ -1,16 +1,15 @@
-"""In-line closing speed from one delta-V, an energy loss or both EES: the short cut for central impacts only."""
+"""In-line closing speed from one delta-V, an energy loss or both EES: the shortcut for central impacts only."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..amounts import amount
-from ..errors import AmbiguousSolutionError, CollisionsError, InputError, NoSolutionError
+from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
 from ..kernels.elementwise import POSITIVE, RESTITUTION
 from ..kernels.linear import shares
 from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
@@ -18,10 +17,8 @@ from ..kernels.status import Status
 from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input, Value
-from .common import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn
+from .common import ASK_ALONE, Cases, check_both_ees, exactly, input_faults, raise_or_warn
 from .crossings import RestitutionOf, crossings
-
-_SPEEDS = ("delta_v", "ees")
 
 
 def inline_closing_speed(
@@ -80,10 +77,7 @@ def inline_closing_speed(
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)
     7.2
     """
-    if (ees_a is None) != (ees_b is None):
-        raise InputError(
-            "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
-        )
+    check_both_ees(ees_a, ees_b)
     given = exactly(
         {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a},
         1,
@@ -97,42 +91,16 @@ def inline_closing_speed(
     }
     for name, value in (given | ({"ees_b": ees_b} if kind == "ees_a" else {})).items():
         numbers[name] = amount(reader, value, "J" if kind == "energy_loss" else "m/s", name)
-    function = restitution if callable(restitution) else None
-    if function is None:
+    if not callable(restitution):
         numbers["restitution"] = reader.number(restitution, "", "restitution", RESTITUTION)
     reader.close()
     cases = Cases.of(numbers)
-    if function is None:
-        return _closing(cases, kind, numbers)
-    if cases.shape is not None:
-        raise InputError(
-            "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
-        )
-    _closing(cases, kind, {**numbers, "restitution": 0.0})  # refuses what no restitution can mend
-    law = RestitutionOf(function)
-    speed = partial(_speed, kind)
-
-    def mismatch(e: Any) -> list[Any]:
-        # Both EES tell the closing speed without e.
-        return [law(np.broadcast_to(speed({**numbers, "restitution": e}), np.shape(e))) - e]
-
-    found = crossings(mismatch, np.linspace(0.0, 1.0, 129))
-    speeds = {float(speed({**numbers, "restitution": np.float64(e)})) for _, e in found}
-    answers = tuple(sorted(filter(math.isfinite, speeds)))
-    if not answers:
-        law.complain()
-        raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")
-    if len(answers) > 1:
-        raise AmbiguousSolutionError(
-            f"the function of restitution is met at closing speeds of {' and '.join(f'{g:.6g}' for g in answers)} m/s",
-            code="ambiguous",
-            solutions=answers,
-        )
-    closing: Value = cases.values(answers[0])
-    return closing
+    if callable(restitution):
+        return _with_function(cases, kind, numbers, RestitutionOf(restitution, cases))
+    return _with_number(cases, kind, numbers)
 
 
-def _speed(kind: str, numbers: dict[str, Any]) -> Any:
+def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
     values = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
@@ -143,14 +111,13 @@ def _speed(kind: str, numbers: dict[str, Any]) -> Any:
         return changing_speed(values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"])
 
 
-def _closing(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
-    speed = _speed(kind, numbers)
+def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
+    speed = _closing_speed(kind, numbers)
     status = cases.first_status(
         (
             *input_faults(numbers),
             (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), Status.IMMOVABLE),
             (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), Status.INFINITE_MASS),
-            *((np.less(value, 0.0), Status.CONTRADICTORY) for name, value in numbers.items() if name.startswith(_SPEEDS)),
             (~cases.beyond(speed), Status.OK),
             (True, Status.UNDETERMINED if kind == "energy_loss" else Status.CONTRADICTORY),
         )
@@ -166,10 +133,34 @@ def _closing(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
         }.get(code, "these values give no finite closing speed; the ees of an infinite mass is 0")
         return error_of(code, text)
 
-    if cases.shape is None:
-        if status != Status.OK:
-            raise error(())
-    else:
+    if cases.shape is not None:
         raise_or_warn(status, None, error, ASK_ALONE)
+    elif status != Status.OK:
+        raise error(())
     answer: Value = cases.values(np.where(np.equal(status, Status.OK), speed, np.nan))
+    return answer
+
+
+def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf) -> Value:
+    _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses what no restitution can mend
+
+    def speed(e: Any) -> Any:
+        return _closing_speed(kind, {**numbers, "restitution": e})
+
+    def mismatch(e: Any) -> list[Any]:
+        # Both EES give the closing speed without e.
+        return [function(np.broadcast_to(speed(e), np.shape(e))) - e]
+
+    found = {float(speed(np.float64(e))) for _, e in crossings(mismatch)}
+    answers = tuple(sorted(filter(math.isfinite, found)))
+    if not answers:
+        function.complain()
+        raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")
+    if len(answers) > 1:
+        raise AmbiguousSolutionError(
+            f"the function of restitution is met at closing speeds of {' and '.join(f'{g:.6g}' for g in answers)} m/s",
+            code="ambiguous",
+            solutions=answers,
+        )
+    answer: Value = cases.values(answers[0])
     return answer

@@ -2,25 +2,110 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..amounts import amount
-from ..directions import Angle, between, course, direction
-from ..errors import InputError, MissingInputError
+from ..directions import Angle, angle_of, between, course, direction
+from ..errors import (
+    CollisionsError,
+    EnergyGainWarning,
+    IllConditionedWarning,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+    OutOfRangeWarning,
+)
 from ..inputs import OnFailure
 from ..kernels.elementwise import POSITIVE
-from ..kernels.reverse import Term
-from ..kernels.status import EPS
-from ..quantities import show
+from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
+from ..kernels.status import EPS, Status
+from ..quantities import Shown, derived, hypot, show
 from ..reading import ArgumentReader
 from ..solving import check_options
-from ..units import Input, Pair, is_quantity, magnitude, shown
-from .common import Cases, exactly
-from .momentum_balance import Question, blur, solve
-from .momentum_solution import MomentumSolution
+from ..units import Input, Pair, Value, is_quantity, magnitude, shown, to_quantity
+from ..warning import warn, warn_of_cases
+from .common import Cases, exactly, raise_or_warn
+
+_SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
+_COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
+_NEARLY_COLLINEAR = math.radians(10.0)
+
+# The arguments that give attributes which may be None.
+_NEEDED = {"pdof_a": "heading_a", "pdof_b": "heading_b", "closing_speed": "normal", "restitution": "normal"}
+_SENSITIVITY_UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg", "outside": "m/s/(N*s)"}
+
+
+class Sensitivity(dict[str, dict[str, Value]]):
+    """By answer, then by input: how much the answer moves when the input moves by one SI unit; per degree through ``.q``."""
+
+    @property
+    def q(self) -> dict[str, dict[str, Any]]:
+        """The same with units, per degree where the input is an angle."""
+        return {answer: {name: self._quantity(name, value) for name, value in row.items()} for answer, row in self.items()}
+
+    @staticmethod
+    def _quantity(name: str, value: Any) -> Any:
+        kind = name.partition("_")[0]
+        return to_quantity(value * math.pi / 180.0 if kind == "course" else value, _SENSITIVITY_UNITS[kind])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class MomentumSolution(Shown):
+    """Two vehicles before and after an impact, as planar momentum has it, and how firmly.
+
+    Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
+    or arrays in a batch.
+    """
+
+    mass_a: Value = field(metadata={"unit": "kg"})
+    mass_b: Value = field(metadata={"unit": "kg"})
+    course_a: Value | None = field(metadata={"unit": "rad"})
+    course_b: Value | None = field(metadata={"unit": "rad"})
+    course_a_after: Value | None = field(metadata={"unit": "rad"})
+    course_b_after: Value | None = field(metadata={"unit": "rad"})
+    speed_a: Value = field(metadata={"unit": "m/s"})
+    speed_b: Value = field(metadata={"unit": "m/s"})
+    speed_a_after: Value = field(metadata={"unit": "m/s"})
+    speed_b_after: Value = field(metadata={"unit": "m/s"})
+    delta_v_a: Value = field(metadata={"unit": "m/s"})
+    delta_v_b: Value = field(metadata={"unit": "m/s"})
+    pdof_a: Value | None = field(metadata={"unit": "rad"})
+    pdof_b: Value | None = field(metadata={"unit": "rad"})
+    closing_speed: Value | None = field(metadata={"unit": "m/s"})
+    restitution: Value | None = field(metadata={"unit": ""})
+    translational_energy_loss: Value = field(metadata={"unit": "J"})
+    condition: Value = field(metadata={"unit": ""})
+    sensitivity: Sensitivity = field()
+    unknowns: tuple[str, ...] = field()
+    status: Any = field()
+    heading_a: Value | None = field(default=None, metadata={"unit": "rad"})
+    heading_b: Value | None = field(default=None, metadata={"unit": "rad"})
+    normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
+    outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
+    outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
+    # The arguments as they were given, texts and numbers, from which one case can be solved again.
+    _given: Mapping[str, Any] | None = field(default=None)
+
+    _title = "Planar momentum"
+
+    def _missing(self, name: str) -> MissingInputError | None:
+        if name not in _NEEDED:
+            return None
+        argument = _NEEDED[name]
+        kind = argument.partition("_")[0]
+        return MissingInputError(
+            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
+        )
+
+    @derived()
+    def ok(self) -> Any:
+        """Whether the case was answered, and without energy that came from nowhere."""
+        return self.status == Status.OK
 
 
 def momentum(
@@ -108,58 +193,44 @@ def momentum(
     if not isinstance(together, bool):
         raise InputError(f"together must be True or False, got {shown(together)}", code="bad_option", argument="together")
     check_options(on_failure)
-    speeds = {"speed_a": speed_a, "speed_b": speed_b, "speed_a_after": speed_a_after, "speed_b_after": speed_b_after}
-    courses = {
-        "course_a": course_a,
-        "course_b": course_b,
-        "course_a_after": course_a_after,
-        "course_b_after": course_b_after,
-    }
+    speeds = dict(zip(_SPEEDS, (speed_a, speed_b, speed_a_after, speed_b_after), strict=True))
+    courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
+    courses |= {"heading_a": heading_a, "heading_b": heading_b}
     reader = ArgumentReader()
-    masses = {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
-    known = {
-        name: amount(reader, value, "m/s", name, "turn its course by 180 deg")
-        for name, value in speeds.items()
-        if value is not None
-    }
+    numbers = {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    for name, value in speeds.items():
+        if value is not None:
+            numbers[name] = amount(reader, value, "m/s", name, "turn its course by 180 deg")
     angles = {name: course(reader, value, name) for name, value in courses.items() if value is not None}
-    headings = {
-        name: course(reader, value, name)
-        for name, value in (("heading_a", heading_a), ("heading_b", heading_b))
-        if value is not None
-    }
-    impulse = None if outside_impulse is None else reader.pair(outside_impulse, "N*s", "outside_impulse")
-    numbers = {
-        **masses,
-        **known,
-        **{name: angle.value for name, angle in (*angles.items(), *headings.items())},
-        **{f"outside_impulse[{i}]": part for i, part in enumerate(impulse or ())},
-    }
-    along = None if normal is None else direction(reader, normal, "normal", numbers.values())
+    numbers |= {name: angle.value for name, angle in angles.items()}
+    single_values = list(numbers)
+    if outside_impulse is not None:
+        numbers |= _parts("outside_impulse", reader.pair(outside_impulse, "N*s", "outside_impulse"))
+    if normal is not None:
+        numbers |= _parts("normal", direction(reader, normal, "normal", numbers.values()))
     reader.close()
-    cases = Cases.of({**numbers, **{f"normal[{i}]": part for i, part in enumerate(along or ())}})
-    numbers = cases.alike(numbers)
-    masses, known = ({name: numbers[name] for name in names} for names in (masses, known))
-    angles, headings = (
-        {name: angle._replace(value=numbers[name]) for name, angle in known_angles.items()}
-        for known_angles in (angles, headings)
-    )
-    impulse = None if impulse is None else (numbers["outside_impulse[0]"], numbers["outside_impulse[1]"])
+    cases = Cases.of(numbers)
+    numbers = {name: value.astype(cases.dtype) if isinstance(value, np.ndarray) else value for name, value in numbers.items()}
+    angles = {name: angle._replace(value=numbers[name]) for name, angle in angles.items()}
     given: dict[str, Any] | None = None
     if cases.shape is None:
-        read = masses | known | {name: angle.value for name, angle in (angles | headings).items()}
-        given = {name: reader.texts.get(name, value) for name, value in read.items()} | ({"together": True} if together else {})
-        if impulse is not None:
-            given["outside_impulse"] = [reader.texts.get(f"outside_impulse[{i}]", part) for i, part in enumerate(impulse)]
+        given = {name: reader.texts.get(name, numbers[name]) for name in single_values} | (
+            {"together": True} if together else {}
+        )
+        if outside_impulse is not None:
+            given["outside_impulse"] = [reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")]
         if normal is not None:
             given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
     with np.errstate(all="ignore"):
-        unlike = np.logical_or(_share(known, "speed"), _share(angles, "course")) if together else False
-        terms = _terms(masses, known, angles, together)
+        unlike = np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
+        terms = _terms(numbers, angles, together)
         exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
-        found = solve(cases, Question(terms, masses, angles, headings, impulse, along, unlike, together), on_failure)
-    return found if given is None else replace(found, _given=given)
+        return _solve(_Known(cases, numbers, angles, terms, unlike), given, on_failure)
+
+
+def _parts(name: str, pair: tuple[Any, Any]) -> dict[str, Any]:
+    return {f"{name}[{i}]": part for i, part in enumerate(pair)}
 
 
 def _as_given(value: Any) -> str | float:
@@ -179,9 +250,9 @@ def _share(given: dict[str, Any], kind: str) -> Any:
     if len(found) == 2:
         unlike = np.logical_not(_same_course(*found)) if kind == "course" else np.not_equal(*found)
         if np.ndim(unlike) == 0 and unlike:
+            both = " and ".join(show(value.radians.item() if isinstance(value, Angle) else value) for value in found)
             raise InputError(
-                f"{names[0]} and {names[1]} differ ({_shown(found[0])} and {_shown(found[1])}), which vehicles that leave "
-                f"together cannot; give one of them",
+                f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together cannot; give one of them",
                 code="contradictory",
                 argument=names[1],
             )
@@ -191,27 +262,24 @@ def _share(given: dict[str, Any], kind: str) -> Any:
 
 def _same_course(one: Angle, other: Angle) -> Any:
     cosine, sine = between(one, other)
-    return (abs(sine) <= blur(one, other, EPS)) & (cosine > 0.0)
+    return (abs(sine) <= _angle_rounding(one, other, EPS)) & (cosine > 0.0)
 
 
-def _shown(value: Any) -> str:
-    return show(value.radians.item() if isinstance(value, Angle) and np.ndim(value.radians) == 0 else value)
+def _angle_rounding(one: Angle, other: Angle, eps: float) -> Any:
+    """What rounding leaves open of the angle between two courses; whole degrees leave nothing but their conversion."""
+    return 4.0 * eps * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
 
 
-def _terms(masses: dict[str, Any], known: dict[str, Any], angles: dict[str, Angle], together: bool) -> dict[str, Term]:
-    """The moving bodies, by the name of their speed."""
-    before = {
-        name: Term(1.0, masses[f"mass_{name[6]}"], known.get(name), angles.get(f"course_{name[6]}"))
-        for name in ("speed_a", "speed_b")
-    }
+def _terms(numbers: dict[str, Any], angles: dict[str, Angle], together: bool) -> dict[str, Term]:
+    """The moving bodies, by the name of their speed; those that leave together are one."""
+    terms = {}
+    for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
+        mass, sign = numbers[f"mass_{name[6]}"], -1.0 if name.endswith("after") else 1.0
+        terms[name] = Term(sign, mass, numbers.get(name), angles.get(course_name))
     if together:
-        both = masses["mass_a"] + masses["mass_b"]
-        return {**before, "speed_a_after": Term(-1.0, both, known.get("speed_a_after"), angles.get("course_a_after"))}
-    after = {
-        name: Term(-1.0, masses[f"mass_{name[6]}"], known.get(name), angles.get(f"course_{name[6]}_after"))
-        for name in ("speed_a_after", "speed_b_after")
-    }
-    return {**before, **after}
+        del terms["speed_b_after"]
+        terms["speed_a_after"] = terms["speed_a_after"]._replace(mass=numbers["mass_a"] + numbers["mass_b"])
+    return terms
 
 
 def _need_courses(terms: dict[str, Term]) -> None:
@@ -223,3 +291,238 @@ def _need_courses(terms: dict[str, Term]) -> None:
             code="missing_course",
             argument=wanted,
         )
+
+
+class _Known(NamedTuple):
+    """Numbers, courses and headings by argument, the moving bodies, and where common values of both were given and differ."""
+
+    cases: Cases
+    numbers: dict[str, Any]
+    angles: dict[str, Angle]
+    terms: dict[str, Term]
+    unlike: Any
+
+    def pair(self, name: str) -> tuple[Any, Any] | None:
+        """An argument of two components."""
+        return (self.numbers[f"{name}[0]"], self.numbers[f"{name}[1]"]) if f"{name}[0]" in self.numbers else None
+
+    def bodies(self, speed: str) -> str:
+        """The labels of the vehicles that move at a speed."""
+        return "ab" if speed == "speed_a_after" and "speed_b_after" not in self.terms else speed[6]
+
+
+def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
+    """The answer, or the refusal, of one case or of many."""
+    cases, impulse, normal = known.cases, known.pair("outside_impulse"), known.pair("normal")
+    mass_a, mass_b = known.numbers["mass_a"], known.numbers["mass_b"]
+    terms = [term for term in known.terms.values() if term.speed is not None]
+    (first, one), (second, other) = unknown = [(name, term) for name, term in known.terms.items() if term.speed is None]
+    cosine, sine = between(one.course, other.course)
+    speeds = {name: term.speed for name, term in known.terms.items()}
+    speeds[first] = unknown_speed(terms, impulse, one, other, between)
+    speeds[second] = unknown_speed(terms, impulse, other, one, between)
+    speeds.setdefault("speed_b_after", speeds["speed_a_after"])
+    outcome = _outcome(known, speeds, normal)
+    condition = np.divide(1.0 + abs(cosine), abs(sine))
+    # What rounding makes of the answers, as speeds of the lighter vehicle.
+    flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
+    lighter = np.minimum(mass_a, mass_b)
+    rounding = 16.0 * cases.eps * condition * (flow / lighter)
+    loss = outcome["translational_energy_loss"]
+    gains = -loss > 4.0 * rounding * lighter * sum(abs(speeds[name]) for name in _SPEEDS)
+    status = cases.first_status(
+        (
+            *_faults(known, normal),
+            (abs(sine) <= _angle_rounding(one.course, other.course, cases.eps), Status.PARALLEL_HEADINGS),
+            (cases.beyond(speeds[first] + speeds[second] + loss), Status.OUT_OF_RANGE),
+            (gains & (impulse is None), Status.ENERGY_GAIN),
+        )
+    )
+    if cases.shape is not None:
+        raise_or_warn(status, on_failure, lambda index: _refusal(Status(int(status[index])), first, second))
+    elif status > Status.ENERGY_GAIN and on_failure != "nan":
+        raise _refusal(Status(status), first, second)
+    sure = np.less_equal(status, Status.ENERGY_GAIN)
+    found: dict[str, Any] = {**dict.fromkeys(_COURSES), "mass_a": mass_a, "mass_b": mass_b}
+    found |= {name: angle.radians for name, angle in known.angles.items()}
+    if normal is not None:
+        found["normal_angle"] = angle_of(*normal)
+    if impulse is not None:
+        found["outside_impulse_x"], found["outside_impulse_y"] = impulse
+    answers = {**speeds, **outcome, "condition": condition}
+    found |= {name: None if value is None else np.where(sure, value, np.nan) for name, value in answers.items()}
+    values: dict[str, Any] = {name: None if value is None else cases.values(value) for name, value in found.items()}
+    solution = MomentumSolution(
+        **values,
+        sensitivity=_sensitivity(known, found, unknown, impulse, sure),
+        unknowns=(first, second),
+        status=Status(status) if isinstance(status, int) else status,
+        _given=given,
+    )
+    _warn_of_speeds(cases, sure, found, solution, abs(sine), rounding)
+    _warn_of_physics(cases, np.equal(status, Status.ENERGY_GAIN), found, rounding)
+    return solution
+
+
+def _faults(known: _Known, normal: tuple[Any, Any] | None) -> list[tuple[Any, int]]:
+    """What is wrong with values that the reader does not look into: those of arrays."""
+    numbers = known.numbers | {name: angle.value for name, angle in known.angles.items()}
+    masses = numbers["mass_a"], numbers["mass_b"]
+    speeds = [value for name, value in numbers.items() if name.startswith("speed")]
+    return [
+        (_any(map(np.isposinf, masses)), Status.INFINITE_MASS),
+        (_any(np.less_equal(mass, 0.0) for mass in masses), Status.NOT_POSITIVE),
+        (_any(~np.isfinite(value) for value in numbers.values()), Status.NOT_FINITE),
+        (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
+        (_any(np.less(speed, 0.0) for speed in speeds) | known.unlike, Status.CONTRADICTORY),
+    ]
+
+
+def _any(findings: Iterable[Any]) -> Any:
+    return np.logical_or.reduce(np.broadcast_arrays(False, *findings))
+
+
+def _refusal(status: Status, first: str, second: str) -> CollisionsError:
+    """The refusal of a case with these unknowns."""
+    if status is Status.PARALLEL_HEADINGS:
+        return NoSolutionError(
+            f"the courses of {first} and {second} are parallel, so momentum cannot tell them apart; for an in-line impact "
+            f"use reconstruct.central or reconstruct.inline_closing_speed, for one with known geometry reconstruct.speeds",
+            code="parallel_headings",
+        )
+    if status is Status.INFINITE_MASS:
+        return NoSolutionError(
+            "a mass is inf, and the momentum of a body that does not move tells nothing; for an impact on a barrier use "
+            "reconstruct.central, reconstruct.planar or reconstruct.speeds",
+            code="infinite_mass",
+        )
+    why = status.sentence
+    if status is Status.CONTRADICTORY:
+        why = (
+            "a known speed is below 0 (turn its course by 180 deg), or vehicles that leave together have two speeds or two "
+            "courses"
+        )
+    return InputError(f"momentum: {why}", code=status.label)
+
+
+def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | None) -> dict[str, Any]:
+    """What follows from all speeds and courses."""
+    velocity = {}
+    for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
+        c, s = known.angles[course_name].direction if course_name in known.angles else (0.0, 0.0)
+        velocity[name] = speeds[name] * c, speeds[name] * s
+    found: dict[str, Any] = {"closing_speed": None, "restitution": None}
+    loss: Any = 0.0
+    for side in "ab":
+        (ux, uy), (wx, wy) = velocity[f"speed_{side}"], velocity[f"speed_{side}_after"]
+        dx, dy = wx - ux, wy - uy
+        found[f"delta_v_{side}"] = hypot(dx, dy)
+        loss = loss - 0.5 * known.numbers[f"mass_{side}"] * (dx * (ux + wx) + dy * (uy + wy))
+        found[f"pdof_{side}"] = None
+        if f"heading_{side}" in known.angles:
+            hx, hy = known.angles[f"heading_{side}"].direction
+            found[f"pdof_{side}"] = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
+    found["translational_energy_loss"] = loss
+    if normal is not None:
+        nx, ny = normal
+        (ax, ay), (bx, by), (cx, cy), (ex, ey) = (velocity[name] for name in _SPEEDS)
+        closing = nx * (ax - bx) + ny * (ay - by)
+        parting = nx * (ex - cx) + ny * (ey - cy)
+        found["closing_speed"] = closing
+        found["restitution"] = parting / np.where(closing > 0.0, closing, np.nan)
+    return found
+
+
+def _sensitivity(
+    known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], impulse: tuple[Any, Any] | None, sure: Any
+) -> Sensitivity:
+    """Derivatives of both answers by every input, from the balance itself."""
+    found = Sensitivity()
+    moving = {name: term for name, term in known.terms.items() if term.course is not None}
+    for (name, wanted), (_, other) in (unknown, unknown[::-1]):
+        sine = {label: between(term.course, other.course)[1] for label, term in moving.items()}
+        row: dict[str, Any] = {}
+        for side in "ab":
+            own = [label for label in moving if side in known.bodies(label)]
+            row[f"mass_{side}"] = sum(moving[label].sign * (speeds[label] * sine[label]) for label in own)
+        for label, term in moving.items():
+            if term.speed is not None:
+                row[label] = term.sign * term.mass * sine[label]
+            row[label.replace("speed", "course")] = course_change(term, speeds[label], other, between)
+        if impulse is not None:
+            c, s = other.course.direction
+            row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
+        found[name] = {
+            label: known.cases.values(np.where(sure, change_of_speed(cross, wanted, other, between), np.nan))
+            for label, cross in row.items()
+        }
+    return found
+
+
+def _warn_of_speeds(
+    cases: Cases, sure: Any, found: dict[str, Any], solution: MomentumSolution, sine: Any, rounding: Any
+) -> None:
+    """Says how little the answers may be worth."""
+    near = sure & (sine < math.sin(_NEARLY_COLLINEAR))
+    if np.any(near):
+        worst = float(np.max(np.where(near, found["condition"], 0.0)))
+        degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
+        numbers = "; ".join(_largest_by_degree(answer, row, near) for answer, row in solution.sensitivity.items())
+        text = (
+            f"{_count(near, cases)}the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line "
+            f"(condition {worst:.3g}): {numbers}; an in-line method may tell more"
+        )
+        warn(IllConditionedWarning(text, code="nearly_collinear", condition=worst))
+    for name in solution.unknowns:
+        # What rounding leaves of 0 is no motion backwards.
+        backward = sure & (found[name] < -rounding)
+        if np.any(backward):
+            least = float(np.min(np.where(backward, found[name], 0.0)))
+            text = (
+                f"{_count(backward, cases)}{name} = {least:.6g} m/s: backwards along its course; check the courses, or turn "
+                f"this one by 180 deg"
+            )
+            warn(OutOfRangeWarning(text, code="negative_speed", value=least))
+
+
+def _warn_of_physics(cases: Cases, gains: Any, found: dict[str, Any], rounding: Any) -> None:
+    """Says where the answers are no impact."""
+    if np.any(gains):
+        most = -float(np.min(np.where(gains, found["translational_energy_loss"], 0.0)))
+        text = (
+            f"{_count(gains, cases)}the vehicles leave with {most:.6g} J more than they came with, which no impact gives; "
+            f"check courses and speeds"
+        )
+        warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=most))
+    closing, e = found["closing_speed"], found["restitution"]
+    if closing is None:
+        return
+    apart = closing <= 0.0
+    if np.any(apart):
+        least = float(np.min(np.where(apart, closing, 0.0)))
+        text = (
+            f"{_count(apart, cases)}the centres do not approach along the normal, which must point from A into B: closing "
+            f"speed {least:.6g} m/s, so there is no restitution"
+        )
+        warn(OutOfRangeWarning(text, code="separating", closing_speed=least))
+    slack = rounding / closing
+    outside = (e < -slack) | (e > 1.0 + slack)
+    if np.any(outside):
+        worst = float(np.min(np.where(outside, e, np.inf)))
+        worst = worst if worst < 0.0 else float(np.max(np.where(outside, e, 0.0)))
+        text = (
+            f"{_count(outside, cases)}the restitution of the centres along the normal is {worst:.4g}, outside 0 to 1: check "
+            f"the normal, courses and speeds, or ask reconstruct.restitution with the contact point"
+        )
+        warn(OutOfRangeWarning(text, code="observed_restitution", value=worst))
+
+
+def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
+    """The course that an answer depends on most, and by how much."""
+    moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
+    name = max(moves, key=moves.__getitem__)
+    return f"{answer} moves by {moves[name] * math.pi / 180.0:.3g} m/s per degree of {name}"
+
+
+def _count(where: Any, cases: Cases) -> str:
+    return "" if cases.shape is None else f"{int(np.count_nonzero(np.broadcast_to(where, cases.shape)))} cases: "

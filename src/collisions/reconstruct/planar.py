@@ -7,26 +7,28 @@ every origin of an end state is a candidate impulse taken off that state; the fo
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from ..amounts import amount
-from ..errors import CollisionsError, InputError
-from ..impact import Impact, found_by
+from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, InputError, OutOfRangeWarning
+from ..impact import Impact
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
-from ..kernels.contact_laws import CRITICAL_FRACTION, IMPULSE_RATIO
-from ..kernels.status import EPS, Status
-from ..models import body_numbers, missing_numbers
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
+from ..kernels.status import Status
+from ..models import missing_numbers
 from ..provenance import Reconstruction
 from ..reading import ArgumentReader
+from ..solving import error_of
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
-from ..warning import quietly
-from .common import NUMBERS, Cases, exactly, input_faults, parted, settle
+from ..warning import warn
+from .common import Cases, exactly, finish, input_faults, numbers_by_name, refusal_alone, run_forward, split_texts
 from .origins import End, Origin
-from .planar_refusals import plain_refusal, refusal, warn
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
@@ -120,9 +122,14 @@ def planar(
     (20.0, 16.0)
     """
     given = exactly({"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss}, 1, "planar")
-    ((kind, value),) = given.items()
+    ((kind, known),) = given.items()
     reader = ArgumentReader()
-    known = value if kind == "restitution" else _amount(reader, kind, value)
+    if kind != "restitution":
+        known = amount(reader, known, "m/s" if kind == "closing_speed" else "J", kind)
+        if kind == "closing_speed" and isinstance(known, float) and known == 0.0:
+            reader.refuse(
+                InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
+            )
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
         reader.refuse(
             InputError(
@@ -143,53 +150,35 @@ def planar(
         [*reader.problems, *missing_numbers(a_after, b_after, point)],
         (known,),
     )
-    e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
-    bodies = body_numbers(a_after, contact), body_numbers(b_after, contact)
-    known = e if kind == "restitution" else known
-    everything = {kind: known, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
-    everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    for label, body in zip("ab", bodies, strict=True):
-        everything |= {f"{label}_after.{name}": number for name, number in zip(NUMBERS, body, strict=True)}
-    everything |= {
-        f"{label}_after.heading": body.heading for label, body in (("a", a_after), ("b", b_after)) if body.heading is not None
-    }
-    if rule == CRITICAL_FRACTION and kind == "energy_loss" and np.any((bound > 0.0) & (bound < 1.0)):
+    numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")
+    shares = (inputs.rule_value > 0.0) & (inputs.rule_value < 1.0)
+    if inputs.rule == CRITICAL_FRACTION and kind == "energy_loss" and np.any(shares):
         raise InputError(
             "a critical_fraction between 0 and 1 cannot be used with energy_loss; give impulse_ratio=, or the restitution or "
             "closing_speed instead of the energy",
             code="bad_combination",
             argument="critical_fraction",
         )
-    cases = Cases.of(everything)
-    arrays = {name: np.asarray(number, dtype=np.float64) for name, number in everything.items()}
+    cases = Cases.of(numbers)
+    arrays = {name: np.asarray(number, dtype=np.float64) for name, number in numbers.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = End(arrays, kind, rule, law, pinned, EPS if cases.shape is None else float(np.finfo(cases.dtype).eps))
-        told = {**reader.texts, **(inputs.given or {})}
-        return _answer(cases, end, a_after, b_after, (e, n, rule, bound, law, contact, told), regime, on_failure)
+        end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps)
+        return _answer(cases, end, replace(inputs, given={**reader.texts, **(inputs.given or {})}), regime, on_failure)
 
 
-def _amount(reader: ArgumentReader, kind: str, value: Any) -> Any:
-    number = amount(reader, value, "m/s" if kind == "closing_speed" else "J", kind)
-    if kind == "closing_speed" and isinstance(number, float) and number == 0.0:
-        reader.refuse(
-            InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
-        )
-    return number
-
-
-def _answer(
-    cases: Cases, end: End, a: Vehicle, b: Vehicle, contact: tuple[Any, ...], regime: str | None, on_failure: Any
-) -> Impact:
-    e, n, rule, bound, law, point, told = contact
-    kept = []
-    for label, body in (("a", a), ("b", b)):
-        staying, ended = parted(body, _MOTION)
-        kept.append(staying)
-        told |= {f"{label}_after.{name}": text for name, text in ended.items()}
-    origins, fits = end.origin(regime)
-    count = sum(fit.astype(int) for fit in fits) if fits else np.zeros((), dtype=int)
-    blind = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
+def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failure: Any) -> Impact:
+    texts = dict(inputs.given or {})
+    staying = []
+    for label, body in (("a", inputs.a), ("b", inputs.b)):
+        # The motion after is not that of the vehicles before.
+        of_body, of_motion = split_texts(body, _MOTION)
+        staying.append(of_body)
+        texts |= {f"{label}_after.{name}": text for name, text in of_motion.items()}
+    inputs = replace(inputs, given=texts or None)
+    origins = end.origins(regime)
+    count = sum((one.fits.astype(int) for one in origins), np.zeros((), dtype=int))
+    no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
     parts = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
     status = cases.first_status(
@@ -199,78 +188,245 @@ def _answer(
             (end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO), Status.SINGULAR_CONTACT),
             (plastic, Status.INVERSE_E0),
             (~parts, Status.NOT_SEPARATING),
-            (blind, Status.STICK_INVERSE),
+            (no_trace, Status.STICK_INVERSE),
             (count == 1, Status.OK),
             (count > 1, Status.AMBIGUOUS_INVERSE),
             (True, Status.CONTRADICTORY),
         )
     )
     sure = np.equal(status, Status.OK)
-    which = np.argmax(np.stack(np.broadcast_arrays(*fits)), axis=0) if fits else 0
-    condition = np.choose(which, [one.condition for one in origins]) if origins else np.nan
-    low, high = end.range()
+    found = _first_that_fits(origins)
+    low, high = end.slip_range()
     jump = high - low
-    # Of a range that is open only the end that there is tells how far a slip of none is.
+    # Of a range that is open its one end says how far a slip of none is.
     reach = np.where(np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump)
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
-    condition = np.where(nearly, np.maximum(condition, jump / abs(end.slip)), condition)
+    condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
 
-    def provenance(found: Any, answers: Any, velocity: Any) -> Reconstruction:
-        known, condition = (end.kind, rule), cases.values(found)
-        velocity = cases.values(velocity[0]), cases.values(velocity[1])
-        return Reconstruction(method="planar", known=known, condition=condition, answers=answers, contact_velocity=velocity)
-
-    def asked(found: list[Any], restitution: Any, keep: Any) -> Inputs:
-        moved = [
-            body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(texts)
-            for body, motion, texts in zip((a, b), found, kept, strict=True)
-        ]
-        used = e if end.kind == "restitution" else cases.values(np.where(keep, restitution, np.nan))
-        return Inputs("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told or None)
-
-    def solution(one: Origin, answers: float) -> Impact:
-        found = provenance(one.condition, answers, one.contact_velocity)
-        impact = Impact._solved(
-            asked(list(one.motions), one.restitution, True)._changed(contact_velocity=found.contact_velocity)
+    def provenance(origin: Origin, condition: Any, answers: Any, where: Any = True) -> Reconstruction:
+        numbers = (condition, *origin.contact_velocity)
+        condition, closing, slip = (cases.values(np.where(where, number, np.nan)) for number in numbers)
+        known = (end.kind, end.rule)
+        return Reconstruction(
+            method="planar", known=known, condition=condition, answers=answers, contact_velocity=(closing, slip)
         )
-        return found_by(found, impact.inputs, impact._raw, Status.OK)
+
+    def inputs_of(origin: Origin, keep: Any) -> Inputs:
+        a, b = (
+            body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(given)
+            for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True)
+        )
+        e = inputs.restitution if end.kind == "restitution" else cases.values(np.where(keep, origin.restitution, np.nan))
+        return replace(inputs, a=a, b=b, restitution=e)
+
+    def solution(origin: Origin, answers: float) -> Impact:
+        return run_forward(partial(inputs_of, origin), Status.OK, provenance(origin, origin.condition, answers))
 
     def error(index: tuple[int, ...]) -> CollisionsError:
-        if isinstance(status, np.ndarray):
-            return _alone(int(status[index]), cases, end, a, b, index, regime)
+        if cases.shape is not None:
+            return refusal_alone(partial(_solve_case, cases, end, inputs, index, regime), int(status[index]))
         stuck = status == Status.STICK_INVERSE
-        # Those of a range are its ends, however it was asked for.
-        candidates, fitting = end.origin(None if stuck else regime)
-        fitting = [one for one, fit in zip(candidates, fitting, strict=True) if fit]
+        # Those of a range are its ends, whichever regime was given.
+        fitting = [one for one in end.origins(None if stuck else regime) if one.fits]
         answers = math.inf if stuck else len(fitting)
         solutions = tuple(solution(one, answers) for one in fitting) if stuck or len(fitting) > 1 else ()
-        return refusal(status, end, regime, fitting, solutions)
+        return _refusal(status, end, regime, [one.regime for one in fitting], solutions)
 
-    motions = [
-        [np.choose(which, [one.motions[side][part] for one in origins]) if origins else np.nan for part in range(3)]
-        for side in range(2)
-    ]
-    restitution = np.choose(which, [one.restitution for one in origins]) if origins else np.nan
-    velocity = [
-        np.where(sure, np.choose(which, [one.contact_velocity[part] for one in origins]), np.nan) if origins else np.nan
-        for part in range(2)
-    ]
-    warn(cases, end, sure & end.pressed, nearly)
-    origin = provenance(np.where(sure, condition, np.nan), cases.whole(count), velocity)
-    return settle(partial(asked, motions, restitution), status, origin, on_failure, error)
+    _warn(cases, end, sure & end.pressed, nearly)
+    return finish(partial(inputs_of, found), status, provenance(found, condition, cases.counts(count), sure), on_failure, error)
 
 
-def _alone(status: int, cases: Cases, end: End, a: Vehicle, b: Vehicle, index: tuple[int, ...], regime: Any) -> CollisionsError:
-    """The refusal of one case of a batch, by asking for it alone."""
+def _first_that_fits(origins: Sequence[Origin]) -> Origin:
+    """In every case the first of the origins that fits, NaN without origins."""
+    if not origins:
+        nan = math.nan
+        return Origin("", nan, nan, nan, nan, (nan, nan), False, ((nan, nan, nan), (nan, nan, nan)), False)
+    which = np.argmax(np.stack(np.broadcast_arrays(*(one.fits for one in origins))), axis=0)
+
+    def choose(values: Sequence[Any]) -> Any:
+        return tuple(map(choose, zip(*values, strict=True))) if isinstance(values[0], tuple) else np.choose(which, values)
+
+    _, *parts = zip(*origins, strict=True)
+    return Origin("", *map(choose, parts))
+
+
+def _solve_case(cases: Cases, end: End, inputs: Inputs, index: tuple[int, ...], regime: Any) -> Impact:
+    """One case of a batch by itself."""
 
     def take(array: Any) -> float:
         return cases.one(array, index)
 
     contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
-    contact |= {"law": end.law, "normal": (take(end.n[0]), take(end.n[1])), "point": (take(end.p[0]), take(end.p[1]))}
-    try:
-        with quietly():
-            planar(part_of(a, take), part_of(b, take), regime=regime, **contact)
-    except CollisionsError as problem:
-        return problem
-    return plain_refusal(status)
+    contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
+    return planar(part_of(inputs.a, take), part_of(inputs.b, take), regime=regime, **contact)
+
+
+def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
+    """Says where the last digits of what was measured decide."""
+
+    def count(where: Any) -> str:
+        return "" if cases.shape is None else f"in {np.count_nonzero(where)} of {int(np.prod(cases.shape))} cases "
+
+    if np.any(pressed):
+        most = float(np.max(np.where(pressed, end.approach, 0.0)))
+        text = (
+            f"{count(pressed)}the contact points still approach after the impact, by up to {most:.3g} m/s: taken as 0, a "
+            f"plastic impact, and the motions after changed by as much"
+        )
+        warn(OutOfRangeWarning(text, code="nearly_plastic", approach=most))
+    if np.any(nearly):
+        low, high = end.slip_range()
+        single = cases.shape is None
+        where = _interval(float(low), float(high), " m/s") if single else "in a wide range"
+        which = "is that end of the range" if single and np.isinf(high - low) else "follows the sign of that slip"
+        least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
+        text = (
+            f"{count(nearly)}the slip after the impact, {least:.3g} m/s, is so small that it may be none: then the contact "
+            f"stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
+            f"impulse_ratio= of either sign"
+        )
+        warn(IllConditionedWarning(text, code="nearly_sticking", slip_after=least))
+
+
+def _interval(low: float, high: float, unit: str = "") -> str:
+    """A range in words, empty for all numbers."""
+    if math.isinf(low) or math.isinf(high):
+        end = f"above {low:.4g}{unit}" if math.isfinite(low) else f"below {high:.4g}{unit}"
+        return "" if math.isinf(low) and math.isinf(high) else end
+    return f"between {low:.4g} and {high:.4g}{unit}"
+
+
+def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
+    """The error of a single case, with what fits and its regimes; what it advises does not end in the same refusal."""
+    separation, slip = float(end.separation), float(end.slip)
+    match status:
+        case Status.AMBIGUOUS_INVERSE:
+            each = " or ".join(
+                f"{how} with impulse ratio {impact.impulse_ratio:.4g} from a closing speed of {impact.closing_speed:.6g} m/s"
+                for how, impact in zip(regimes, solutions, strict=True)
+            )
+            deciding = " or ".join(f"regime={how!r}" for how in regimes if regimes.count(how) == 1)
+            return AmbiguousSolutionError(
+                f"{len(solutions)} states before end so: {each}; all are in .solutions; what decides is "
+                f"{deciding}{', or ' if deciding else ''}impulse_ratio= of one of them",
+                code="ambiguous_inverse",
+                solutions=solutions,
+            )
+        case Status.STICK_INVERSE:
+            text = _stuck(end, slip, len(solutions))
+        case Status.NOT_SEPARATING:
+            text = _not_parting(end, separation)
+        case Status.CONTRADICTORY:
+            text = _contradiction(end, separation, slip, regime)
+        case Status.INVERSE_E0:
+            text = f"restitution = 0: after a plastic impact nothing is left of the closing speed; give {_instead(end)} instead"
+        case Status.IMMOVABLE:
+            text = (
+                "nothing can yield along the normal: both bodies are fixed there; correct normal or point, or give a finite "
+                "mass"
+            )
+        case _:
+            text = (
+                "the contact can move in one direction only (a pinned body against a fixed one, or parallel arms), so what "
+                "would stop the slip is not defined; write friction=0, or give impulse_ratio="
+            )
+    return error_of(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)
+
+
+def _instead(end: End) -> str:
+    """What may be known in place of the restitution."""
+    shares = end.rule == CRITICAL_FRACTION and 0.0 < end.bound < 1.0
+    return "closing_speed=" if shares else "closing_speed= or energy_loss="
+
+
+def _jamming_ratio(end: End) -> float:
+    """The impulse ratio at which the bodies jam; infinite where none does."""
+    return float(-end.k_nn / end.k_nt) if end.k_nt else math.inf
+
+
+def _stuck(end: End, slip: float, ends: int) -> str:
+    jamming = _jamming_ratio(end)
+    held = ""
+    if ends == 1:
+        held = (
+            f".solutions holds the one end of the range, where friction is just used up; to the other side it is open, for "
+            f"impulse ratios towards {jamming:.4g}, where the bodies jam. "
+        )
+    elif ends:
+        held = f".solutions holds the {ends} ends of the range, where friction is just used up. "
+    low, high = (-float(end.bound), float(end.bound)) if end.rule == FRICTION else (-math.inf, math.inf)
+    if math.isfinite(jamming):
+        low, high = (max(low, jamming), high) if jamming < 0.0 else (low, min(high, jamming))
+    allowed = _interval(low, high)
+    # At rest nothing is left of the slip under the other law either.
+    other = f", or law={KUDLICH_SLIBAR!r} if that is the model" if end.law == BRACH and abs(end.separation) > end.noise else ""
+    return (
+        f"the contact ended without slip (slip after {slip:.3g} m/s, no more than rounding leaves), and under {end.law!r} any "
+        f"slip before may end so: the motion across the normal is lost. {held}What decides is impulse_ratio=, the tangential "
+        f"over the normal impulse{f' ({allowed})' if allowed else ''}{other}"
+    )
+
+
+def _not_parting(end: End, separation: float) -> str:
+    rounding = float(end.rounding)
+    if end.kind == "restitution" and abs(separation) <= rounding:
+        return (
+            f"whether the contact points part after the impact cannot be told from rounding: separation speed "
+            f"{separation:.3g} m/s, of which rounding may be {rounding:.3g} m/s. The restitution says nothing of the closing "
+            f"speed then; give {_instead(end)} instead"
+        )
+    why = f"; for a plastic impact give {_instead(end)}"
+    if end.kind != "restitution":
+        why = f", and more than a hundredth of the closing speed of {float(end.closing):.6g} m/s; check the motions after"
+    return (
+        f"the contact points do not part after the impact: separation speed {separation:.6g} m/s along the normal, which must "
+        f"point from A into B{why}"
+    )
+
+
+def _contradiction(end: End, separation: float, slip: float, regime: str | None) -> str:
+    """Why nothing fits, and what would."""
+    here = f"separation speed {separation:.6g} m/s, slip after {slip:.6g} m/s"
+    given, known, bound = f"{end.rule}={float(end.bound):g}", float(end.known), float(end.bound)
+    free = "give a finite friction=, or impulse_ratio="
+    origins = end.origins(None)
+    fitting = {one.regime for one in origins if one.fits}
+    if regime is not None and (fitting or regime not in {one.regime for one in origins if not np.isnan(one.normal)}):
+        found = f", the contact ended {' or '.join(sorted(fitting))}" if fitting else ""
+        return (
+            f"no motion before ends so in the regime {regime!r} under {end.law!r} with this {end.rule} and {end.kind}: {here}; "
+            f"leave out regime={found}"
+        )
+    if end.always_sticks():
+        return (
+            f"with this {end.rule} a contact under {end.law!r} ends without slip, but the slip after is {slip:.6g} m/s; if "
+            f"that is an error of measurement, the contact stuck and its motion across the normal is lost; {free}"
+        )
+    if end.kind == "closing_speed" and separation > known:
+        return (
+            f"the contact points part faster than they met: {here}, closing_speed={known:.6g} m/s; give at least the "
+            f"separation speed, or restitution= instead"
+        )
+    if end.always_sticks(KUDLICH_SLIBAR):
+        return f"with {given} the contact sticks, and under {end.law!r} none that sticks ends so: {here}; {free}"
+    ratios = {FRICTION: (bound, -bound), IMPULSE_RATIO: (bound,)}.get(end.rule, ())
+    if any(end.resistance(ratio) <= 0.0 for ratio in ratios):
+        limit = _jamming_ratio(end)
+        limit = abs(limit) if end.rule == FRICTION else limit
+        return (
+            f"{given} jams the bodies in a contact that ends so ({here}); give {end.rule}= "
+            f"{'below' if limit > 0.0 else 'above'} {limit:.4g}, or check the yaw rates and the normal"
+        )
+    if end.kind == "energy_loss":
+        # Friction acts against the slip; under "kudlich-slibar" against that of compression, and the one after may be either.
+        either = end.rule == IMPULSE_RATIO or end.law != BRACH
+        least = min((end.elastic_loss(ratio) for ratio in ratios if either or ratio * slip <= 0.0), default=0.0)
+        if least > known:
+            return (
+                f"energy_loss={known:.6g} J is less than an impact with {given} loses that ends so ({here}); give at least "
+                f"{least:.7g} J, or restitution= or closing_speed= instead"
+            )
+    return (
+        f"no motion before ends so under {end.law!r} with {given} and {end.kind}={known:g}: {here}; check the normal and the "
+        f"motions after{', or give friction= or impulse_ratio=' if end.rule == CRITICAL_FRACTION else ''}"
+    )

@@ -21,7 +21,7 @@ from ..solving import warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle
 from ..warning import warn
-from .common import ASK_ALONE, NUMBERS, Cases, answered, exactly, input_faults, parted
+from .common import ASK_ALONE, NUMBERS, Cases, exactly, input_faults, run_forward, split_texts
 from .crossings import RestitutionOf
 from .speeds_algebra import Root, Scene
 from .speeds_found import in_order, joint
@@ -150,7 +150,6 @@ def speeds(
             )
         else:
             courses[label] = Angle(0.0, False)
-    function = RestitutionOf(restitution) if callable(restitution) else None
     for label, body in (("a", a), ("b", b)):
         if isinstance(body, Vehicle) and body.pivot is not None:
             reader.refuse(
@@ -164,7 +163,7 @@ def speeds(
         "eccentric",
         a,
         b,
-        0.0 if function is not None else restitution,
+        0.0 if callable(restitution) else restitution,
         normal,
         point,
         (friction, impulse_ratio, critical_fraction),
@@ -187,6 +186,7 @@ def speeds(
     for label, angle in courses.items():
         everything |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
     cases = Cases.of(everything)
+    function = RestitutionOf(restitution, cases) if callable(restitution) else None
     with np.errstate(all="ignore"):
         _refuse_pairs(given, known, a, b)
         scene = Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
@@ -236,10 +236,10 @@ def _answers(
         if isinstance(status, int) and status != Status.OK:
             raise refusal(scene, status, function)
         origin = Reconstruction(
-            method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.whole(count)
+            method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.counts(count)
         )
         asked = partial(_asked, cases, scene, root, (a, b), contact, function is None)
-        impact = answered(asked, status, origin, None if cases.shape is None else "nan")
+        impact = run_forward(asked, status, origin, None if cases.shape is None else "nan")
         for speed in (root.speed_a, root.speed_b):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
@@ -268,6 +268,6 @@ def _asked(
         speed = np.where(keep, speed * scene.speed_unit, np.nan)
         cx, cy = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
         changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
-        moved.append(changed._told(parted(body, ("vx", "vy", "speed", "course"))[0]))
+        moved.append(changed._told(split_texts(body, ("vx", "vy", "speed", "course"))[0]))
     used = e if as_given else cases.values(root.restitution)
     return Inputs("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)

@@ -12,15 +12,9 @@ from .crossings import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, Root, Scene
 from .speeds_open import SAME, untold
 
-_GRID = np.linspace(0.0, 1.0, 129)
-
 
 def joint(scene: Scene, cases: Cases, function: RestitutionOf) -> list[Root]:
     """Candidates where the restitution depends on the answer: solved on a grid of it, then where both agree."""
-    if cases.shape is not None:
-        raise InputError(
-            "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
-        )
     if scene.shares_critical():
         raise InputError(
             "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
@@ -38,11 +32,11 @@ def joint(scene: Scene, cases: Cases, function: RestitutionOf) -> list[Root]:
     def mismatch(e: Any) -> list[Any]:
         return [of_closing(scene.fits(root)[1], e) - e for root in scene.roots(e, polish=0)]
 
-    found = [scene.roots(np.full((), e), slope=slope)[row] for row, e in crossings(mismatch, _GRID)]
+    found = [scene.roots(np.full((), e), slope=slope)[row] for row, e in crossings(mismatch)]
     scene.open = np.zeros((), dtype=bool)
     if not scene.kinds[0].startswith("speed"):
         regimes = scene.regimes()
-        for row, e in crossings(lambda e: [scene.blind(regime, e)[0] + 0.0 * e for regime in regimes], _GRID):
+        for row, e in crossings(lambda e: [scene.blind(regime, e)[0] + 0.0 * e for regime in regimes]):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
             closing = scene.blind(regimes[row], np.full((), e))[1]
             scene.open = scene.open | (abs(of_closing(closing, np.full(1, e))[0] - e) <= REDUNDANT)
