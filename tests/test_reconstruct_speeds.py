@@ -3,7 +3,6 @@
 import itertools
 import math
 import pickle
-import re
 import warnings
 from functools import cache
 
@@ -438,12 +437,12 @@ REFUSED = [
     ("bad_shape", col.ShapeError, {"course_a": (0.0, 1.0)}, "course_a is a tuple, and a course is an angle; many angles go in a numpy array"),
     ("bad_shape", col.ShapeError, {"course_b": [0.0, 1.0]}, "course_b is a list, and a course is an angle; many angles go in a numpy array"),
     ("infinite_mass", col.NoSolutionError, {"b": col.Vehicle.barrier(), "course_b": None, "speed_a": None, "speed_b": 0.0}, "delta_v_b is that of an infinite mass, whose motion tells nothing of the impact; give delta_v_a"),
-    ("contradictory", col.NoSolutionError, {"course_a": math.pi, "course_b": math.pi / 2}, "whatever the other speed, the bodies move apart along the normal, which must point from A into B"),
-    ("contradictory", col.NoSolutionError, {"friction": None, "impulse_ratio": 50.0}, "whatever the other speed, the impulse ratio is at or beyond the value at which the bodies jam"),
-    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "ees_a": 5.0, "ees_b": 5.0, "restitution": 1.0, "friction": 0.0}, "nothing leads to energy_loss = 1000 J"),
-    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 0.0}, "both are 0, which no impact leaves behind"),
-    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 1e3}, "make delta_v_b more than 0 and at most"),
-    ("contradictory", col.NoSolutionError, {"speed_a": 200.0, "delta_v_b": 0.5, "course_b": math.pi / 2}, "no speeds along these courses fit speed_a and delta_v_b"),
+    ("contradictory", col.NoSolutionError, {"course_a": math.pi, "course_b": math.pi / 2}, "check the courses, and the normal, which must point from A into B"),
+    ("contradictory", col.NoSolutionError, {"friction": None, "impulse_ratio": 50.0}, "with this restitution, impulse_ratio and geometry"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "ees_a": 5.0, "ees_b": 5.0, "restitution": 1.0, "friction": 0.0}, "fit energy_loss = 1000 J and ees_a = 5 m/s and ees_b = 5 m/s with"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 0.0}, "fit delta_v_b = 0 m/s and energy_loss = 0 J with"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 1e3}, "or give another known in place of one of these"),
+    ("contradictory", col.NoSolutionError, {"speed_a": 200.0, "delta_v_b": 0.5, "course_b": math.pi / 2}, "no speeds along these courses fit speed_a = 200 m/s and delta_v_b = 0.5 m/s with this restitution, friction"),
 ]  # fmt: skip
 
 
@@ -460,80 +459,10 @@ def test_refusals(code, kind, changes, words):
     assert type(pickle.loads(pickle.dumps(caught.value))) is type(caught.value)
 
 
-EDGES = re.compile(r"(between|at least|at most) (\d[\d.e+-]*)(?: and (\d[\d.e+-]*))? (?:J|m/s), and (?:\w+ = )?(\d[\d.e+-]*)")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("pair", [pair for pair in PAIRS if pair[1] != "ees" or not pair[0].startswith("speed")], ids="-".join)
-def test_a_contradiction_says_what_would_fit(pair):
-    """The ends of the range that is printed to 6 digits: 2e-5 inside there is an answer, 1e-3 outside none.
-
-    A speed and both EES never contradict each other in these scenes.
-    """
-    names = ("ees_a", "ees_b") if pair[1] == "ees" else (pair[1],)
-    checked = 0
-    for impact, courses, contact in forward_scenes(21, 8):
-        if impact.energy_loss <= 0.0:
-            continue
-        for factor in (1e-3, 1e3):
-            known = knowledge(impact, pair)
-            known |= {name: known[name] * factor for name in names}
-            found, refusal = attempt(asked, impact, courses, contact, **known)
-            if refusal is None or refusal.code == "undetermined":
-                continue
-            assert refusal.code == "contradictory"
-            said = EDGES.search(str(refusal))
-            if said is None:
-                continue
-            kind, first, last, given = said.groups()
-            ends = [(float(first), -1.0 if kind == "at most" else 1.0), *([(float(last), -1.0)] if last else [])]
-            for end, inwards in ends:
-                for by, answered in ((2e-5, True), (-1e-3, False)):
-                    size = end * (1.0 + inwards * by) / float(given)
-                    moved = {name: known[name] * (math.sqrt(size) if pair[1] == "ees" else size) for name in names}
-                    found, _ = attempt(asked, impact, courses, contact, **{**known, **moved})
-                    assert (found is not None) is answered, (str(refusal), end, by)
-                    checked += 1
-    assert checked >= 2
-
-
-def test_what_a_contradiction_says():
-    """Both knowns with their units, what the first allows for the second, and in the words of each kind."""
-    given = {**COURSES, "restitution": 0.1, **CONTACT}
-    for known, words in (
-        ({"energy_loss": 1e3}, r"with delta_v_a = 6 m/s .* dissipate at least 50085\.8 J, and energy_loss = 1000 J was given"),
-        (
-            {"ees_a": 1.0, "ees_b": 1.0},
-            r"absorb, at maximum crush, between 51547 and 53950\.9 J, and 1400 J of both EES was given",
-        ),
-    ):
-        with pytest.raises(col.NoSolutionError, match=words) as caught:
-            speeds(A, B, **given, delta_v_a=6.0, **known)
-        assert caught.value.code == "contradictory"
-    straight = {**given, "course_b": math.pi / 2}
-    with pytest.raises(
-        col.NoSolutionError, match=r"with speed_a = 200 m/s .* make delta_v_b between 104\.336 and 109\.201 m/s"
-    ) as caught:
-        speeds(A, B, **straight, speed_a=200.0, delta_v_b=0.5)
-
-
-def test_a_contradiction_with_a_function():
-    """The range is that of the restitutions which belong to the closing speeds, to three digits."""
-    given = {**COURSES, **CONTACT, "delta_v_a": 6.0}
-    with pytest.raises(col.NoSolutionError, match="dissipate at least") as caught:
-        speeds(A, B, **given, energy_loss=1e3, restitution=falling)
-    least = float(EDGES.search(str(caught.value)).group(2))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", col.OutOfRangeWarning)
-        assert speeds(A, B, **given, energy_loss=1.01 * least, restitution=falling)
-    with pytest.raises(col.NoSolutionError):
-        speeds(A, B, **given, energy_loss=0.99 * least, restitution=falling)
-
-
 def test_a_function_is_refused_as_its_number():
-    """A constant function is the number, in the reason too: nothing fits, however blind another restitution would be."""
+    """A constant function is the number: nothing fits, though with another restitution any slip would."""
     for restitution in (0.3, lambda g: 0.3):
-        with pytest.raises(col.NoSolutionError, match="dissipate at least") as caught:
+        with pytest.raises(col.NoSolutionError, match=r"fit delta_v_a = 2 m/s and energy_loss = 3000 J") as caught:
             speeds(A, B, **COURSES, **CONTACT, law="kudlich-slibar", restitution=restitution, delta_v_a=2.0, energy_loss=3e3)
         assert caught.value.code == "contradictory"
 
@@ -874,15 +803,3 @@ def test_a_right_angle_in_radians(turned, known, law):
     assert max(one.b.before.speed for one in impacts) < 100.0
     # Through a quotient by the change of the observation, which is of the order of 1 here.
     assert min(abs(one.b.before.speed - 3.0) for one in impacts) < 1e-9
-
-
-def test_what_is_off_by_less_than_its_digits_is_told():
-    """Without friction the delta-V decides the loss; where six digits of both are the same, the message gives the difference."""
-    a, b = A.replace(y=0.0), B.replace(y=0.0)
-    contact = {"restitution": 0.1, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.0}
-    hit = col.eccentric(a.replace(vx=10.0), b.replace(vy=3.0), **contact)
-    loss = hit.energy_loss * (1.0 + 1e-6)
-    with pytest.raises(col.NoSolutionError) as caught:
-        speeds(a, b, course_a=0.0, course_b="80 deg", delta_v_a=hit.a.delta_v, energy_loss=loss, **contact)
-    # Reduced mass 1500 * 1300 / 2800 kg at 10 m/s, (1 - 0.1**2) / 2 of it: 34473.2 J, of which a millionth is 0.034 J.
-    assert re.search(r"dissipate 34473.2 J, and energy_loss = 34473.2 J was given, 0\.034 J off", str(caught.value))

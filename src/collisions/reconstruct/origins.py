@@ -118,9 +118,10 @@ class End:
     def _mobilities(self) -> None:
         """Whether K has an inverse, and by how much the rounding of a contact that sticks is magnified in the motion after."""
         nx, ny = self.n
-        self.levers = [
-            response(*body[:4], *body[5:], *self.p, pin)[:4] for body, pin in zip(self.bodies, self.pinned, strict=True)
-        ]
+        self.levers = []
+        for (mass, inertia, vx, vy, _, cx, cy, ox, oy), pinned in zip(self.bodies, self.pinned, strict=True):
+            a, b, rx, ry, _, _ = response(mass, inertia, vx, vy, cx, cy, ox, oy, *self.p, pinned)
+            self.levers.append((a, b, rx, ry))
         # The same with the lever along n and t.
         self.responses = [(a, b, nx * rx + ny * ry, nx * ry - ny * rx) for a, b, rx, ry in self.levers]
         (a_a, b_a, rn_a, rt_a), (a_b, b_b, rn_b, rt_b) = self.responses

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -10,22 +11,25 @@ import numpy as np
 
 from ..amounts import amount
 from ..directions import Angle, course
-from ..errors import InputError, MissingInputError, OutOfRangeWarning
+from ..errors import InputError, MissingInputError, NoSolutionError, OutOfRangeWarning
 from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
-from ..kernels.status import Status
-from ..models import body_numbers, missing_numbers
+from ..kernels.contact_laws import BRACH
+from ..kernels.status import EPS, Status
+from ..models import missing_numbers
 from ..provenance import Reconstruction
+from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle
 from ..warning import warn
-from .common import ASK_ALONE, NUMBERS, Cases, exactly, input_faults, run_forward, split_texts
-from .crossings import RestitutionOf
-from .speeds_algebra import Root, Scene
-from .speeds_found import in_order, joint
-from .speeds_refusals import refusal
+from .common import ASK_ALONE, Cases, check_both_ees, exactly, input_faults, numbers_by_name, run_forward, split_texts
+from .crossings import RestitutionOf, crossings
+from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
+
+# A restitution above this loses next to nothing along the normal.
+_ELASTIC = 1.0 - 1e-6
 
 
 def speeds(
@@ -92,8 +96,7 @@ def speeds(
     InputError
         An argument that cannot be used, or not exactly two things known.
     NoSolutionError
-        Nothing fits, and the message says what the first known allows for the second; or what is known leaves the speeds
-        open, or is of an infinite mass.
+        Nothing fits; or what is known leaves the speeds open, or is of an infinite mass.
 
     Warns
     -----
@@ -115,10 +118,7 @@ def speeds(
     >>> round(found.a.before.vx, 2), round(found.a.delta_v, 12)
     (11.96, 6.0)
     """
-    if (ees_a is None) != (ees_b is None):
-        raise InputError(
-            "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
-        )
+    check_both_ees(ees_a, ees_b)
     given = exactly(
         {
             "speed_a": speed_a,
@@ -136,7 +136,7 @@ def speeds(
     if "ees_a" in known:
         known["ees_b"] = amount(reader, ees_b, "m/s", "ees_b")
     courses = {}
-    for label, angle in (("a", course_a), ("b", course_b)):
+    for label, angle, body in (("a", course_a, a), ("b", course_b, b)):
         if angle is not None:
             courses[label] = course(reader, angle, f"course_{label}")
         elif np.any(np.not_equal(known.get(f"speed_{label}", np.nan), 0.0)):
@@ -150,7 +150,6 @@ def speeds(
             )
         else:
             courses[label] = Angle(0.0, False)
-    for label, body in (("a", a), ("b", b)):
         if isinstance(body, Vehicle) and body.pivot is not None:
             reader.refuse(
                 InputError(
@@ -171,36 +170,28 @@ def speeds(
         [*reader.problems, *missing_numbers(a, b, point)],
         (*known.values(), *(angle.value for angle in courses.values())),
     )
-    e, n, rule, bound, contact = inputs.restitution, inputs.normal, inputs.rule, inputs.rule_value, inputs.point
-    everything: dict[str, Any] = {**known, "restitution": e, rule: bound, "normal[0]": n[0], "normal[1]": n[1]}
-    everything |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    for label, body in (("a", a), ("b", b)):
-        numbers = body_numbers(body, contact)
-        everything |= {
-            f"{label}.{name}": value for name, value in zip(NUMBERS, numbers, strict=True) if name not in ("vx", "vy")
-        }
-        if body.heading is not None:
-            everything[f"{label}.heading"] = body.heading
+    numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
     # A course is as precise as everything else, the other one too.
-    beside = (*everything.values(), *(angle.value for angle in courses.values()))
+    beside = (*numbers.values(), *(angle.value for angle in courses.values()))
     for label, angle in courses.items():
-        everything |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
-    cases = Cases.of(everything)
-    function = RestitutionOf(restitution, cases) if callable(restitution) else None
+        numbers |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
+    cases = Cases.of(numbers)
     with np.errstate(all="ignore"):
-        _refuse_pairs(given, known, a, b)
-        scene = Scene({name: np.asarray(v, dtype=np.float64) for name, v in everything.items()}, rule, law, tuple(given))
-        told = {**reader.texts, **(inputs.given or {})} or None
-        roots = scene.roots() if function is None else joint(scene, cases, function)
-        return _answers(cases, scene, in_order(cases, scene, roots), a, b, (n, rule, bound, law, contact, e, told), function)
+        _refuse_pairs(known, a, b)
+        function = RestitutionOf(restitution, cases) if callable(restitution) else None
+        arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
+        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, tuple(given))
+        found = _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
+        inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
+        return _answers(cases, scene, found, inputs, known, function)
 
 
-def _refuse_pairs(given: dict[str, Any], known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
-    if given.keys() == {"speed_a", "speed_b"}:
+def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
+    if known.keys() == {"speed_a", "speed_b"}:
         raise InputError(
             "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
         )
-    if given.keys() == {"delta_v_a", "delta_v_b"}:
+    if known.keys() == {"delta_v_a", "delta_v_b"}:
         on_a, on_b = (np.multiply(body.mass, known[f"delta_v_{label}"]) for label, body in (("a", a), ("b", b)))
         # fmax passes over the NaN of infinite masses.
         apart = float(np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0))
@@ -213,19 +204,89 @@ def _refuse_pairs(given: dict[str, Any], known: dict[str, Any], a: Vehicle, b: V
         )
 
 
+def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
+    """Candidates where the restitution depends on the answer: solved on a grid of it, then where both agree."""
+    if scene.shares_critical():
+        raise InputError(
+            "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
+            "or a number for the restitution",
+            code="bad_combination",
+            argument="critical_fraction",
+        )
+
+    def of_closing(closing: Any, e: Any) -> Any:
+        return function(scene.speed_unit * closing + 0.0 * e)
+
+    def slope(closing: Any) -> Any:
+        return scene.speed_unit * function.slope(scene.speed_unit * closing)
+
+    def mismatch(e: Any) -> list[Any]:
+        return [of_closing(scene.fits(root)[1], e) - e for root in scene.roots(e, polish=0)]
+
+    found = [scene.roots(np.full((), e), slope=slope)[row] for row, e in crossings(mismatch)]
+    scene.undetermined = np.zeros((), dtype=bool)
+    if not scene.kinds[0].startswith("speed"):
+        regimes = scene.regimes()
+        for row, e in crossings(lambda e: [scene.any_slip_at(regime, e)[0] + 0.0 * e for regime in regimes]):
+            # Any slip goes with this restitution; it is an answer if the function gives it there.
+            closing = scene.any_slip_at(regimes[row], np.full((), e))[1]
+            scene.undetermined |= abs(of_closing(closing, np.full(1, e))[0] - e) <= REDUNDANT
+    return found
+
+
+def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
+    """The roots that fit, each once, by rising closing speed, and where in the batch they are."""
+    shape = cases.shape or ()
+    if not roots:
+        return []
+    parts = [np.stack([np.broadcast_to(root[i], shape) for root in roots]) for i in range(4)]
+    judged = [scene.fits(root) for root in roots]
+    fits = np.stack([np.broadcast_to(fit, shape) for fit, _ in judged])
+    closing = np.stack([np.broadcast_to(speed, shape) for _, speed in judged])
+    for root, fit in zip(roots, fits, strict=True):
+        if np.any(fit):
+            scene.undetermined = scene.undetermined | (fit & scene.one_of_many(root))
+    fits &= ~scene.undetermined
+    order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
+    *values, fits, closing = (np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing))
+    for i in range(1, len(roots)):
+        apart = sum(abs(values[k][i] - values[k][i - 1]) for k in range(2))
+        fits[i] &= ~(fits[i - 1] & (apart <= ROOT_TOL * closing[i]))
+    rank = np.cumsum(fits, axis=0)
+    most = int(np.max(rank[-1])) if rank.size else 0
+    found = []
+    for k in range(1, most + 1):
+        chosen = fits & (rank == k)
+        which = np.argmax(chosen, axis=0)[np.newaxis]
+        root = Root(*(np.take_along_axis(value, which, axis=0)[0] for value in values))
+        found.append((root, np.any(chosen, axis=0)))
+    return found
+
+
 def _answers(
     cases: Cases,
     scene: Scene,
     found: list[tuple[Root, Any]],
-    a: Vehicle,
-    b: Vehicle,
-    contact: tuple[Any, ...],
+    inputs: Inputs,
+    known: dict[str, Any],
     function: RestitutionOf | None,
 ) -> tuple[Impact, ...]:
+    """The impact of every root, or the refusal of a single case that has none."""
     faults = input_faults(scene.numbers)
-    told_nothing = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
-    faults += [(of_wall, Status.INFINITE_MASS) for of_wall in told_nothing]
-    faults.append((scene.open, Status.UNDETERMINED))
+    of_walls = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
+    faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
+    faults.append((scene.undetermined, Status.UNDETERMINED))
+    staying = [split_texts(body, ("vx", "vy", "speed", "course"))[0] for body in (inputs.a, inputs.b)]
+
+    def inputs_of(root: Root, keep: Any) -> Inputs:
+        bodies = []
+        for label, body, speed, given in zip("ab", (inputs.a, inputs.b), root[:2], staying, strict=True):
+            speed = np.where(keep, speed * scene.speed_unit, np.nan)
+            vx, vy = (cases.values(speed * scene.numbers[f"course_{label}[{i}]"] + 0.0) for i in range(2))
+            bodies.append(body._moved(vx, vy, body.yaw_rate)._told(given))
+        e = inputs.restitution if function is None else cases.values(root.restitution)
+        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
+
     none = np.full((), np.nan)
     nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
@@ -234,18 +295,17 @@ def _answers(
     for root, there in found or [nothing]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
-            raise refusal(scene, status, function)
+            raise _refusal(scene, status, known, function)
         origin = Reconstruction(
             method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.counts(count)
         )
-        asked = partial(_asked, cases, scene, root, (a, b), contact, function is None)
-        impact = run_forward(asked, status, origin, None if cases.shape is None else "nan")
-        for speed in (root.speed_a, root.speed_b):
+        impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
+        for speed in root[:2]:
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
         impacts.append(impact)
-    if cases.shape is not None and np.any(impacts[0]._raw.status > Status.ENERGY_GAIN):
-        warn_of_refusals(impacts[0]._raw.status, ASK_ALONE)
+    if cases.shape is not None and np.any(impacts[0].refused):
+        warn_of_refusals(impacts[0].status, ASK_ALONE)
     if backward < 0.0:
         warn(
             OutOfRangeWarning(
@@ -258,16 +318,42 @@ def _answers(
     return tuple(impacts)
 
 
-def _asked(
-    cases: Cases, scene: Scene, root: Root, bodies: tuple[Vehicle, Vehicle], contact: tuple[Any, ...], as_given: bool, keep: Any
-) -> Inputs:
-    """The question of the speeds of a root where they are kept, with the restitution as it was given or found."""
-    n, rule, bound, law, point, e, told = contact
-    moved = []
-    for label, body, speed in zip("ab", bodies, root[:2], strict=True):
-        speed = np.where(keep, speed * scene.speed_unit, np.nan)
-        cx, cy = (scene.numbers[f"course_{label}[{i}]"] for i in range(2))
-        changed = body._moved(cases.values(speed * cx + 0.0), cases.values(speed * cy + 0.0), body.yaw_rate)
-        moved.append(changed._told(split_texts(body, ("vx", "vy", "speed", "course"))[0]))
-    used = e if as_given else cases.values(root.restitution)
-    return Inputs("eccentric", moved[0], moved[1], used, n, rule, bound, law, point, told)
+def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> NoSolutionError:
+    """The error of a single case that has no answer."""
+    names = " and ".join(known)
+    values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
+    if status == Status.INFINITE_MASS:
+        kind = next(kind for kind in known if kind.startswith("delta_v"))
+        return NoSolutionError(
+            f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give "
+            f"delta_v_{'b' if kind[-1] == 'a' else 'a'}",
+            code="infinite_mass",
+        )
+    speed_is_known = scene.kinds[0].startswith("speed")
+    (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
+    if not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
+        return NoSolutionError(
+            f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds",
+            code="parallel_headings",
+        )
+    if status == Status.UNDETERMINED:
+        if "energy_loss" in known and scene.e > _ELASTIC:
+            text = (
+                f"many speeds along these courses lead to {values['energy_loss']} as far as rounding lets it tell, so it does "
+                f"not say which of them; give another of the knowns"
+            )
+        elif speed_is_known:
+            text = f"{names} leave the other speed open, for many lead to the same; give another of the knowns"
+        else:
+            text = (
+                f"where the contact slides, {names} tell of the closing speed alone and leave the slip open; give one of the "
+                f"speeds"
+            )
+        return NoSolutionError(text, code="undetermined")
+    if function is not None:
+        function.complain()
+    return NoSolutionError(
+        f"no speeds along these courses fit {' and '.join(values.values())} with this restitution, {scene.rule} and geometry; "
+        f"check the courses, and the normal, which must point from A into B, or give another known in place of one of these",
+        code="contradictory",
+    )

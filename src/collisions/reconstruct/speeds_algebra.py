@@ -17,13 +17,23 @@ from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, L
 from ..kernels.reverse import PLACES, absorbed_energy, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, forward
-from .speeds_open import ROUNDING, SAME, STICK, any_speed, blur, every_slip, reaches
 
+# Part of itself by which one observation may be off another that is no other information.
 REDUNDANT = 1e-9
+# Part of the closing speed by which two roots that are one may be apart.
+ROOT_TOL = 1e-6
+# Worst case of the forward kernel's rounding, in eps of the parts that it adds up.
+_KERNEL_ROUNDING = 32.0 * EPS
+# Regimes whose impulse ratio is not known beforehand.
+_STICK = "stick"
 _SHARE = "share"
-_POLISH = 3
+_NEWTON_STEPS = 3
 # Part of the speeds, and of a restitution of 1, that a derivative is taken over: exact for quadratics, to 1e-8 for quotients.
 _STEP = 1e-4
+# Part of the speeds by which a root is moved, to see whether the knowns tell it from its neighbours.
+_BESIDE = 0.02
+# Where a range of speeds is looked at: five places, for what is observed along it is a quotient of quartics at most.
+_PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
 _SQUARED = ("delta_v", "ees")
 
 
@@ -58,10 +68,10 @@ class Scene:
             * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
             for label in "ab"
         )
-        # Set where a regime lets any slip, or any speed, fit.
-        self.open: Any = np.zeros((), dtype=bool)
+        # Set where any slip, or any speed, fits in a regime.
+        self.undetermined: Any = np.zeros((), dtype=bool)
         zero, one = np.zeros(()), np.ones(())
-        seen = [self.observe(STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
+        seen = [self.observe(_STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
         self.rest = {name: seen[0][name] for name in ("closing", "slip")}
         self.per_speed = {name: tuple(part[name] - self.rest[name] for part in seen[1:]) for name in self.rest}
 
@@ -91,9 +101,9 @@ class Scene:
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
-            return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *([_SHARE] if self.shares_critical() else [])]
+            return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK, *([_SHARE] if self.shares_critical() else [])]
         finite = np.where(np.isinf(self.bound), np.nan, self.bound)
-        return [finite, np.where(self.bound > 0.0, -finite, np.nan), STICK]
+        return [finite, np.where(self.bound > 0.0, -finite, np.nan), _STICK]
 
     def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> Any:
         """The forward kernel at these speeds."""
@@ -107,48 +117,42 @@ class Scene:
 
     def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
         """What would be observed at these speeds if the contact were in this regime; times its weight, a polynomial of them."""
-        weight: Any = 1.0
-        if isinstance(regime, str):
-            raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
-            closing, slip = raw.closing_speed, raw.slip_before
-            normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
+        if not isinstance(regime, str):
+            return {"weight": 1.0, **self._seen(self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime), speed_a, speed_b, e)}
+        raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
+        normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
         if regime is _SHARE:
             shared = self.bound * tangential
             weight = (normal + shared * (raw.coupling * raw.effective_mass)) ** 2
-            regime = shared / normal
-        if isinstance(regime, str):
-            kept = LAWS[self.law].sticking_slip(e)
-            slips = (slip, kept * slip, (1.0 + kept) * slip, 0.0)
-            loss = energy_losses(e, closing, *slips, normal, tangential, 0.0, IMPULSE_RATIO, "", EPS)[2]
-        else:
-            raw = self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime)
-            normal, tangential, loss = (getattr(raw, name) for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
-        return {"weight": weight, **self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)}
+            return {**self.observe(shared / normal, speed_a, speed_b, e), "weight": weight}
+        left = LAWS[self.law].sticking_slip(e)
+        slips = (raw.slip_before, left * raw.slip_before, (1.0 + left) * raw.slip_before, 0.0)
+        loss = energy_losses(e, raw.closing_speed, *slips, normal, tangential, 0.0, IMPULSE_RATIO, "", EPS)[2]
+        raw = raw._replace(normal_impulse=normal, tangential_impulse=tangential, energy_loss=loss)
+        return {"weight": 1.0, **self._seen(raw, speed_a, speed_b, e)}
 
     def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
-        """The status under the law as asked, and what would be observed."""
+        """The status under the law that was given, and what would be observed."""
         raw = self.run(speed_a, speed_b, e, self.rule, self.bound)
-        normal, tangential, loss = (getattr(raw, name) for name in ("normal_impulse", "tangential_impulse", "energy_loss"))
-        return raw[0], self._seen(raw, normal, tangential, loss, speed_a, speed_b, e)
+        return raw.status, self._seen(raw, speed_a, speed_b, e)
 
-    def _seen(self, raw: Any, normal: Any, tangential: Any, loss: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
+    def _seen(self, raw: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
+        closing, normal, tangential = raw.closing_speed, raw.normal_impulse, raw.tangential_impulse
         squared = normal * normal + tangential * tangential
-        closing = raw.closing_speed
-        slip, slip_after = raw.slip_before, raw.slip_after
         whole = abs(speed_a) + abs(speed_b) + self.spinning
         return {
             "closing": closing,
-            "slip": slip,
+            "slip": raw.slip_before,
             "whole": whole,
             "normal": normal,
             "impulse": np.sqrt(squared),
             # What the loss is summed up from, with the contact velocities as large as what they are the difference of.
-            "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(slip_after)),
+            "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
             "speed_a": speed_a,
             "speed_b": speed_b,
             "delta_v_a": squared,
             "delta_v_b": squared,
-            "energy_loss": loss,
+            "energy_loss": raw.energy_loss,
             "ees_a": 0.5 * closing * normal / (1.0 + e),
         }
 
@@ -160,74 +164,92 @@ class Scene:
         g, s = closing - self.rest["closing"], slip - self.rest["slip"]
         return (g * sb - s * gb) / crossed, (s * ga - g * sa) / crossed
 
-    def roots(self, e: Any = None, polish: int = _POLISH, slope: Callable[[Any], Any] | None = None) -> list[Root]:
+    def roots(self, e: Any = None, polish: int = _NEWTON_STEPS, slope: Callable[[Any], Any] | None = None) -> list[Root]:
         """All candidates of every regime, whether the law leads from them to what was observed or not.
 
         ``slope`` is the change of restitution with the closing speed, where there is one.
         """
         e = self.e if e is None else e
-        self.open = np.zeros((), dtype=bool)
+        self.undetermined = np.zeros((), dtype=bool)
         found: list[Root] = []
         for regime in self.regimes():
             pairs = self._on_a_line(regime, e) if self.kinds[0].startswith("speed") else self._crossing(regime, e)
             found += [self._polished(regime, e, *pair, polish, slope) for pair in pairs]
         return found
 
+    def _with_known_speed(self, other: Any) -> tuple[Any, Any]:
+        """Both speeds, where one is known."""
+        known = self.targets[self.kinds[0]] + 0.0 * other
+        return (known, other) if self.kinds[0] == "speed_a" else (other, known)
+
     def _on_a_line(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
         """With one speed known: where the curve along the other meets what was observed."""
         fixed, kind = self.kinds
-        value, target = self.targets[fixed], self.targets[kind]
+        target = self.targets[kind]
 
         def seen(x: Any) -> dict[str, Any]:
-            return self.observe(regime, *((value, x) if fixed == "speed_a" else (x, value)), e)
+            return self.observe(regime, *self._with_known_speed(x), e)
 
-        def at(x: Any) -> Any:
+        def excess(x: Any) -> Any:
             here = seen(x)
             return (here[kind] - target) * here["weight"]
 
         # The speeds that are there, and the one that one unit of speed would have to grow to.
         rest, one = seen(np.zeros(())), seen(np.ones(()))
         needed = np.sqrt(abs(target / (one[kind] - rest[kind])))
-        step = abs(value) + abs(rest["closing"]) + abs(rest["slip"]) + np.where(np.isfinite(needed), needed, 0.0)
-        xs = _roots(regime, at, np.where(step > 0.0, step, 1.0))
-        flat = [abs(here[kind] - target) <= blur(kind, here) for here in (rest, one)]
+        step = abs(self.targets[fixed]) + abs(rest["closing"]) + abs(rest["slip"])
+        step = step + np.where(np.isfinite(needed), needed, 0.0)
+        xs = _roots(regime, excess, np.where(step > 0.0, step, 1.0))
+        flat = [abs(here[kind] - target) <= _observation_rounding(kind, here) for here in (rest, one)]
         if np.any(flat[0] & flat[1]):
-            self.open = self.open | any_speed(self, regime, e)
-        return [(value + 0.0 * x, x) if fixed == "speed_a" else (x, value + 0.0 * x) for x in xs]
+            self.undetermined = self.undetermined | self._any_speed_fits(regime, e)
+        return [self._with_known_speed(x) for x in xs]
 
-    def _per_closing(self, regime: Any, slip: Any, e: Any) -> tuple[Any, Any, Any]:
-        """Both observations at a closing speed of one unit and a slip, and their weight."""
-        seen = self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
-        return seen[self.kinds[0]], seen[self.kinds[1]], seen["weight"]
+    def _per_closing(self, regime: Any, slip: Any, e: Any) -> dict[str, Any]:
+        """What would be observed at a closing speed of one unit and a slip."""
+        return self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
 
     def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
-        c1, c2 = (self.targets[kind] for kind in self.kinds)
+        k1, k2 = self.kinds
+        c1, c2 = self.targets[k1], self.targets[k2]
         # Where both tell the same of every slip, every slip fits, or none.
-        seen = [self.observe(regime, *self.speeds_at(np.ones(()), np.full((), slip)), e) for slip in (-1.0, 0.0, 1.0)]
-        samples = [(part[self.kinds[0]], part[self.kinds[1]], part["weight"]) for part in seen]
-        alike = _everywhere(c1, c2, samples) | every_slip(self, seen)
-        leaves_open = alike & reaches(self, regime) & ((c1 > 0.0) | (c2 > 0.0))
-        self.open = self.open | leaves_open
+        samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
+        alike = self._redundant(c1, c2, samples) | np.logical_and.reduce(
+            [
+                abs(c2 * seen[k1] - c1 * seen[k2])
+                <= c2 * _observation_rounding(k1, seen) + c1 * _observation_rounding(k2, seen)
+                for seen in samples
+            ]
+        )
+        any_slip = alike & self._can_occur(regime) & ((c1 > 0.0) | (c2 > 0.0))
+        self.undetermined = self.undetermined | any_slip
 
         def difference(ratio: Any) -> Any:
-            q1, q2, weight = self._per_closing(regime, ratio, e)
-            return np.where(leaves_open, np.nan, (c2 * q1 - c1 * q2) * weight)
+            seen = self._per_closing(regime, ratio, e)
+            return np.where(any_slip, np.nan, (c2 * seen[k1] - c1 * seen[k2]) * seen["weight"])
 
         pairs = []
         for ratio in _roots(regime, difference, np.ones(())):
-            q1, q2, _ = self._per_closing(regime, ratio, e)
-            closing = np.sqrt(np.where(c1 > 0.0, c1 / q1, c2 / q2))
+            seen = self._per_closing(regime, ratio, e)
+            closing = np.sqrt(np.where(c1 > 0.0, c1 / seen[k1], c2 / seen[k2]))
             pairs.append(self.speeds_at(closing, ratio * closing))
         return pairs
 
-    def blind(self, regime: Any, e: Any) -> tuple[Any, Any]:
-        """Where both tell the same of every slip: by which part of themselves they are apart, and the closing speed."""
-        c1, c2 = (self.targets[kind] for kind in self.kinds)
+    def any_slip_at(self, regime: Any, e: Any) -> tuple[Any, Any]:
+        """Where both knowns tell the same of every slip: by which part of themselves they are apart, and the closing speed."""
+        k1, k2 = self.kinds
         samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
-        q1, q2, _ = samples[1]
-        apart = (c2 * q1 - c1 * q2) / (abs(c2 * q1) + abs(c1 * q2))
-        return np.where(_everywhere(q1, q2, samples), apart, np.nan), np.sqrt(c1 / q1)
+        q1, q2 = samples[1][k1], samples[1][k2]
+        of_first, of_second = self.targets[k2] * q1, self.targets[k1] * q2
+        apart = (of_first - of_second) / (abs(of_first) + abs(of_second))
+        return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(self.targets[k1] / q1)
+
+    def _redundant(self, p1: Any, p2: Any, samples: Sequence[dict[str, Any]]) -> Any:
+        """Whether both observations are in the proportion of p1 to p2 at every slip."""
+        k1, k2 = self.kinds
+        scale = sum(abs(p2 * seen[k1]) + abs(p1 * seen[k2]) for seen in samples)
+        return np.logical_and.reduce([abs(p2 * seen[k1] - p1 * seen[k2]) <= REDUNDANT * scale for seen in samples])
 
     def _polished(
         self, regime: Any, e: Any, speed_a: Any, speed_b: Any, steps: int, slope: Callable[[Any], Any] | None
@@ -295,16 +317,101 @@ class Scene:
         status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
         # A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
         # makes of speeds so large is none.
-        fits = (status <= Status.ENERGY_GAIN) & (seen["closing"] > ROUNDING * seen["whole"])
+        fits = (status <= Status.ENERGY_GAIN) & (seen["closing"] > _KERNEL_ROUNDING * seen["whole"])
         for kind, slope in zip(self.kinds, root.slopes, strict=True):
             scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
             if kind == "energy_loss":
                 scale = seen["closing"] * seen["normal"]
                 # Where friction has a loss touch its least, speeds are found to the square root of rounding only.
                 parts = seen["lost"] + np.where(self.bound == 0.0, 0.0, scale)
-            rounding = ROUNDING * (slope * seen["whole"] + parts)
-            fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, SAME * scale))
+            rounding = _KERNEL_ROUNDING * (slope * seen["whole"] + parts)
+            fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, ROOT_TOL * scale))
         return fits, seen["closing"]
+
+    def _can_occur(self, regime: Any) -> Any:
+        """Whether the law may lead to a regime: not to sticking without friction, nor with less than the critical ratio."""
+        if regime is _STICK:
+            return self.bound == 1.0 if self.rule == CRITICAL_FRACTION else self.bound > 0.0
+        return True
+
+    def _any_speed_fits(self, regime: Any, e: Any) -> Any:
+        """With one speed known: whether at every other speed that leads to this regime the same is observed, and was."""
+        size = abs(self.targets[self.kinds[0]]) + abs(self.rest["closing"]) + abs(self.rest["slip"])
+        size = np.where(size > 0.0, size, 1.0)
+        low: Any = np.full((), -np.inf)
+        high: Any = np.full((), np.inf)
+        raws = (self.run(*self._with_known_speed(x), e, FRICTION, 0.0) for x in (-size, size))
+        for behind, ahead in zip(*(self._conditions(regime, raw) for raw in raws), strict=True):
+            # Each is linear in the speed, so it begins or ends to hold at one place.
+            middle = size * (behind + ahead) / (behind - ahead)
+            low = np.where(ahead > behind, np.maximum(low, middle), low)
+            high = np.where(ahead < behind, np.minimum(high, middle), high)
+            high = np.where((ahead == behind) & ~(ahead > 0.0), -np.inf, high)
+        nearest = np.maximum(low, np.minimum(high, 0.0))
+        low, high = np.maximum(low, nearest - size), np.minimum(high, nearest + size)
+        wide = high - low > ROOT_TOL * size
+        places = [self._with_known_speed(low + part * (high - low)) for part in _PARTS]
+        return self._can_occur(regime) & wide & self._all_fit(e, places)
+
+    def _conditions(self, regime: Any, raw: Any) -> list[Any]:
+        """What must be above 0 for the law to lead to a regime."""
+        closing, normal, tangential = raw.closing_speed, raw.no_slip_normal, raw.no_slip_tangential
+        if self.rule == IMPULSE_RATIO:
+            return [closing]
+        if self.rule == CRITICAL_FRACTION:
+            return [closing, np.where(self.bound > 0.0, normal, 1.0)]
+        endless = np.isinf(self.bound)
+        most = np.where(endless, 1.0, self.bound) * normal
+        across = np.where(endless, 0.0, tangential)
+        if regime is _STICK:
+            return [closing, most - across, most + across]
+        return [closing, np.where(self.bound > 0.0, np.copysign(1.0, regime) * across - most, 1.0)]
+
+    def one_of_many(self, root: Root) -> Any:
+        """Whether to one side of a root the speeds lead to what was observed as well."""
+        e = root.restitution
+        size = abs(root.speed_a) + abs(root.speed_b) + self.spinning
+        many: Any = False
+        for side in (-_BESIDE, _BESIDE):
+            pairs = [(root.speed_a, root.speed_b)]
+            for moved in (0.5 * side * size, side * size):
+                if self.kinds[0] == "speed_b":
+                    pairs.append((root.speed_a + moved, root.speed_b))
+                else:
+                    beside = (root.speed_a, root.speed_b + moved)
+                    pairs.append(beside if self.kinds[0] == "speed_a" else self._scaled(*beside, e))
+            many = many | self._all_fit(e, pairs)
+        return many
+
+    def _scaled(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, Any]:
+        """The speeds of the same slip per closing speed that lead to the observation that is not a loss."""
+        kind = self.kinds[1] if self.kinds[0] == "energy_loss" else self.kinds[0]
+        seen = self.outcome(speed_a, speed_b, e)[1]
+        factor = np.sqrt(self.targets[kind] / seen[kind])
+        return self.speeds_at(factor * seen["closing"], factor * seen["slip"])
+
+    def _all_fit(self, e: Any, pairs: Sequence[tuple[Any, Any]]) -> Any:
+        """Whether the law leads from all these speeds to what was observed, and to one and the same of it.
+
+        An energy that was given is known to the rounding of the energies that it is the difference of. What the kernel answers
+        is known to that of the energies lost alone: close to a restitution of 1 it tells amounts apart that are far smaller.
+        """
+        fit: Any = True
+        first: dict[str, Any] = {}
+        for speed_a, speed_b in pairs:
+            status, seen = self.outcome(speed_a, speed_b, e)
+            first = first or seen
+            fit = fit & (status <= Status.ENERGY_GAIN)
+            for kind in self.kinds:
+                if kind.startswith("speed"):
+                    continue
+                rounding = _observation_rounding(kind, seen)
+                within = _KERNEL_ROUNDING * (seen["lost"] + first["lost"])
+                if kind != "energy_loss":
+                    within = rounding + _observation_rounding(kind, first)
+                fit = fit & (abs(seen[kind] - self.targets[kind]) <= rounding)
+                fit = fit & (abs(seen[kind] - first[kind]) <= within)
+        return fit
 
 
 def _power_of_two(size: Any) -> Any:
@@ -313,10 +420,14 @@ def _power_of_two(size: Any) -> Any:
     return np.ldexp(1.0, np.frexp(np.where(usable, size, 1.0))[1] - 1)
 
 
-def _everywhere(p1: Any, p2: Any, samples: Sequence[tuple[Any, Any, Any]]) -> Any:
-    """Whether two observations are in the proportion of p1 to p2 at every slip."""
-    scale = sum(abs(p2 * q1) + abs(p1 * q2) for q1, q2, _ in samples)
-    return np.logical_and.reduce([abs(p2 * q1 - p1 * q2) <= REDUNDANT * scale for q1, q2, _ in samples])
+def _observation_rounding(kind: str, seen: dict[str, Any]) -> Any:
+    """How far an observation may be off that was itself worked out from speeds, at worst.
+
+    An energy that is the difference of those before and after is known to the rounding of the impulse times the speeds.
+    """
+    if kind == "energy_loss":
+        return _KERNEL_ROUNDING * seen["impulse"] * seen["whole"]
+    return 2.0 * _KERNEL_ROUNDING * seen[kind] * (seen["whole"] / abs(seen["closing"]))
 
 
 def _roots(regime: Any, at: Callable[[Any], Any], step: Any) -> Sequence[Any]:
