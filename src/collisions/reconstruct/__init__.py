@@ -6,7 +6,8 @@ from .crush import crush_energy
 from .fit import fit
 from .fit_result import Fit
 from .inline import inline_closing_speed
-from .momentum import MomentumSolution, momentum
+from .momentum import momentum
+from .momentum_solution import MomentumSolution
 from .observed import friction, restitution
 from .planar import planar
 from .speeds import speeds

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,88 +23,17 @@ from ..inputs import OnFailure
 from ..kernels.elementwise import POSITIVE
 from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
 from ..kernels.status import EPS, Status
-from ..quantities import Shown, derived, hypot, show
+from ..quantities import hypot, show
 from ..reading import ArgumentReader
 from ..solving import check_options
-from ..units import Input, Pair, Value, is_quantity, magnitude, shown, to_quantity
+from ..units import Input, Pair, is_quantity, magnitude, shown
 from ..warning import warn, warn_of_cases
 from .common import Cases, exactly, raise_or_warn
+from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
 _NEARLY_COLLINEAR = math.radians(10.0)
-
-# The arguments that give attributes which may be None.
-_NEEDED = {"pdof_a": "heading_a", "pdof_b": "heading_b", "closing_speed": "normal", "restitution": "normal"}
-_SENSITIVITY_UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg", "outside": "m/s/(N*s)"}
-
-
-class Sensitivity(dict[str, dict[str, Value]]):
-    """By answer, then by input: how much the answer moves when the input moves by one SI unit; per degree through ``.q``."""
-
-    @property
-    def q(self) -> dict[str, dict[str, Any]]:
-        """The same with units, per degree where the input is an angle."""
-        return {answer: {name: self._quantity(name, value) for name, value in row.items()} for answer, row in self.items()}
-
-    @staticmethod
-    def _quantity(name: str, value: Any) -> Any:
-        kind = name.partition("_")[0]
-        return to_quantity(value * math.pi / 180.0 if kind == "course" else value, _SENSITIVITY_UNITS[kind])
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
-class MomentumSolution(Shown):
-    """Two vehicles before and after an impact, as planar momentum has it, and how firmly.
-
-    Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
-    or arrays in a batch.
-    """
-
-    mass_a: Value = field(metadata={"unit": "kg"})
-    mass_b: Value = field(metadata={"unit": "kg"})
-    course_a: Value | None = field(metadata={"unit": "rad"})
-    course_b: Value | None = field(metadata={"unit": "rad"})
-    course_a_after: Value | None = field(metadata={"unit": "rad"})
-    course_b_after: Value | None = field(metadata={"unit": "rad"})
-    speed_a: Value = field(metadata={"unit": "m/s"})
-    speed_b: Value = field(metadata={"unit": "m/s"})
-    speed_a_after: Value = field(metadata={"unit": "m/s"})
-    speed_b_after: Value = field(metadata={"unit": "m/s"})
-    delta_v_a: Value = field(metadata={"unit": "m/s"})
-    delta_v_b: Value = field(metadata={"unit": "m/s"})
-    pdof_a: Value | None = field(metadata={"unit": "rad"})
-    pdof_b: Value | None = field(metadata={"unit": "rad"})
-    closing_speed: Value | None = field(metadata={"unit": "m/s"})
-    restitution: Value | None = field(metadata={"unit": ""})
-    translational_energy_loss: Value = field(metadata={"unit": "J"})
-    condition: Value = field(metadata={"unit": ""})
-    sensitivity: Sensitivity = field()
-    unknowns: tuple[str, ...] = field()
-    status: Any = field()
-    heading_a: Value | None = field(default=None, metadata={"unit": "rad"})
-    heading_b: Value | None = field(default=None, metadata={"unit": "rad"})
-    normal_angle: Value | None = field(default=None, metadata={"unit": "rad"})
-    outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
-    outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
-    # The arguments as they were given, texts and numbers, from which one case can be solved again.
-    _given: Mapping[str, Any] | None = field(default=None)
-
-    _title = "Planar momentum"
-
-    def _missing(self, name: str) -> MissingInputError | None:
-        if name not in _NEEDED:
-            return None
-        argument = _NEEDED[name]
-        kind = argument.partition("_")[0]
-        return MissingInputError(
-            f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
-        )
-
-    @derived()
-    def ok(self) -> Any:
-        """Whether the case was answered, and without energy that came from nowhere."""
-        return self.status == Status.OK
 
 
 def momentum(
