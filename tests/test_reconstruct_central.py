@@ -529,6 +529,11 @@ def test_a_refused_case_leaves_its_neighbours_alone():
     with pytest.raises(col.InputError, match=r"^case 1: ") as first:
         reconstruct.central(mass, 1500.0, va=va, vb=vb, restitution=e, on_failure="raise")
     assert first.value.code == "not_finite"
+    # The sentence of a case is that of the case alone: it names the argument.
+    with pytest.raises(col.InputError, match=r"^case 1: vb_after must be finite, got inf"):
+        reconstruct.central(1000.0, 1500.0, va=12.0, vb=3.0, vb_after=np.array([9.0, math.inf]), on_failure="raise")
+    with pytest.raises(col.InputError, match=r"^case 0: mass_a must be > 0 .*got 0\.0"):
+        reconstruct.central(np.array([0.0, 900.0]), 1500.0, va=12.0, restitution=0.1, energy_loss=900.0, on_failure="raise")
 
 
 @pytest.mark.parametrize(("code", "masses", "known", "said"), [row for row in REFUSED if row[0] in (
