@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import statistics
+from dataclasses import replace
 from typing import Any
 
+import solutions
+from published_cases import case_of, figure, output
 from published_records import (
     EXAMPLES,
     LAWS,
@@ -13,17 +16,13 @@ from published_records import (
     Case,
     Figure,
     difference,
-    examples,
     half_unit,
     rounded,
     rows_of,
     summary,
 )
+from solutions import barrier_figures, barrier_impact, rounding_of_the_barrier_centre
 
-import collisions as col
-
-# Against a barrier only the radius of gyration counts, not the mass: that of the Ford Fusion, for other cars as a stated proxy.
-FUSION = {"mass": "111.0 slug", "yaw_inertia": "2336.3 slug*ft**2"}
 TUNED = ("restitution_e", "impulse_ratio_percent_of_critical", "impact_center_distance_ft", "impact_center_angle_deg")
 READINGS = {
     "delta-V rearward": ("measured_delta_vx_ft_s_rearward", "ft/s"),
@@ -35,25 +34,7 @@ READINGS = {
 
 def against_barrier(row: dict[str, str], law: str, normal: str = "contact_normal_angle_deg") -> dict[str, float]:
     """What the library computes for a test: by reading, in the unit of the sheet."""
-    car = col.Vehicle(**FUSION, vx=f"{row['impact_speed_ft_s']} ft/s", x=0.0, y=0.0, heading=0.0)
-    centre = car.point(distance=f"{row['impact_center_distance_ft']} ft", angle=f"{row['impact_center_angle_deg']} deg")
-    impact = col.eccentric(
-        car,
-        col.Vehicle.barrier(),
-        float(row["restitution_e"]),
-        normal=f"{row[normal]} deg",
-        point=centre,
-        critical_fraction=float(row["impulse_ratio_percent_of_critical"]) / 100,
-        law=law,
-    )
-    side = impact.a.q
-    return {
-        "delta-V rearward": -side.delta_vx.m_as("ft/s"),
-        "delta-V to the right": -side.delta_vy.m_as("ft/s"),
-        "delta-V": side.delta_v.m_as("ft/s"),
-        "yaw rate": side.delta_yaw_rate.m_as("deg/s"),
-        "critical impulse ratio": impact.critical_impulse_ratio,
-    }
+    return barrier_figures(barrier_impact(row, law, normal))
 
 
 def figures_of(row: dict[str, str], computed: dict[str, dict[str, float]]) -> list[Figure]:
@@ -86,26 +67,15 @@ def barrier_test(row: dict[str, str], tuned: dict[str, str] | None = None) -> Ca
 
 def low_speed_test() -> Case:
     """L11: the restitution is that of the two measured delta-Vs."""
-    case = examples()["L11"]
-    given = {name: f"{entry['value']} {entry['unit']}" for name, entry in case["inputs"].items()}
-    a, b = (col.Vehicle(mass=given[f"m{i}"], vx=given[f"u{i}"]) for i in "12")
-    e = float(case["recomputed_outputs"]["e_from_data"]["value"])
-    impact = col.linear_central(a, b, e)
-    figures = [
-        Figure(
-            "delta-V, in line", f"dV{i}", "mph", str(case["published_outputs"][f"dV{i}"]["value"]), side.q.delta_v.m_as("mph")
-        )
-        for i, side in (("1", impact.a), ("2", impact.b))
-    ]
-    said = "The measured pair misses the balance of momentum by 9 percent, which no restitution can mend."
-    return Case(
-        "L11",
-        "Ford Fiesta into Volkswagen Polo, rear end, 5.5 mph",
-        [f"{EXAMPLES}: L11"],
-        case["source"]["url"],
-        figures,
-        inputs=f"e = {e:g} from the two readings",
-        notes=[said],
+    computed = solutions.low_speed_test("L11")
+    measured = [replace(figure("L11", name, computed[name]), remark="") for name in ("dV1", "dV2")]
+    case = case_of(
+        "L11", measured, notes=["The measured pair misses the balance of momentum by 9 percent, which no restitution can mend."]
+    )
+    return replace(
+        case,
+        title="Ford Fiesta into Volkswagen Polo, rear end, 5.5 mph",
+        inputs=f"e = {output('L11', 'e_from_data'):g} from the two readings",
     )
 
 
@@ -130,11 +100,7 @@ def tabulated() -> dict[str, Any]:
     found = []
     for row in rows_of(OVERLAP):
         ours, printed = rounded(against_barrier(row, "brach")["delta-V"]), row["tabulated_delta_v_ft_s"]
-        # Half a unit of the print, and half a unit of each figure of the impact centre.
-        spread = half_unit(printed)
-        for column in TUNED[2:]:
-            moved = against_barrier({**row, column: str(float(row[column]) + 0.05)}, "brach")["delta-V"]
-            spread += abs(moved - ours)
+        spread = half_unit(printed) + rounding_of_the_barrier_centre(row)
         said = ""
         if "equals the fitted-model value" not in row["note"]:
             said = (

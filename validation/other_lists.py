@@ -2,37 +2,19 @@
 
 from __future__ import annotations
 
-import math
-import warnings
 from typing import Any
 
 from measured_fits import corrupt_angles, tabulated
-from planar_solutions import carpenter_impacts
-from published_examples import CASES, given, number, output
+from published_cases import CASES, SOLUTIONS, number, numbers, output
 from published_records import EXAMPLES, RESTITUTION, difference, record_names, rounded
+from solutions import carpenter_impact
 from untuned_predictions import cipriani_values, taurus_in_line
 
 import collisions as col
-from collisions import reconstruct, travel
-
-MPH, FOOT = 0.44704, 0.3048
 
 
 def nothing_published() -> list[dict[str, Any]]:
     """Cases without a published answer: ours beside what was worked out apart when the data were put together."""
-    # 30 mph2 per foot stands in the source for 2 g.
-    common = travel.speed(given("L14", "skid"), drag=given("L14", "drag_factor"))
-    common *= math.sqrt(30 * MPH**2 / (2 * travel.GRAVITY * FOOT))
-    impact = reconstruct.central(
-        given("L14", "W1"), given("L14", "W2"), vb=given("L14", "u2"), vb_after=common, restitution=0.0
-    )
-    skid = {
-        "v_common": common / MPH,
-        "u1": impact.a.before.q.vx.m_as("mph"),
-        "dV1": impact.a.q.delta_v.m_as("mph"),
-        "dV2": impact.b.q.delta_v.m_as("mph"),
-    }
-    head_on = head_on_solution()
     return [
         {
             "key": name,
@@ -48,41 +30,18 @@ def nothing_published() -> list[dict[str, Any]]:
                     "computed": rounded(ours),
                     "difference": difference(rounded(ours), str(output(name, key)), "%"),
                 }
-                for key, ours in found.items()
+                for key, ours in numbers(name, SOLUTIONS[name][0]).items()
             ],
         }
-        for name, why, found in (
-            ("L14", "a problem without a printed answer", skid),
+        for name, why in (
+            ("L14", "a problem without a printed answer"),
             (
                 "X01",
                 "an input set; the results of the paper are not in these data. 4 degrees from one line, the differences are "
                 "those of the course to four decimals",
-                head_on,
             ),
         )
     ]
-
-
-def head_on_solution() -> dict[str, float]:
-    """X01 by momentum, with the course of car 2 that was worked out apart."""
-    with warnings.catch_warnings():
-        # 4 degrees from one line: the speeds hang on the last digits of the course, which the page says.
-        warnings.simplefilter("ignore", col.IllConditionedWarning)
-        found = reconstruct.momentum(
-            given("X01", "m1"),
-            given("X01", "m2"),
-            course_a=given("X01", "course1_before"),
-            course_b=f"{output('X01', 'course2_before')} deg",
-            course_a_after=given("X01", "v1_after_course"),
-            course_b_after=given("X01", "v2_after_course"),
-            speed_a_after=given("X01", "v1_after"),
-            speed_b_after=given("X01", "v2_after"),
-        ).q
-    return {
-        "v1_before": found.speed_a.m_as("km/h"),
-        "v2_before": found.speed_b.m_as("km/h"),
-        "dV1": found.delta_v_a.m_as("km/h"),
-    }
 
 
 def inputs_only() -> list[dict[str, Any]]:
@@ -116,7 +75,7 @@ def not_computed() -> list[dict[str, Any]]:
     except col.InputError as error:
         refusal = error.code
     along, across = (f"{value:.1f}" for value in taurus_in_line())
-    car = carpenter_impacts(f"{-number('E07', 'tangent_axis_angle')!r} deg")["kudlich-slibar"].a.q
+    car = carpenter_impact(f"{-number('E07', 'tangent_axis_angle')!r} deg").a.q
     as_normal = (
         f"{car.delta_vx.m_as('mph'):.2f} and {car.delta_vy.m_as('mph'):.2f} mph, {car.delta_yaw_rate.m_as('deg/s'):.1f} deg/s"
     )

@@ -14,10 +14,9 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-import central_solutions
+import agreement
 import measured_fits
 import other_lists
-import planar_solutions
 import untuned_predictions
 import validation_figures
 import validation_tables as tables
@@ -46,7 +45,7 @@ def homes(found: dict[str, Any]) -> dict[str, str]:
 def everything() -> dict[str, Any]:
     """All that the page shows."""
     found: dict[str, Any] = {
-        "agreement": table_of([*central_solutions.cases(), *planar_solutions.cases()]),
+        "agreement": table_of(agreement.cases()),
         "fits": {
             **table_of(measured_fits.cases()),
             "tabulated": measured_fits.tabulated(),
