@@ -916,7 +916,7 @@ def known_shares(case: Case) -> None:
     case.must("uncertainty.Propagation.to_dict", known.to_dict)
     output = known[case.choice(list(known))]
     case.must("uncertainty.Output.record", output.record)
-    case._look_at(output._shares()[output.name], uncertainty.Shares, OUTPUT_OPEN, False)
+    case._look_at(output._shares(), uncertainty.Shares, OUTPUT_OPEN, False)
 
 
 # --- reference -------------------------------------------------------------------------------------------------------------

@@ -951,7 +951,7 @@ def test_a_few_cases_are_asked_again_alone(monkeypatch):
     # The last case, the two with the extremes of the first answer, two without an answer, and the middle if there is room.
     assert asked_of[:8] == [2, 64 * 5, 1, 1, 1, 1, 1, asked_of[7]]
     assert asked_of[7] > 1
-    monkeypatch.setattr("collisions.uncertainty.model.check_alone", lambda *of: True)
+    monkeypatch.setattr("collisions.uncertainty.model.check_elementwise", lambda *of: True)
     plain, asked_of_plain = fitted()
     assert plain == compared
     assert asked_of_plain == [size for k, size in enumerate(asked_of) if not 2 <= k < 7]
@@ -966,7 +966,7 @@ def test_a_few_cases_are_asked_again_alone(monkeypatch):
         (lambda x: {"x": x - x.mean() + 5.0}, {"x": Interval(0, 10)}, {"x": (5, 1)}, col.InputError, "bad_model", "model mixes cases: among 192 cases"),
         (lambda x: {"x": x - x.mean() + 5.0}, {"x": 4.0}, {"x": (5, 1)}, col.InputError, "bad_model", "In place of what is taken over all"),
         (lambda x: {"x": x * x.max()}, {"x": Normal(2, 1)}, {"x": (5, 1)}, col.InputError, "bad_model", "for that case alone"),
-        (lambda x: {"x": x + RANDOM.normal(size=x.shape)}, *GOOD, col.InputError, "bad_model", "draws random numbers"),
+        (lambda x: {"x": x + RANDOM.normal(size=x.shape)}, *GOOD, col.InputError, "bad_model", "Random numbers drawn in the model"),
         (lambda x: {"x": np.gradient(x)}, *GOOD, col.InputError, "bad_model", "among others, but not alone"),
         (lambda x: {"x": 1.0 if x > 0 else 2.0}, *GOOD, col.InputError, "bad_model", r"arrays of 2 cases for x.*numpy.where in place of if"),
         (lambda x: {"x": x if x.size < 3 else math.sqrt(x)}, *GOOD, col.InputError, "bad_model", r"arrays of \d+ cases for x.*numpy.sqrt"),

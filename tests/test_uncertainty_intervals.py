@@ -413,3 +413,10 @@ def test_directions_across_pi_at_every_place():
     assert (low % 360.0, high % 360.0) == pytest.approx((160.0, 200.0), abs=0.05)
     assert high - low == pytest.approx(40.0, abs=0.1)
     assert np.degrees(found.std) == pytest.approx([1.0, 1.0], abs=0.02)
+
+
+def test_a_local_method_is_not_random():
+    """Without a seed the same places between the bounds are found every time."""
+    inputs = {"x": Normal(0.3, 1.0), "k": Interval(-1.0, 2.0)}
+    one, other = (propagate(lambda x, k: {"y": x * k + k**3 - 1.3 * k}, inputs, method="second_order") for _ in range(2))
+    assert (one.seed, one.samples, one.to_dict()) == (None, other.samples, other.to_dict())

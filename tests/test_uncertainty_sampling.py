@@ -426,3 +426,12 @@ def test_the_largest_runs_say_when_they_do_not_suffice(monkeypatch):
         found = propagate(bend, {"x": Normal(0.0, 1.0), "y": Uniform(0.0, 1.0)}, method="monte_carlo", tolerance=1e-9, seed=1)
     assert [warning.message.code for warning in caught] == ["tolerance_not_reached"]
     assert found.samples == 20000
+
+
+def test_shares_of_values_whose_sums_leave_the_range_of_floats():
+    """Of y = a + 2 b with two alike inputs: a fifth and four fifths of the variance."""
+    inputs = {"a": Uniform(1.0, 2.0), "b": Uniform(1.0, 2.0)}
+    found = propagate(lambda a, b: {"y": 2.9e307 * (a + 2.0 * b)}, inputs, method="quasi_random", seed=1)["y"]
+    for name, share in (("a", 0.2), ("b", 0.8)):
+        # Six standard errors, and their own rounding.
+        assert abs(found.contributions[name] - share) < 6.0 * found.contribution_standard_errors[name][0] + 1e-12

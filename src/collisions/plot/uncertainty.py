@@ -8,9 +8,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import with_decimals
-from ..uncertainty.bounds import Bounds
-from ..uncertainty.output import COVERAGE, Output
-from ..uncertainty.result import Propagation
+from ..uncertainty.intervals import Bounds
+from ..uncertainty.result import COVERAGE, Output, Propagation
 from ..unit_systems import UnitSystem
 from ..units import shown
 from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, drawable, in_lines, legend_below, number, tidy

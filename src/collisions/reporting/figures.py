@@ -15,7 +15,7 @@ from .. import plot
 from ..errors import InputError
 from ..impact import Impact
 from ..uncertainty import Propagation
-from ..uncertainty.sampled import Sampled
+from ..uncertainty.result import Sampled
 from ..unit_systems import UnitSystem
 from .blocks import Block, Paragraph, Picture, plain, visible
 from .known import varies

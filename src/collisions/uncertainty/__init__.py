@@ -1,9 +1,8 @@
 """How sure an answer is: what is known of every input, and what follows for what is asked."""
 
 from .distributions import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
-from .output import Histogram, Output, Shares
 from .propagation import propagate
-from .result import Propagation
+from .result import Histogram, Output, Propagation, Shares
 
 __all__ = [
     "Distribution",

@@ -1,34 +1,55 @@
-"""Intervals, of which nothing is known but the bounds: where between them a figure is least and greatest.
+"""Inputs of which only bounds are known: where between them an output is least and greatest, and the range of its figures.
 
-An interval is never drawn from. Alone, the values of the outputs are searched for their extremes. Mixed with distributions, the
-mean, the standard deviation and both ends of the 95 percent interval are, over the same few drawn cases at every place; at the
-places found the run is then made in full.
+An interval is never drawn from. Without distributions, the values of the outputs are searched for their extremes. Mixed with
+distributions, the mean, the standard deviation and both ends of the 95 percent interval are, over the same few drawn cases at
+every place; at the places found the run is then made in full.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
-from functools import partial
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import InputError, NoSolutionError
+from ..quantities import OWN, derived, returns
 from . import angles
-from .designs import REPLICATES, Design
-from .draw import Joint
+from .designs import REPLICATES
 from .model import Model
 from .normal import power_of_two
+from .result import COVERAGE, Local, Output, Sampled, Shares
 
-_MOST = {True: 10, False: 14}  # intervals, beside distributions and alone: each doubles the corners
-_GRID = {True: 400, False: 20000}  # places to begin with, corners always among them
-_FINEST = {True: 21, False: 41}  # of them along one interval
-_ROUNDS = {True: 24, False: 60}  # halvings of the search box: to a millionth of the interval, and to rounding
+COMMON_CASES = 16 * REPLICATES  # drawn ones that every place is judged by
+_BLOCK = 2**16  # cases a call
 _PATIENCE = 10  # steps for each halving, at most
-_DIAGONAL = {True: 3, False: 6}  # intervals up to which steps along diagonals are affordable
-_COMMON = 16 * REPLICATES  # cases that every place is judged by
-_LANES = 2**16
+
+
+class _Effort(NamedTuple):
+    """How long to search: most intervals, places to begin with and of them along one interval, halvings of the search box.
+
+    Every interval doubles the corners, which are always among the places. Up to ``diagonal`` intervals it also steps along
+    diagonals.
+    """
+
+    intervals: int
+    places: int
+    finest: int
+    halvings: int
+    diagonal: int
+
+
+_ONLY_INTERVALS = _Effort(intervals=14, places=20000, finest=41, halvings=60, diagonal=6)  # to rounding
+_MIXED = _Effort(intervals=10, places=400, finest=21, halvings=24, diagonal=3)  # to a millionth of the interval
+
+_FIGURES: tuple[Callable[[Any], Any], ...] = (
+    np.mean,
+    lambda row: float(np.std(row / power_of_two(row))) * power_of_two(row),
+    lambda row: np.quantile(row, 0.025),
+    lambda row: np.quantile(row, 0.975),
+)
 
 
 class Extremes(NamedTuple):
@@ -40,6 +61,47 @@ class Extremes(NamedTuple):
     failed: int
     wrapped: tuple[str, ...]
     cuts: dict[str, float | None]
+
+
+def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> Extremes:
+    """Where the outputs, or their figures over the ``common`` drawn cases, are least and greatest.
+
+    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where there is a single one
+    between the bounds or the figure is monotone, as those of solver outputs are but for friction limits.
+    """
+    effort = _MIXED if common else _ONLY_INTERVALS
+    if len(bounds) > effort.intervals:
+        raise InputError(
+            f"{len(bounds)} intervals are {2 ** len(bounds)} corners; give at most {effort.intervals}"
+            f"{' beside distributions' if common else ''}, the others as {'distributions' if common else 'numbers'}",
+            code="too_many_intervals",
+            argument="inputs",
+        )
+    places = _Places(model, bounds, common)
+    grid = _grid(len(bounds), effort)
+    first = places.count_directions(places.answers(grid))
+    found: dict[str, tuple[float, float]] = {}
+    spots = []
+    for name, values in first.items():
+        if np.isnan(values).all():
+            raise NoSolutionError(
+                f"the model has no answer for {name!r} anywhere between the bounds", code="all_failed", output=name
+            )
+        for figure in _FIGURES if common else _FIGURES[:1]:
+            judged = _by_place(figure, values)
+            if np.isnan(judged).all():
+                continue
+
+            def judge(shares: Any, name: str = name, figure: Callable[[Any], Any] = figure) -> Any:
+                return _by_place(figure, places.answers(shares)[name])
+
+            ends = [_search(judge, grid, judged, sign, effort) for sign in (1.0, -1.0)]
+            spots += [place for place, _ in ends]
+            found.setdefault(name, (ends[0][1], ends[1][1]))
+    unique = np.unique(np.round(spots, 12), axis=0)
+    listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
+    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
+    return Extremes(found, listed, places.asked, places.failed, wrapped, places.cuts)
 
 
 class _Places:
@@ -62,12 +124,11 @@ class _Places:
 
     def answers(self, shares: Any) -> dict[str, Any]:
         """By output the values at every place, one row a place."""
-        step = max(1, _LANES // self.cases)
-        parts = [self._answers(shares[i : i + step]) for i in range(0, len(shares), step)]
+        step = max(1, _BLOCK // self.cases)
+        parts = [self._answers(self.at(shares[i : i + step])) for i in range(0, len(shares), step)]
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
-    def _answers(self, shares: Any) -> dict[str, Any]:
-        at = self.at(shares)
+    def _answers(self, at: Any) -> dict[str, Any]:
         values = {name: np.repeat(at[:, i], self.cases) for i, name in enumerate(self.names)}
         values |= {name: np.tile(drawn, len(at)) for name, drawn in self.common.items()}
         count = len(at) * self.cases
@@ -91,71 +152,22 @@ class _Places:
         return about + 2.0 * np.pi * np.rint((angles.folded(means, self.cuts[name]) - means) / (2.0 * np.pi))[:, np.newaxis]
 
 
-def extremes(
-    model: Model, bounds: Mapping[str, tuple[float, float]], joint: Joint | None = None, design: Design | None = None
-) -> Extremes:
-    """Where the outputs, or with ``joint`` their figures, are least and greatest.
-
-    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where there is a single one
-    between the bounds or the figure is monotone, as those of solver outputs are but for friction limits.
-    """
-    mixed = joint is not None
-    if len(bounds) > _MOST[mixed]:
-        raise InputError(
-            f"{len(bounds)} intervals are {2 ** len(bounds)} corners; give at most {_MOST[mixed]}"
-            f"{' beside distributions' if mixed else ''}, the others as {'distributions' if mixed else 'numbers'}",
-            code="too_many_intervals",
-            argument="inputs",
-        )
-    common: dict[str, Any] = {}
-    if joint is not None and design is not None:
-        with np.errstate(all="ignore"):
-            common = joint.values(design(0, _COMMON // REPLICATES).reshape(joint.dimensions, -1))
-    places = _Places(model, bounds, common)
-    grid = _grid(len(bounds), _GRID[mixed], _FINEST[mixed])
-    first = places.answers(grid)
-    first = places.count_directions(first)
-    star = _star(len(bounds), _DIAGONAL[mixed])
-    found: dict[str, tuple[float, float]] = {}
-    spots = []
-    for name, values in first.items():
-        if np.isnan(values).all():
-            raise NoSolutionError(
-                f"the model has no answer for {name!r} anywhere between the bounds", code="all_failed", output=name
-            )
-        for figure in _FIGURES if mixed else (_only,):
-            judged = figure(values)
-            if np.isnan(judged).all():
-                continue
-            judge = partial(_judged, places, name, figure)
-            ends = [_search(judge, grid, judged, sign, star, _ROUNDS[mixed]) for sign in (1.0, -1.0)]
-            spots += [place for place, _ in ends]
-            found.setdefault(name, (ends[0][1], ends[1][1]))
-    unique = np.unique(np.round(spots, 12), axis=0)
-    listed = [dict(zip(places.names, map(float, places.at(spot)), strict=True)) for spot in unique]
-    wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
-    return Extremes(found, listed, places.asked, places.failed, wrapped, places.cuts)
-
-
-def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, star: Any, rounds: int) -> tuple[Any, float]:
+def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, effort: _Effort) -> tuple[Any, float]:
     """The place of the least figure (of the greatest for a sign of -1) and the figure there, from the best of the grid."""
     best = int(np.nanargmin(sign * judged))
     place, value, size = grid[best], sign * float(judged[best]), 0.5
+    steps = _steps(grid.shape[1], effort)
     halvings = 0
-    for _ in range(_PATIENCE * rounds):
-        around = np.clip(place + size * star, 0.0, 1.0)
+    for _ in range(_PATIENCE * effort.halvings):
+        around = np.clip(place + size * steps, 0.0, 1.0)
         beside = sign * judge(around)
         if not np.isnan(beside).all() and np.nanmin(beside) < value:
             place, value = around[int(np.nanargmin(beside))], float(np.nanmin(beside))
         else:
             size, halvings = 0.5 * size, halvings + 1
-            if halvings == rounds:
+            if halvings == effort.halvings:
                 break
     return place, sign * value
-
-
-def _judged(places: _Places, name: str, figure: Callable[[Any], Any], shares: Any) -> Any:
-    return figure(places.answers(shares)[name])
 
 
 def _means(values: Any) -> Any:
@@ -165,39 +177,96 @@ def _means(values: Any) -> Any:
         return np.sum(np.where(known, values, 0.0), axis=1) / np.count_nonzero(known, axis=1)
 
 
-def _only(values: Any) -> Any:
-    return values[:, 0]
+def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
+    """The figure of the answered cases of every row; NaN for a row of which less than two are. Of one case it is the value."""
+    if values.shape[1] == 1:
+        return values[:, 0]
+    rows = (row[~np.isnan(row)] for row in values)
+    with np.errstate(all="ignore"):
+        return np.array([figure(row) if row.size > 1 else np.nan for row in rows])
 
 
-def _figure(work_out: Callable[[Any], float]) -> Callable[[Any], Any]:
-    """A figure of the answered cases of every row; NaN for a row of which less than two are."""
-
-    def figure(values: Any) -> Any:
-        rows = (row[~np.isnan(row)] for row in values)
-        with np.errstate(all="ignore"):
-            return np.array([work_out(row) if row.size > 1 else np.nan for row in rows])
-
-    return figure
-
-
-_FIGURES = (
-    _figure(lambda row: float(np.mean(row))),
-    _figure(lambda row: float(np.std(row / power_of_two(row))) * power_of_two(row)),
-    _figure(lambda row: float(np.quantile(row, 0.025))),
-    _figure(lambda row: float(np.quantile(row, 0.975))),
-)
-
-
-def _grid(count: int, most: int, finest: int) -> Any:
+def _grid(count: int, effort: _Effort) -> Any:
     """Shares of the way from lower to upper bound: as fine a grid as is cheap, corners included."""
-    fineness = max(2, min(finest, int(most ** (1.0 / count) + 1e-9)))
+    fineness = max(2, min(effort.finest, int(effort.places ** (1.0 / count) + 1e-9)))
     return np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, fineness)] * count, indexing="ij"), axis=-1).reshape(-1, count)
 
 
-def _star(count: int, diagonal: int) -> Any:
-    """One step along each input both ways, and along each diagonal of few."""
+def _steps(count: int, effort: _Effort) -> Any:
+    """One along each input both ways, and along each diagonal of few."""
     unit = np.eye(count)
     steps = np.concatenate((unit, -unit))
-    if count <= diagonal:
+    if count <= effort.diagonal:
         steps = np.concatenate((steps, np.array(list(itertools.product((-1.0, 1.0), repeat=count)))))
     return steps
+
+
+class Bounds(Output):
+    """An output with an interval among its inputs: the range of every figure over ``cases``, the places where it was found."""
+
+    def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
+        super().__init__(name, unit)
+        self.cases = cases
+        # One turn for the means of all directions, the one that ends there, or the figures could not be compared.
+        for case in cases if cut is not None else ():
+            turns = round((float(angles.folded(case.mean, cut)) - case.mean) / (2.0 * math.pi))
+            if turns:
+                case.add_turns(turns)
+
+    @derived(OWN)
+    def mean_standard_error(self) -> Any:
+        """The largest standard error among the means."""
+        return max(case.mean_standard_error for case in self.cases)
+
+    @derived(OWN)
+    def std_standard_error(self) -> Any:
+        """The largest standard error among the standard deviations."""
+        return max(case.std_standard_error for case in self.cases)
+
+    @returns(OWN)
+    def quantile_standard_error(self, p: Any) -> Any:
+        """The largest standard error among the quantiles."""
+        return np.max([case.quantile_standard_error(p) for case in self.cases], axis=0)
+
+    @returns(OWN)
+    def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
+        """The range (low, high) that holds the value with at least this probability wherever in the interval the truth lies."""
+        ends = [case.interval(coverage) for case in self.cases]
+        return min(low for low, _ in ends), max(high for _, high in ends)
+
+    def row(self) -> tuple[str, str]:
+        """Name and figures as a text."""
+        low, high = self.interval()
+        unit = f" {self.unit}" if self.unit else ""
+        least, most = self.mean
+        if (least, most) == (low, high):
+            return self.name, f"between {low:.6g} and {high:.6g}{unit}"
+        return self.name, f"mean between {least:.6g} and {most:.6g}{unit}, 95 percent within {low:.6g} to {high:.6g}{unit}"
+
+    def record(self) -> dict[str, Any]:
+        """The figures as plain values that strict JSON can hold."""
+        return {"unit": self.unit, "mean": list(self.mean), "std": list(self.std), "interval_95": list(self.interval())}
+
+    def _mean(self) -> Any:
+        return _range(case.mean for case in self.cases)
+
+    def _std(self) -> Any:
+        return _range(case.std for case in self.cases)
+
+    def _quantile(self, p: Any) -> Any:
+        found = np.array([case.quantile(p) for case in self.cases])
+        low, high = found.min(axis=0), found.max(axis=0)
+        return (low, high) if np.ndim(low) else (float(low), float(high))
+
+    def _shares(self) -> Shares:
+        raise InputError(
+            f"{self.name!r} has no variance to share, because an Interval among the inputs says nothing of likelihood; give it "
+            f"a distribution, or compare the bounds with and without it",
+            code="no_variance",
+            argument=self.name,
+        )
+
+
+def _range(figures: Iterable[float]) -> tuple[float, float]:
+    found = list(figures)
+    return min(found), max(found)

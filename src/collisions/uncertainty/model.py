@@ -1,8 +1,9 @@
-"""The user's model, called with arrays: what it is given, and what it may answer."""
+"""The user's model: a function called with arrays of cases, whose answers are read and checked to be one for each case."""
 
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeAlias
 
@@ -12,42 +13,46 @@ from ..errors import CollisionsError, InputError, ShapeError
 from ..reading import ArgumentReader
 from ..units import is_quantity, shown, si_unit
 from ..warning import quietly
-from .alone import check_alone
+from . import angles
 from .distributions import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
+_CASES = 5  # asked again: a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
+# Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
+# differently for one case. What is less than this changes no figure that anyone reads, whatever it comes from.
+_UNNOTICED = 1e-6
+_ROUNDINGS = 64.0 * float(np.finfo(np.float64).eps)  # of an answer: numpy adds in another order for one number than for many
+
 
 class Model:
-    """A function of named inputs, the fixed ones kept beside it; the names and units of its outputs from the first call on."""
+    """A function of named inputs and its fixed inputs; the names and units of its outputs from the first call on."""
 
     def __init__(self, function: Any, fixed: Mapping[str, Any]) -> None:
         if not callable(function):
-            raise InputError(
-                f"model must be a function of the named inputs that returns a dict of outputs, got {type(function).__name__}",
-                code="bad_model",
-                argument="model",
+            raise _bad_model(
+                f"model must be a function of the named inputs that returns a dict of outputs, got {type(function).__name__}"
             )
         self.function = function
         self.fixed = dict(fixed)
         self.units: dict[str, str | None] = {}
-        self._compared = False
+        self._checked = False
 
     def at(self, place: Mapping[str, float]) -> Model:
         """The same model with more inputs fixed."""
         found = Model(self.function, {**self.fixed, **place})
-        found._compared = self._compared
+        found._checked = self._checked
         return found
 
-    def __call__(self, values: Mapping[str, Any], count: int, compare: bool = True) -> dict[str, Any]:
+    def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
         """The outputs of the cases, as new float arrays; what is not finite has no answer and is NaN.
 
-        The first time, a few cases are asked again alone. ``compare=False`` leaves that to another call: of calls from several
-        threads always the same one is to do it.
+        The first time, a few cases are asked again one by one. ``check=False`` leaves that to another call: of calls from
+        several threads always the same one is to do it.
         """
         found = self._answers(values, count)
-        if compare and not self._compared:
-            self._compared = check_alone(lambda case: self._answers(case, 1), values, found, count)
+        if check and not self._checked:
+            self._checked = check_elementwise(lambda case: self._answers(case, 1), values, found)
         return found
 
     def _answers(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
@@ -65,30 +70,25 @@ class Model:
             )
             # What Python and numpy raise where an array is used as a number, or a number as a Quantity.
             if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(error, CollisionsError):
-                told = f"{type(error).__name__}: {str(error).rstrip('.')}"
-                raise InputError(f"model raised {told}. It is {called}", code="bad_model", argument="model") from error
+                raise _bad_model(f"model raised {_described(error)}. It is {called}") from error
             error.add_note(f"The model is {called}.")
             raise
         if not isinstance(answered, Mapping) or not answered:
-            raise InputError(
+            raise _bad_model(
                 f"model must return a dict of named outputs, such as {{'delta_v': impact.a.delta_v}}, got "
-                f"{type(answered).__name__}",
-                code="bad_model",
-                argument="model",
+                f"{type(answered).__name__}"
             )
         units = {name: si_unit(value, per_angle=True) if is_quantity(value) else None for name, value in answered.items()}
         if self.units and units != self.units:
-            raise InputError(
-                f"model returned {_listed(units)} now and {_listed(self.units)} before; it must always return the same outputs",
-                code="bad_model",
-                argument="model",
+            raise _bad_model(
+                f"model returned {_listed(units)} now and {_listed(self.units)} before; it must always return the same outputs"
             )
         self.units = units
         return {name: self._read(name, value, units[name], count) for name, value in answered.items()}
 
     def _read(self, name: str, value: Any, unit: str | None, count: int) -> Any:
         if not isinstance(name, str):
-            raise InputError(f"model must name its outputs by texts, got {shown(name)}", code="bad_model", argument="model")
+            raise _bad_model(f"model must name its outputs by texts, got {shown(name)}")
         if isinstance(value, np.ndarray) and value.dtype == np.bool_:
             value = value.astype(np.float64)
         reader = ArgumentReader(trusted=(name,))
@@ -121,6 +121,81 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
             code=code,
             argument=argument,
         ) from None
+
+
+def check_elementwise(
+    ask: Callable[[Mapping[str, Any]], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
+) -> bool:
+    """Refuses a model that answers one case otherwise than among others; False if these cases cannot show it.
+
+    ``ask`` takes a case as arrays of one. Cases that are all the same show nothing, those without an answer little, and those
+    in rising order no sort.
+    """
+    if not any(np.any(column != column[0]) for column in values.values()):
+        return False
+    compared = False
+    for i in _revealing_cases(answers):
+        case = {name: column[i : i + 1].copy() for name, column in values.items()}
+        listed = ", ".join(f"{name} = {float(value[0]):.9g}" for name, value in case.items())
+        answered = any(not math.isnan(column[i]) for column in answers.values())
+        try:
+            found = ask(case)
+        except Exception as error:
+            if not answered:
+                continue
+            raise _bad_model(
+                f"model answers a case ({listed}) among others, but not alone, as arrays of one number: "
+                f"{_described(error.__cause__ or error)}. Every case must be worked out by itself, however many there are"
+            ) from error
+        compared |= answered
+        for name, column in answers.items():
+            among, alone = float(column[i]), float(found[name][0])
+            if not _agree(among, alone, column):
+                among_text, alone_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (among, alone))
+                raise _bad_model(
+                    f"model mixes cases: among {len(column)} cases it answers {name!r} with {among_text} for {listed}, and "
+                    f"with {alone_text} for that case alone. Every case must be worked out by itself. In place of what is "
+                    f"taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the whole "
+                    f"array, write a number into the model, or numpy.where. Random numbers drawn in the model do this too: "
+                    f"give what is random as an argument of its own, with its distribution",
+                    output=name,
+                )
+    return compared and any(np.any(column[1:] < column[:-1]) for column in values.values())
+
+
+def _revealing_cases(answers: Mapping[str, Any]) -> list[int]:
+    """The last case, which all others came before, those of the greatest and the least answers, two without, and the middle."""
+    count = len(next(iter(answers.values())))
+    found = [count - 1]
+    refused: list[int] = []
+    for column in answers.values():
+        missing = np.flatnonzero(np.isnan(column))
+        refused += missing[[0, -1]].tolist() if missing.size else []
+        if missing.size < column.size:
+            found += [int(np.nanargmax(column)), int(np.nanargmin(column))]
+    return list(dict.fromkeys([*found[:3], *refused[:2], count // 2]))[:_CASES]
+
+
+def _agree(among: float, alone: float, answers: Any) -> bool:
+    """Whether the answer to a case is the same among others and alone, but for what rounding or convergence explains."""
+    if math.isnan(among) or math.isnan(alone):
+        return math.isnan(among) and math.isnan(alone)
+    away = abs(among - alone)
+    if angles.are_directions(np.array([among, alone])):
+        away = min(away, abs(away - 2.0 * math.pi))  # a direction may come out at either end of its turn
+    if away == 0.0:
+        return True
+    with np.errstate(all="ignore"):
+        low, high = np.nanquantile(answers, (0.25, 0.75))
+        return bool(away <= _ROUNDINGS * max(abs(among), abs(alone)) + (_UNNOTICED * high - _UNNOTICED * low))
+
+
+def _bad_model(text: str, **fields: Any) -> InputError:
+    return InputError(text, code="bad_model", argument="model", **fields)
+
+
+def _described(error: BaseException) -> str:
+    return f"{type(error).__name__}: {str(error).rstrip('.')}"
 
 
 def _listed(units: Mapping[str, str | None]) -> str:

@@ -2,34 +2,51 @@
 
 from __future__ import annotations
 
+import math
 import secrets
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache, partial
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ..errors import InputError, NoSolutionError
+from ..errors import CollisionsWarning, InputError, NoSolutionError, OutOfRangeWarning
 from ..progress import reporter
-from .bounds import Bounds, Known
-from .derivatives import differences, local_output, slopes
+from ..reading import ArgumentReader, is_whole
+from ..units import shown
+from ..warning import warn
+from .derivatives import PROBES, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distributions import Distribution, pair_hints
-from .draw import Correlation, Joint
-from .intervals import extremes
+from .distributions import Distribution, Interval, pair_hints, read_input
+from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names
-from .question import LOCAL, check_options, read_inputs, read_tolerances
-from .result import Propagation
-from .sampled import Sampled
-from .sampling import MOST_SAMPLES, Sample, enough
-from .shares import sampled_shares
-from .telling import Run, tell
+from .result import Local, Output, Propagation, Sampled, Shares
+from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal["first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval"]
 Report: TypeAlias = Callable[[int, int], None]
 
+LOCAL = ("first_order", "second_order")
+METHODS = (*LOCAL, *DESIGNS, "interval")
+MOST_SAMPLES = 2**24
+_LEAST_SAMPLES = 4 * REPLICATES
 _SAMPLES = 8192
 _SHARE_SAMPLES = 8192
+
+
+@dataclass
+class Run:
+    """The outputs of one run, how it went, and what there is to warn of."""
+
+    outputs: Mapping[str, Local | Sampled]
+    asked: int
+    failed: int
+    interrupted: bool = False
+    unreached: bool = False
+    wrapped: tuple[str, ...] = ()
+    unanswered: tuple[str, ...] = ()
+    differing: Mapping[str, float] = field(default_factory=dict)
 
 
 def propagate(
@@ -117,15 +134,17 @@ def propagate(
     ['speed 52%', 'restitution 48%']
     """
     check_options(method, samples, tolerance, seed, threads, progress)
-    stated, drawn, intervals, fixed = read_inputs(inputs)
-    whole = Model(model, fixed)
+    stated = _read_inputs(inputs)
+    drawn = {name: value for name, value in stated.items() if isinstance(value, Distribution)}
+    intervals = {name: (value.low, value.high) for name, value in stated.items() if isinstance(value, Interval)}
+    whole = Model(model, {name: value for name, value in stated.items() if name not in drawn and name not in intervals})
     check_names(model, stated, "inputs", "bad_inputs")
     if method == "interval":
-        return _by_interval(whole, stated, drawn, intervals, correlation)
+        return _by_interval(whole, stated, correlation)
     if not drawn:
         raise InputError(
             f"method={method!r} needs an input with a distribution, and there is none; of intervals alone take "
-            f"method='interval'{pair_hints(fixed)}",
+            f"method='interval'{pair_hints(whole.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -137,47 +156,122 @@ def propagate(
             code="too_many_inputs",
             argument="inputs",
         )
-    seed = secrets.randbits(64) if seed is None else int(seed)
-    report = reporter(progress)
+    # The points that a local method is compared at are always the same: its result is not random.
+    seed = int(seed) if seed is not None else 0 if method in LOCAL else secrets.randbits(64)
     run: Callable[[Model, Report | None], Run] = (
         partial(_local, method, joint)
         if method in LOCAL
         else partial(_sampled, method, joint, int(samples or _SAMPLES), tolerance, seed, int(threads))
     )
-    asked = failed = 0
-    if not intervals:
-        runs = [run(whole, report)]
-        number, outputs = 1, dict(runs[0].outputs)
-        _check_answered(runs)
-    else:
-        searched = extremes(whole, intervals, joint, DESIGNS["quasi_random"](joint.dimensions, seed, 0))
-        spots, asked, failed = searched.places, searched.asked, searched.failed
-        runs, number = [], len(spots)
-        try:
-            for spot in spots:
-                further = None if report is None else _further(report, sum(run.asked for run in runs), number - len(runs))
-                runs.append(run(whole.at(spot), further))
-                if runs[-1].interrupted:
-                    break
-        except KeyboardInterrupt:
-            if not runs:
-                raise
-        _check_answered(runs)
-        outputs = {
-            name: Bounds(
-                name, one.unit, [run.outputs[name] for run in runs if name not in run.unanswered], searched.cuts.get(name)
+    places: list[dict[str, float]] = [{}]
+    asked, failed, cuts = 0, 0, {}
+    if intervals:
+        searched = extremes(whole, intervals, _evenly_drawn(joint, seed, COMMON_CASES))
+        places, asked, failed, cuts = searched.places, searched.asked, searched.failed, searched.cuts
+    runs = _run_at(places, whole, run, reporter(progress))
+    outputs: dict[str, Output] = {}
+    for name, output in runs[0].outputs.items():
+        cases = [one.outputs[name] for one in runs if name not in one.unanswered]
+        if not cases:
+            raise NoSolutionError(
+                f"the model has no answer for {name!r} in any of {sum(one.asked for one in runs)} cases; call it with the mean "
+                f"of the inputs to see why",
+                code="all_failed",
+                output=name,
             )
-            for name, one in runs[0].outputs.items()
-        }
-    asked, failed = asked + sum(run.asked for run in runs), failed + sum(run.failed for run in runs)
-    tell(method, runs, number, method in LOCAL, asked, failed)
-    interrupted = len(runs) < number or runs[-1].interrupted
+        outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
+    asked, failed = asked + sum(one.asked for one in runs), failed + sum(one.failed for one in runs)
+    _warn(method, runs, len(places), asked, failed)
+    interrupted = len(runs) < len(places) or runs[-1].interrupted
     return Propagation(method, stated, outputs, asked, failed, None if method in LOCAL else seed, interrupted)
 
 
-def _further(report: Report, before: int, left: int) -> Report:
-    """Progress of one of several runs, as that of all of them."""
-    return lambda done, total: report(before + done, before + left * total)
+def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
+    """Refuses what is no option, or none of this method."""
+
+    def refuse(argument: str, allowed: str, given: Any) -> None:
+        raise InputError(f"{argument} must be {allowed}, got {shown(given)}", code="bad_option", argument=argument)
+
+    def whole(value: Any, least: int) -> bool:
+        return is_whole(value) and bool(value >= least)
+
+    if not isinstance(method, str) or method not in METHODS:
+        refuse("method", f"one of {', '.join(METHODS)}", method)
+    draws = method in DESIGNS
+    if samples is not None and tolerance is not None:
+        raise InputError("give samples= or tolerance=, not both", code="bad_option", argument="tolerance")
+    for name, value in (("samples", samples), ("tolerance", tolerance)):
+        if value is not None and not draws:
+            raise InputError(f"{name} is for methods that draw; method={method!r} does not", code="bad_option", argument=name)
+    if samples is not None and not (whole(samples, _LEAST_SAMPLES) and samples <= MOST_SAMPLES):
+        refuse("samples", f"a whole number from {_LEAST_SAMPLES} to {MOST_SAMPLES}", samples)
+    if seed is not None and not whole(seed, 0):
+        refuse("seed", "a whole number from 0, or None", seed)
+    if not whole(threads, 1):
+        refuse("threads", "a whole number from 1", threads)
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        refuse("progress", "a function of (done, total), or True for a bar", progress)
+
+
+def _read_inputs(inputs: Any) -> dict[str, Any]:
+    """The inputs by name: distributions and intervals as they are, numbers in SI."""
+    if not isinstance(inputs, Mapping) or not all(isinstance(name, str) for name in inputs):
+        raise InputError(
+            f"inputs must be a dict of what is known by name, such as {{'speed': Normal(15.0, 0.5)}}, got "
+            f"{type(inputs).__name__}",
+            code="bad_inputs",
+            argument="inputs",
+        )
+    return {name: read_input(name, value) for name, value in inputs.items()}
+
+
+def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str, float]:
+    """The tolerance of every output it was given for, in the unit of the output."""
+    given = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(units, tolerance)
+    if not given:
+        raise InputError(
+            f"tolerance names no output; the model returned {', '.join(units)}", code="bad_tolerance", argument="tolerance"
+        )
+    reader = ArgumentReader(trusted=tuple(f"tolerance[{name!r}]" for name in given))
+    found: dict[str, float] = {}
+    for name, value in given.items():
+        if name not in units:
+            raise InputError(
+                f"tolerance names {name!r}, which is no output; the model returned {', '.join(units)}",
+                code="bad_tolerance",
+                argument="tolerance",
+            )
+        found[name] = reader.number(value, units[name] or "", f"tolerance[{name!r}]")
+    reader.close()
+    for name, value in found.items():
+        if not isinstance(value, float) or not value > 0.0:
+            raise InputError(
+                f"tolerance must be a number > 0, got {shown(value)} for {name}", code="bad_tolerance", argument="tolerance"
+            )
+    return found
+
+
+def _run_at(
+    places: Sequence[Mapping[str, float]], whole: Model, run: Callable[[Model, Report | None], Run], report: Report | None
+) -> list[Run]:
+    """A run at each place between the bounds of intervals; an interrupt returns those that are done."""
+    runs: list[Run] = []
+
+    def overall(done: int, total: int) -> None:
+        """Progress of one of several runs, as that of all of them."""
+        before = sum(one.asked for one in runs)
+        if report is not None:
+            report(before + done, before + (len(places) - len(runs)) * total)
+
+    try:
+        for place in places:
+            runs.append(run(whole.at(place), overall if report else None))
+            if runs[-1].interrupted:
+                break
+    except KeyboardInterrupt:
+        if not runs:
+            raise
+    return runs
 
 
 def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Run:
@@ -187,19 +281,19 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
         found, asked = slopes(model, joint, second)
         outputs = {name: local_output(name, model.units[name], joint, slope, second) for name, slope in found.items()}
         # Always the same points: a local result is not random.
-        differing, probes, failed = differences(model, joint, DESIGNS["quasi_random"](joint.dimensions, 0, 0), outputs)
-    return Run(outputs, asked + probes, failed, differing=differing)
+        differing, failed = differences(model, _evenly_drawn(joint, 0, PROBES), outputs)
+    return Run(outputs, asked + PROBES, failed, differing=differing)
+
+
+def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
+    """So many cases of the inputs, a multiple of ``REPLICATES``."""
+    points = DESIGNS["quasi_random"](joint.dimensions, seed, 0)(0, count // REPLICATES)
+    with np.errstate(all="ignore"):
+        return joint.values(points.reshape(joint.dimensions, -1))
 
 
 def _sampled(
-    method: str,
-    joint: Joint,
-    count: int,
-    tolerance: Any,
-    seed: int,
-    threads: int,
-    model: Model,
-    report: Report | None,
+    method: str, joint: Joint, count: int, tolerance: Any, seed: int, threads: int, model: Model, report: Report | None
 ) -> Run:
     """A run by cases drawn from the inputs: this many, and with a tolerance more."""
 
@@ -209,8 +303,8 @@ def _sampled(
     sample = Sample(model, joint, design(joint.dimensions), threads)
     sample.extend(count, report)
     unreached = False
-    if tolerance is not None and not any(np.isnan(values).all() for values in sample.outputs().values()):
-        wanted = read_tolerances(tolerance, model.units)
+    if tolerance is not None and not any(np.isnan(values).all() for values in sample.outputs.values()):
+        wanted = _read_tolerances(tolerance, model.units)
         try:
             while not sample.interrupted and not unreached and not enough(sample, model.units, wanted):
                 unreached = sample.done >= MOST_SAMPLES
@@ -219,59 +313,128 @@ def _sampled(
         except KeyboardInterrupt:
             sample.interrupted = True
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
-    outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs().items()}
+    outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs.items()}
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
-    unanswered = frozenset(name for name, output in outputs.items() if output.failed == sample.done)
-    return Run(outputs, sample.done, sample.failed(), sample.interrupted, unreached, wrapped, unanswered=unanswered)
+    unanswered = tuple(name for name, output in outputs.items() if output.failed == sample.done)
+    return Run(outputs, sample.done, sample.failed(), sample.interrupted, unreached, wrapped, unanswered)
 
 
-def _check_answered(runs: Sequence[Run]) -> None:
-    """Refuses an output that has no answer at all."""
-    for name in runs[0].outputs:
-        if all(name in run.unanswered for run in runs):
-            raise NoSolutionError(
-                f"the model has no answer for {name!r} in any of {sum(run.asked for run in runs)} cases; call it with the mean "
-                f"of the inputs to see why",
-                code="all_failed",
-                output=name,
-            )
+def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]) -> bool:
+    """Whether the standard errors of mean, standard deviation and both ends of the 95 percent interval are all below it."""
+    for name, tolerance in tolerances.items():
+        output = Sampled(name, units[name], sample.outputs[name], dict)
+        errors = [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error([0.025, 0.975])]
+        if not max(errors) <= tolerance:
+            return False
+    return True
 
 
-def _by_interval(
-    model: Model,
-    stated: Mapping[str, Any],
-    drawn: Mapping[str, Distribution],
-    intervals: Mapping[str, tuple[float, float]],
-    correlation: Any,
-) -> Propagation:
+def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> Propagation:
+    """The least and the greatest value of every output between the bounds of the inputs."""
     if correlation is not None and (not isinstance(correlation, Mapping) or correlation):
         raise InputError(
             "method='interval' knows no likelihood, so no correlation either; leave it out",
             code="bad_correlation",
             argument="correlation",
         )
-    bounds = dict(intervals)
-    for name, distribution in drawn.items():
-        low, high = distribution.support
-        if not (abs(low) < float("inf") and abs(high) < float("inf")):
-            raise InputError(
-                f"{name} = {distribution!r} has no bounds for method='interval'; write Interval(low, high), or "
-                f"truncate=(low, high)",
-                code="unbounded",
-                argument=name,
-            )
-        bounds[name] = low, high
+    bounds = {}
+    for name, value in stated.items():
+        if isinstance(value, Interval):
+            bounds[name] = value.low, value.high
+        elif isinstance(value, Distribution):
+            if not all(map(math.isfinite, value.support)):
+                raise InputError(
+                    f"{name} = {value!r} has no bounds for method='interval'; write Interval(low, high), or "
+                    f"truncate=(low, high)",
+                    code="unbounded",
+                    argument=name,
+                )
+            bounds[name] = value.support
     if not bounds:
         raise InputError(
             f"method='interval' needs an input with bounds, such as Interval(low, high){pair_hints(model.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
-    found = extremes(model, {name: bounds[name] for name in stated if name in bounds})
-    outputs = {
-        name: Bounds(name, model.units[name], [Known(name, model.units[name], end) for end in ends])
-        for name, ends in found.values.items()
+    found = extremes(model, bounds, {})
+    # Each end is an output with nothing uncertain about it.
+    ends = {
+        name: [Local(name, model.units[name], value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values]
+        for name, values in found.values.items()
     }
-    run = Run(outputs, found.asked, found.failed, wrapped=found.wrapped)
-    tell("interval", [run], 1, local=False, asked=found.asked, failed=found.failed)
-    return Propagation("interval", stated, outputs, found.asked, found.failed)
+    outputs: dict[str, Output] = {name: Bounds(name, model.units[name], cases) for name, cases in ends.items()}
+    run = Run({name: cases[0] for name, cases in ends.items()}, found.asked, found.failed, wrapped=found.wrapped)
+    _warn("interval", [run], 1, found.asked, found.failed)
+    return Propagation("interval", dict(stated), outputs, found.asked, found.failed)
+
+
+def _warn(method: str, runs: Sequence[Run], places: int, asked: int, failed: int) -> None:
+    """Warns of what was left out of all cases, what was not reached, and what a local method does not know."""
+    if method in LOCAL:
+        _warn_if_not_local(method, runs, failed)
+    elif failed:
+        warn(
+            OutOfRangeWarning(
+                f"{failed} of {asked} cases had no answer ({failed / asked:.2%}) and are left out: the figures hold given "
+                f"that there is one. If such inputs cannot be, say so with truncate=",
+                code="failed_cases",
+                failed=failed,
+            )
+        )
+    if any(run.unreached for run in runs):
+        warn(
+            CollisionsWarning(
+                f"{max(run.asked for run in runs)} cases do not bring the standard errors below the tolerance; this is what "
+                f"they give",
+                code="tolerance_not_reached",
+            )
+        )
+    done = sum(not run.interrupted for run in runs)
+    if done < places:
+        rest = f" at {done} of {places} places between the bounds: they say nothing of the rest" if places > 1 else ""
+        warn(
+            CollisionsWarning(f"interrupted after {asked} cases; the figures are theirs{rest}", code="interrupted", done=asked)
+        )
+    wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
+    bare = tuple(name for name in wrapped if not runs[0].outputs[name].unit)
+    directions = tuple(name for name in wrapped if name not in bare)
+    for names, text in (
+        (
+            bare,
+            "has values near pi and near -pi: if it is an angle, its mean means nothing. Return it with its unit "
+            "(impact.a.q.pdof), so that it is known to be one",
+        ),
+        (
+            directions,
+            "has directions so far round the circle from one another that its mean tells little: the mean errs by more than "
+            "their spread shows, or another one far from it is about as good",
+        ),
+    ):
+        if names:
+            warn(OutOfRangeWarning(f"{', '.join(names)} {text}", code="may_wrap", outputs=names))
+
+
+def _warn_if_not_local(method: str, runs: Sequence[Run], failed: int) -> None:
+    worst: dict[str, float] = {}
+    for run in runs:
+        for name, by in run.differing.items():
+            worst[name] = max(worst.get(name, 0.0), by)
+    reasons = []
+    if worst:
+        listed = ", ".join(
+            f"{name} by {by:.2g} of its standard deviation" if math.isfinite(by) else f"{name} everywhere"
+            for name, by in worst.items()
+        )
+        reasons.append(f"differs from cases drawn from the inputs: {listed}")
+    if failed:
+        reasons.append(f"knows nothing of the {failed} of them without an answer")
+    if reasons:
+        warn(
+            OutOfRangeWarning(
+                f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a bend lies within the spread "
+                f"of the inputs, or an input is far from normal; take method='quasi_random'",
+                code="not_local",
+                differences=worst,
+                failed=failed,
+            )
+        )

@@ -1,21 +1,367 @@
-"""The answer of a propagation: its outputs by name, what it was made from, and what failed."""
+"""The answer of a propagation: every output with mean, spread, quantiles, their standard errors, and what it depends on."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import table
+from ..quantities import OWN, Quantities, derived, returns, show, table
+from ..reading import is_whole
 from ..units import shown
+from . import angles
+from .designs import REPLICATES
+from .distribution import probability
 from .normal import power_of_two
-from .output import Output
-from .sampled import Sampled
+from .normal import quantile as normal_quantile
+
+COVERAGE = 0.95
+_MOST_BINS = 10000
 
 
+class Shares(NamedTuple):
+    """The share of an output's variance that each input has: by itself, and with all it takes part in; standard errors of both.
+
+    By input, largest total first; correlated inputs, and joint samples, cannot be told apart and share one: "mass_a & mass_b".
+    """
+
+    first: dict[str, float]
+    total: dict[str, float]
+    first_error: dict[str, float]
+    total_error: dict[str, float]
+
+
+class Histogram(NamedTuple):
+    """Shares of the cases between edges, with their standard errors."""
+
+    edges: Any
+    shares: Any
+    standard_errors: Any
+
+
+class Output:
+    """One named output of a propagation, given the stated inputs.
+
+    Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the model returned. With an
+    ``Interval`` among the inputs every figure is a pair: the least and the most it may be, wherever in the interval the truth
+    lies.
+
+    Directions, which are angles with their unit that all lie from -pi to pi, are counted round the circle from the point
+    opposite their mean, and so may pass pi. The mean is the direction to which the mean square of the way round is the least,
+    in (-pi, pi]; the standard deviation is the root of this mean square; quantiles and intervals are those of the directions
+    so counted. Of a normal error of a direction that is far less than half a turn these are its mean and standard deviation.
+    """
+
+    def __init__(self, name: str, unit: str | None) -> None:
+        self.name = name
+        self.unit = unit
+        self._cache: dict[str, Any] = {}
+
+    @property
+    def q(self) -> Any:
+        """The same attributes as pint Quantities; only where the model returned Quantities."""
+        if self.unit is None:
+            raise InputError(
+                f"{self.name!r} has no unit, because the model returned plain numbers; return a Quantity such as "
+                f"impact.a.q.delta_v",
+                code="no_unit",
+                argument=self.name,
+            )
+        return Quantities(self)
+
+    @derived(OWN)
+    def mean(self) -> Any:
+        """Expected value."""
+        return self._mean()
+
+    @derived(OWN)
+    def std(self) -> Any:
+        """Standard deviation."""
+        return self._std()
+
+    @derived(OWN)
+    def mean_standard_error(self) -> Any:
+        """Standard error of the mean from sampling; NaN for a local method, which has none and does not know its error."""
+        return math.nan
+
+    @derived(OWN)
+    def std_standard_error(self) -> Any:
+        """Standard error of the standard deviation from sampling; NaN for a local method."""
+        return math.nan
+
+    @returns(OWN)
+    def quantile(self, p: Any) -> Any:
+        """The value that is not exceeded with probability p, a number from 0 to 1 or an array of them."""
+        return self._quantile(probability(p))
+
+    @returns(OWN)
+    def quantile_standard_error(self, p: Any) -> Any:
+        """Standard error of a quantile from sampling; NaN for a local method."""
+        return probability(p) * math.nan
+
+    @returns(OWN)
+    def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
+        """The range (low, high) that holds the value with this probability, as much below it as above.
+
+        Examples
+        --------
+        >>> from collisions import uncertainty
+        >>> speed = uncertainty.propagate(
+        ...     lambda speed: {"energy": 0.5 * 1200.0 * speed**2},
+        ...     {"speed": uncertainty.Normal(20.0, 0.5)},
+        ...     method="first_order",
+        ... )
+        >>> [round(end / 1000.0) for end in speed["energy"].interval(0.95)]
+        [216, 264]
+        """
+        share = probability(coverage, "coverage")
+        if not isinstance(share, float):
+            raise InputError(f"coverage must be one number, got {shown(coverage)}", code="bad_fraction", argument="coverage")
+        low, high = self._quantile(np.array([0.5 - 0.5 * share, 0.5 + 0.5 * share]))
+        return float(low), float(high)
+
+    @property
+    def contributions(self) -> dict[str, float]:
+        """By input, the share of the variance that it has by itself; what is left to 1 is interaction. Largest first."""
+        return _ranked(self._shares().first)
+
+    @property
+    def total_contributions(self) -> dict[str, float]:
+        """By input, the share of the variance that would go if it were known: with all interactions it is in."""
+        return _ranked(self._shares().total)
+
+    @property
+    def contribution_standard_errors(self) -> dict[str, tuple[float, float]]:
+        """By input, the standard errors of its contribution and of its total contribution; NaN for a local method."""
+        found = self._shares()
+        return {name: (found.first_error[name], found.total_error[name]) for name in _ranked(found.total)}
+
+    def histogram(self, bins: int = 40) -> Histogram:
+        """Edges, shares of the cases between them and their standard errors: for a chart; only from sampling."""
+        raise InputError(
+            f"{self.name!r} has no histogram, because nothing was sampled; take method='quasi_random'",
+            code="not_sampled",
+            argument="method",
+        )
+
+    def row(self) -> tuple[str, str]:
+        """Name and figures as a text."""
+        low, high = self.interval()
+        unit = f" {self.unit}" if self.unit else ""
+        if math.isnan(self.std):
+            return self.name, f"{show(self.mean)}{unit} in the one case that has an answer, so no spread is known"
+        return self.name, f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
+
+    def record(self) -> dict[str, Any]:
+        """The figures as plain values that strict JSON can hold."""
+        figures = {
+            "unit": self.unit,
+            "mean": self.mean,
+            "std": self.std,
+            "mean_standard_error": self.mean_standard_error,
+            "std_standard_error": self.std_standard_error,
+            "interval_95": list(self.interval()),
+            "contributions": self.contributions,
+            "total_contributions": self.total_contributions,
+        }
+        return {name: _plain(value) for name, value in figures.items()}
+
+    def __repr__(self) -> str:
+        name, text = self.row()
+        return f"<{name}: {text}, given the stated inputs>"
+
+    def _mean(self) -> Any:
+        raise NotImplementedError
+
+    def _std(self) -> Any:
+        raise NotImplementedError
+
+    def _quantile(self, p: Any) -> Any:
+        raise NotImplementedError
+
+    def _shares(self) -> Shares:
+        raise NotImplementedError
+
+
+class Local(Output):
+    """An output from derivatives at the mean of the inputs, whose quantiles are those of a normal, with skewness if known."""
+
+    def __init__(self, name: str, unit: str | None, mean: float, std: float, skewness: float, shares: Shares) -> None:
+        super().__init__(name, unit)
+        self._figures = mean, std
+        self.skewness = skewness
+        self._known_shares = shares
+
+    def add_turns(self, turns: float) -> None:
+        """Counts a direction by so many turns more."""
+        self._figures = self._figures[0] + 2.0 * math.pi * turns, self._figures[1]
+        self._cache.clear()
+
+    def _mean(self) -> Any:
+        return self._figures[0]
+
+    def _std(self) -> Any:
+        return self._figures[1]
+
+    def _quantile(self, p: Any) -> Any:
+        mean, std = self._figures
+        if std == 0.0:
+            return mean + 0.0 * p
+        z = normal_quantile(p)
+        if self.skewness:
+            # Cornish and Fisher's first term, which shifts the quantiles of a skew distribution, as far as it rises.
+            turn = -3.0 / self.skewness
+            z = np.maximum(z, turn) if self.skewness > 0.0 else np.minimum(z, turn)
+            with np.errstate(invalid="ignore"):
+                z = np.where(np.isinf(z), z, z + (z * z - 1.0) * (self.skewness / 6.0))
+        found = mean + std * z
+        return found if np.ndim(found) else float(found)
+
+    def _shares(self) -> Shares:
+        return self._known_shares
+
+
+class Sampled(Output):
+    """An output that was sampled: one value for each case, in the order they were drawn, NaN where there was no answer."""
+
+    def __init__(self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]]) -> None:
+        super().__init__(name, unit)
+        self._all_shares = shares
+        self._directions = values if unit == "rad" and angles.are_directions(values) else None
+        self.values = values if self._directions is None else angles.counted(values)
+        self.values.setflags(write=False)
+
+    @property
+    def failed(self) -> int:
+        """Cases without an answer, which the figures leave out."""
+        return int(np.count_nonzero(np.isnan(self.values)))
+
+    def add_turns(self, turns: float) -> None:
+        """Counts directions by so many turns more."""
+        self.values = self.values + 2.0 * math.pi * turns
+        self.values.setflags(write=False)
+        self._cache.clear()
+
+    def may_wrap(self) -> bool:
+        """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
+        found = self._answered()
+        if self._directions is not None:
+            return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
+        return self.unit is None and angles.jump(found)
+
+    @derived(OWN)
+    def mean_standard_error(self) -> Any:
+        """Standard error of the mean from sampling; of a probability at least one case in all, which nobody may have seen."""
+        error = self._error(average)
+        found = self._answered()
+        seldom = found.size and found[0] >= 0.0 and found[-1] <= 1.0 and not np.any((found > 0.0) & (found < 1.0))
+        return max(error, 1.0 / found.size) if seldom else error
+
+    @derived(OWN)
+    def std_standard_error(self) -> Any:
+        """Standard error of the standard deviation from sampling."""
+        return self._error(deviation)
+
+    @returns(OWN)
+    def quantile_standard_error(self, p: Any) -> Any:
+        """Standard error of a quantile from sampling; NaN at 0 and 1, beyond which there is nothing to go by.
+
+        That of the share of cases up to the quantile, by the slope of the quantiles there: how quantiles differ between the
+        sequences would tell less, because each of them is even in itself.
+        """
+        share = probability(p)
+        with np.errstate(all="ignore"):
+            found = np.array([self._quantile_error(one) for one in np.ravel(share)]).reshape(np.shape(share))
+        return found if found.ndim else float(found)
+
+    def histogram(self, bins: int = 40) -> Histogram:
+        """Edges, shares of the cases between them and their standard errors: for a chart."""
+        if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
+            raise InputError(
+                f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
+            )
+        try:
+            with np.errstate(all="ignore"):
+                edges = np.histogram_bin_edges(self._answered(), bins)
+            apart = bool(np.all(edges[1:] > edges[:-1]))
+        except ValueError:
+            apart = False
+        if not apart:
+            raise InputError(
+                f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
+                code="no_spread",
+                argument="bins",
+            )
+
+        def shares(values: Any) -> Any:
+            return np.histogram(values, edges)[0] / max(1, values.size)
+
+        return Histogram(edges, shares(self._answered()), self._error(shares))
+
+    def _mean(self) -> Any:
+        return average(self._answered())
+
+    def _std(self) -> Any:
+        return deviation(self._answered())
+
+    def _quantile(self, p: Any) -> Any:
+        with np.errstate(all="ignore"):
+            found = np.quantile(self._answered(), p)
+        return found if found.ndim else float(found)
+
+    def _shares(self) -> Shares:
+        return self._all_shares()[self.name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The shares worked out now: a pickle cannot hold the user's model.
+        return {**self.__dict__, "_all_shares": partial(dict, self._all_shares())}
+
+    def _answered(self) -> Any:
+        """The cases with an answer, sorted."""
+        if "sorted" not in self._cache:
+            self._cache["sorted"] = np.sort(self.values[~np.isnan(self.values)])
+        return self._cache["sorted"]
+
+    def _quantile_error(self, share: float) -> float:
+        found = self._answered()
+        if not 0.0 < share < 1.0 or found.size < 2:
+            return math.nan
+        at = np.quantile(found, share)
+        # Of points that lie evenly the shares can all be the same, and the quantile still lies anywhere between two of them.
+        error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
+        reach = max(error, math.sqrt(share * (1.0 - share) / found.size))
+        low, high = max(0.0, share - reach), min(1.0, share + reach)
+        ends = np.quantile(found, (low, high))
+        return error * float(ends[1] - ends[0]) / (high - low)
+
+    def _error(self, figure: Callable[[Any], Any]) -> Any:
+        """The standard error of a figure, from how it differs between the independent sequences of points."""
+        columns = [column[~np.isnan(column)] for column in self._sequences()]
+        found = [figure(column) for column in columns if column.size > 1]
+        if len(found) < 2:
+            return figure(np.zeros(2)) * math.nan
+        scale = power_of_two(found)
+        error = scale * (np.std(np.divide(found, scale), axis=0, ddof=1) / math.sqrt(len(found)))
+        return error if np.ndim(error) else float(error)
+
+    def _sequences(self) -> list[Any]:
+        """The cases of each independent sequence; directions as each of them alone would count them."""
+        if self._directions is None:
+            return [self.values[which::REPLICATES] for which in range(REPLICATES)]
+        if "sequences" not in self._cache:
+            counted = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]
+            middle = average(self._answered())
+            turn = 2.0 * math.pi
+            self._cache["sequences"] = [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
+        return list(self._cache["sequences"])
+
+
+@dataclass(eq=False, repr=False)
 class Propagation:
     """The outputs of a model given the stated inputs; ``result["delta_v"]`` is one of them.
 
@@ -36,23 +382,13 @@ class Propagation:
         Whether the run was stopped before its end; the figures are those of the cases done.
     """
 
-    def __init__(
-        self,
-        method: str,
-        inputs: Mapping[str, Any],
-        outputs: Mapping[str, Output],
-        samples: int,
-        failed: int,
-        seed: int | None = None,
-        interrupted: bool = False,
-    ) -> None:
-        self.method = method
-        self.inputs = dict(inputs)
-        self.outputs = dict(outputs)
-        self.samples = samples
-        self.failed = failed
-        self.seed = seed
-        self.interrupted = interrupted
+    method: str
+    inputs: dict[str, Any]
+    outputs: dict[str, Output]
+    samples: int
+    failed: int
+    seed: int | None = None
+    interrupted: bool = False
 
     def __getitem__(self, name: str) -> Output:
         try:
@@ -105,3 +441,27 @@ class Propagation:
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         return (output.row() for output in self.outputs.values())
+
+
+def average(values: Any) -> float:
+    """The mean, of numbers whose sum may leave the range of floats too."""
+    scale = power_of_two(values)
+    return float(np.mean(values / scale)) * scale
+
+
+def deviation(values: Any) -> float:
+    """The standard deviation with one degree of freedom less than values, whose squares may leave the range of floats."""
+    scale = power_of_two(values)
+    return float(np.std(values / scale, ddof=1)) * scale if len(values) > 1 else math.nan
+
+
+def _ranked(shares: Mapping[str, float]) -> dict[str, float]:
+    return dict(sorted(shares.items(), key=lambda item: -item[1] if item[1] == item[1] else math.inf))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else str(value)
+    if isinstance(value, list):
+        return [_plain(part) for part in value]
+    return {name: _plain(part) for name, part in value.items()} if isinstance(value, dict) else value

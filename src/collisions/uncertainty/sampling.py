@@ -1,26 +1,163 @@
-"""A model run on drawn cases, block after block, until there are enough of them."""
+"""Cases drawn from the inputs with their correlations, the model run on them, and each input's share of the variance."""
 
 from __future__ import annotations
 
 import math
-import threading
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..errors import InputError
+from ..reading import is_whole
+from ..units import shown
+from . import angles, normal
 from .designs import REPLICATES, Design
-from .draw import Joint
+from .distributions import Distribution, Samples
 from .model import Model
-from .sampled import Sampled
+from .result import Shares, average, deviation
+
+# Correlation of the normal scores of two inputs, by the pair of their names.
+Correlation: TypeAlias = Mapping[tuple[str, str], float]
 
 BLOCK = 16384
 FIRST_BLOCK = 1024
-MOST_SAMPLES = 2**24
+_NODES = 64  # of a Gauss-Hermite rule: exact for the scores of normals, 1e-12 for smooth quantile functions
+_STEPS = 1024  # equal shares of probability instead, where a quantile function has steps
+_PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
+
+
+class Joint:
+    """The uncertain inputs and how they are drawn together: ``rows`` says from which rows of the unit cube each group is."""
+
+    def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
+        self.inputs = inputs
+        pairs = _read_correlation(inputs, {} if correlation is None else correlation)
+        groups = _groups(inputs, pairs)
+        self.labels = [" & ".join(group) for group in groups]
+        # The columns of joint samples, in the order in which they belong together.
+        self._columns = {name: d.rows for name, d in inputs.items() if isinstance(d, Samples) and d.group is not None}
+        self.rows: dict[tuple[str, ...], list[int]] = {}
+        self.dimensions = 0
+        for group in groups:
+            count = 1 if group[0] in self._columns else len(group)
+            self.rows[group] = list(range(self.dimensions, self.dimensions + count))
+            self.dimensions += count
+        self._factors = {group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1}
+
+    def values(self, points: Any) -> dict[str, Any]:
+        """The inputs at points (dimensions, cases)."""
+        found: dict[str, Any] = {}
+        for group, rows in self.rows.items():
+            if group[0] in self._columns:
+                for name in group:
+                    column = self._columns[name]
+                    found[name] = column[(points[rows[0]] * len(column)).astype(np.intp)]
+            elif group in self._factors:
+                independent = [normal.quantile(points[row]) for row in rows]
+                for name, weights in zip(group, self._factors[group], strict=True):
+                    # Term by term: a matrix product adds in an order that depends on how many cases there are.
+                    scores = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
+                    found[name] = self.inputs[name].scored(scores)
+            else:
+                found[group[0]] = self.inputs[group[0]].quantile(points[rows[0]])
+        return {name: found[name] for name in self.inputs}
+
+    def correlations(self) -> Any:
+        """Pearson's correlations of the inputs themselves, in their order."""
+        matrix = np.eye(len(self.inputs))
+        order = {name: i for i, name in enumerate(self.inputs)}
+        for group in self.rows:
+            for k, one in enumerate(group):
+                for other in group[:k]:
+                    i, j = order[one], order[other]
+                    matrix[i, j] = matrix[j, i] = self._correlation(group, one, other)
+        return matrix
+
+    def _correlation(self, group: tuple[str, ...], one: str, other: str) -> float:
+        a, b = self.inputs[one], self.inputs[other]
+        if group[0] in self._columns:
+            return float(np.mean((self._columns[one] - a.mean) / a.sd * ((self._columns[other] - b.mean) / b.sd)))
+        factor = self._factors[group]
+        rho = min(1.0, max(-1.0, float(factor[group.index(one)] @ factor[group.index(other)])))
+        # Standard normal scores and their weights, for the mean of a function of them.
+        if isinstance(a, Samples) or isinstance(b, Samples):
+            nodes, weights = normal.quantile((np.arange(_STEPS) + 0.5) / _STEPS), np.full(_STEPS, 1.0 / _STEPS)
+        else:
+            nodes, weights = np.polynomial.hermite_e.hermegauss(_NODES)
+            weights = weights / weights.sum()
+        x, y = nodes[:, None], rho * nodes[:, None] + math.sqrt(1.0 - rho * rho) * nodes
+        return float(weights @ ((a.scored(x) - a.mean) / a.sd * ((b.scored(y) - b.mean) / b.sd)) @ weights)
+
+
+def _read_correlation(inputs: Mapping[str, Distribution], correlation: Any) -> dict[frozenset[str], float]:
+    """The correlations by pair; wrong ones are refused."""
+    if not isinstance(correlation, Mapping):
+        raise InputError(
+            f"correlation must be a dict such as {{('mass_a', 'mass_b'): 0.8}}, got {type(correlation).__name__}",
+            code="bad_correlation",
+            argument="correlation",
+        )
+    found: dict[frozenset[str], float] = {}
+    for pair, value in correlation.items():
+        if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
+            raise _bad(f"its keys are pairs of two names, got {shown(pair)}")
+        for name in pair:
+            if name not in inputs:
+                raise _bad(f"{name!r} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
+            if getattr(inputs[name], "group", None) is not None:
+                raise _bad(f"{name!r} belongs to joint samples, which already say how it goes with the others")
+        if not (is_whole(value) or isinstance(value, (float, np.floating))) or not -1.0 <= value <= 1.0:
+            raise _bad(f"the correlation of {pair[0]} and {pair[1]} must be a number from -1 to 1, got {shown(value)}")
+        key = frozenset(pair)
+        if key in found and found[key] != float(value):
+            raise _bad(f"{pair[0]} and {pair[1]} are given twice, as {found[key]:g} and {float(value):g}")
+        found[key] = float(value)
+    return found
+
+
+def _bad(reason: str) -> InputError:
+    return InputError(f"correlation: {reason}", code="bad_correlation", argument="correlation")
+
+
+def _groups(inputs: Mapping[str, Distribution], pairs: Mapping[frozenset[str], float]) -> list[tuple[str, ...]]:
+    """The inputs that go together, in order: correlated ones, and the columns of joint samples."""
+    joint: dict[str, set[str]] = {}
+    for name, distribution in inputs.items():
+        if isinstance(distribution, Samples) and distribution.group is not None:
+            joint.setdefault(distribution.group, set()).add(name)
+    group_of = {name: {name} for name in inputs}
+    for linked in (*(pair for pair, rho in pairs.items() if rho != 0.0), *joint.values()):
+        union = set().union(*(group_of[name] for name in linked))
+        group_of |= dict.fromkeys(union, union)
+    # As keys of a dict each group is kept once, where its first member stands.
+    return list(dict.fromkeys(tuple(other for other in inputs if other in group_of[name]) for name in inputs))
+
+
+def _factor(group: Sequence[str], pairs: Mapping[frozenset[str], float]) -> Any:
+    """The lower triangular matrix L of the group's correlation matrix L L^T; correlations of 1 are allowed."""
+    count = len(group)
+    factor = np.zeros((count, count))
+    impossible = _bad(
+        f"these of {', '.join(group)} cannot hold together (the matrix has a negative eigenvalue); what goes with one input as "
+        f"closely as this must go with its companions too: give the missing pairs, or lower values"
+    )
+    for i in range(count):
+        for j in range(i):
+            rest = pairs.get(frozenset((group[i], group[j])), 0.0) - float(factor[i, :j] @ factor[j, :j])
+            if factor[j, j] > 0.0:
+                factor[i, j] = rest / factor[j, j]
+            elif abs(rest) > math.sqrt(_PIVOT_TOL):
+                raise impossible
+        rest = 1.0 - float(factor[i, :i] @ factor[i, :i])
+        if rest < -_PIVOT_TOL:
+            raise impossible
+        factor[i, i] = math.sqrt(rest) if rest > _PIVOT_TOL else 0.0
+    return factor
 
 
 class Sample:
-    """The cases of a run: outputs by name, one value a case, as many as are done."""
+    """The cases of a run that are done: ``outputs`` by name, one value a case, NaN where there is no answer."""
 
     def __init__(self, model: Model, joint: Joint, design: Design, threads: int) -> None:
         self.model = model
@@ -29,48 +166,43 @@ class Sample:
         self.threads = threads
         self.done = 0
         self.interrupted = False
-        self._outputs: dict[str, Any] = {}
-        self._lock = threading.Lock()
+        self.outputs: dict[str, Any] = {}
 
     def extend(self, samples: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first that is missing."""
         blocks = _blocks(self.done, samples)
-        self._grow(samples)
+        parts = [self.outputs] if self.outputs else []
         try:
-            for stop in self._each(blocks):
-                self.done = stop
+            for (_, stop), answers in zip(blocks, self._each(blocks), strict=True):
+                parts.append(answers)
                 if progress is not None:
                     progress(stop, samples)
         except KeyboardInterrupt:
-            self.interrupted = True
-            if self.done < 2 * REPLICATES:
+            if not parts:
                 raise
-        self._outputs = {name: values[: self.done] for name, values in self._outputs.items()}
-
-    def outputs(self) -> dict[str, Any]:
-        """Values by output, NaN where there is no answer."""
-        return {name: values[: self.done] for name, values in self._outputs.items()}
+            self.interrupted = True
+        self.outputs = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        self.done = len(next(iter(self.outputs.values())))
 
     def failed(self) -> int:
         """Cases without an answer to at least one output."""
-        return int(np.count_nonzero(np.any([np.isnan(values) for values in self.outputs().values()], axis=0)))
+        return int(np.count_nonzero(np.any([np.isnan(values) for values in self.outputs.values()], axis=0)))
 
-    def _each(self, blocks: list[tuple[int, int]]) -> Iterator[int]:
-        """Every block worked out; how far the unbroken row of them reaches, in order."""
+    def _each(self, blocks: list[tuple[int, int]]) -> Iterator[dict[str, Any]]:
+        """The answers of every block, in order."""
         if self.threads == 1 or len(blocks) < 2:
-            for block in blocks:
-                yield self._work(block)
+            yield from map(self._answers, blocks)
             return
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(self.threads) as pool:
             try:
-                yield from pool.map(self._work, blocks)
+                yield from pool.map(self._answers, blocks)
             except BaseException:
                 pool.shutdown(wait=True, cancel_futures=True)
                 raise
 
-    def _work(self, block: tuple[int, int]) -> int:
+    def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
         start, stop = block
         # Case i is place i // REPLICATES of sequence i % REPLICATES, so that any beginning holds as much of each.
         first, last = start // REPLICATES, -(-stop // REPLICATES)
@@ -78,20 +210,7 @@ class Sample:
         offset = start - first * REPLICATES
         with np.errstate(all="ignore"):
             values = self.joint.values(points[:, offset : offset + stop - start])
-        answers = self.model(values, stop - start, compare=start == 0)
-        with self._lock:
-            for name, values in answers.items():
-                if name not in self._outputs:
-                    self._outputs[name] = np.full(self._size, math.nan)
-                self._outputs[name][start:stop] = values
-        return stop
-
-    def _grow(self, samples: int) -> None:
-        self._size = samples
-        for name, values in self._outputs.items():
-            larger = np.full(samples, math.nan)
-            larger[: self.done] = values[: self.done]
-            self._outputs[name] = larger
+        return self.model(values, stop - start, check=start == 0)
 
 
 def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
@@ -103,11 +222,56 @@ def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
     return found
 
 
-def enough(sample: Sample, units: Mapping[str, str | None], tolerance: Mapping[str, float]) -> bool:
-    """Whether the standard errors of mean, standard deviation and both ends of the 95 percent interval are all below it."""
-    for name, most in tolerance.items():
-        output = Sampled(name, units[name], sample.outputs()[name].copy(), dict)
-        errors = [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error([0.025, 0.975])]
-        if not max(errors) <= most:
-            return False
-    return True
+def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], samples: int) -> dict[str, Shares]:
+    """How much of the variance of every output each input brings, by drawing it anew while the others stay.
+
+    ``samples`` cases for each input and two more times as many. First-order shares by the estimator of A. Saltelli et al.,
+    "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares by that of
+    M. J. W. Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999).
+    """
+    places = -(-samples // REPLICATES)
+    points = design(2 * joint.dimensions)(0, places).reshape(2 * joint.dimensions, -1)
+    one, other = points[: joint.dimensions], points[joint.dimensions :]
+    draws = [one, other]
+    for rows in joint.rows.values():
+        mixed = one.copy()
+        mixed[rows] = other[rows]
+        draws.append(mixed)
+    with np.errstate(all="ignore"):
+        answers = [model(joint.values(drawn), drawn.shape[1]) for drawn in draws]
+    found: dict[str, Shares] = {}
+    for name, unit in model.units.items():
+        values = np.array([answer[name] for answer in answers])
+        if unit == "rad":
+            values = angles.counted(values.reshape(-1)).reshape(values.shape)
+        shares = [_shares(values[0], values[1], mixed) for mixed in values[2:]]
+        found[name] = Shares(*(dict(zip(joint.labels, figures, strict=True)) for figures in zip(*shares, strict=True)))
+    return found
+
+
+def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
+    """First-order and total share, and their standard errors, over the cases where all three have an answer."""
+    answered = ~(np.isnan(one) | np.isnan(other) | np.isnan(mixed))
+
+    def figures(chosen: Any) -> tuple[float, float]:
+        a, b, c = one[chosen], other[chosen], mixed[chosen]
+        if len(a) < 2:
+            return math.nan, math.nan
+        both = np.concatenate((a, b))
+        # In its own deviations, whose squares leave no range of floats.
+        middle, scale = average(both), deviation(both)
+        if not scale > 0.0:
+            return math.nan, math.nan
+        a, b, c, both = ((part - middle) / scale for part in (a, b, c, both))
+        variance = float(np.var(both))
+        # The mean taken away first: the estimator is free of it, its scatter is not.
+        first = float(np.mean((b - both.mean()) * (c - a)))
+        total = 0.5 * float(np.mean((a - c) ** 2))
+        return (first / variance, total / variance) if variance > 0.0 else (math.nan, math.nan)
+
+    sequence = np.arange(one.size) % REPLICATES
+    with np.errstate(all="ignore"):
+        first, total = figures(answered)
+        apart = np.array([figures(answered & (sequence == which)) for which in range(REPLICATES)])
+        errors = np.std(apart, axis=0, ddof=1) / math.sqrt(REPLICATES)
+    return first, total, float(errors[0]), float(errors[1])
