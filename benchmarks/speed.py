@@ -43,8 +43,8 @@ import time_resolved
 
 import collisions as col
 from collisions import models, reconstruct
+from collisions.kernels.central import linear_central as linear_kernel
 from collisions.kernels.eccentric import eccentric as eccentric_kernel
-from collisions.kernels.linear import linear_central as linear_kernel
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"

@@ -18,9 +18,9 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
-from collisions.kernels.batch import Straight, aligned
+from collisions.kernels.batch import run_as_it_is
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import Replay, record
+from collisions.kernels.replay import Replay, aligned, record
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000
@@ -38,9 +38,8 @@ def inputs():
     return (scene["restitution"], np.cos(normal), np.sin(normal), scene["friction"], *scene["point"], *bodies)
 
 
-def run(given, outputs, length, work):
-    """All cases, block after block."""
-    one = work()
+def run(given, outputs, length, one):
+    """All cases, block after block, each worked out by ``one``."""
     with np.errstate(all="ignore"):
         for start in range(0, CASES, length):
             block = slice(start, min(start + length, CASES))
@@ -52,11 +51,11 @@ if __name__ == "__main__":
     outputs = [aligned(CASES, kind) for kind in KINDS]
     texts = tuple(value.hex() if isinstance(value, float) else None for value in given)
     program = record(eccentric, SETTINGS, texts, np.dtype(float), KINDS)
-    straight = partial(Straight, eccentric, SETTINGS)
+    straight = partial(run_as_it_is, eccentric, SETTINGS)
     ways = {"whole arrays": partial(run, given, outputs, CASES, straight)}
     for length in (8192, 65536):
         ways[f"blocks of {length}"] = partial(run, given, outputs, length, straight)
     for length in (1024, 8192, 65536):
-        ways[f"blocks of {length}, replayed"] = partial(run, given, outputs, length, partial(Replay, program, length))
+        ways[f"blocks of {length}, replayed"] = partial(run, given, outputs, length, Replay(program, length))
     print(f"{CASES} cases, of whole arrays:")
     compare(ways, "whole arrays", rounds=3)

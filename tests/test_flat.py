@@ -11,9 +11,8 @@ import collisions as col
 from collisions import solving
 from collisions.inputs import Inputs
 from collisions.kernels.contact_laws import LAWS, RULES
-from collisions.kernels.flat import flat
 from collisions.kernels.status import Status
-from collisions.models import ECCENTRIC, MODELS, OBLIQUE
+from collisions.models import ECCENTRIC, MODELS, OBLIQUE, float_function
 from scenes import FAMILIES, draw, solved
 
 SETTINGS = [
@@ -81,7 +80,7 @@ def test_the_bits_are_those_of_the_kernel(model, rule, law, carrying, pinned):
             continue
         settings = model.settings(inputs, carrying)
         wanted = model.kernel(*model.numbers(inputs), *settings)
-        found = flat(model.kernel, model.takes, settings)(inputs)
+        found = float_function(model, settings)(inputs)
         if found is None:
             left += 1
             # A division by zero is left too, and of an infinite friction nothing but that.
@@ -102,7 +101,7 @@ def test_extreme_scenes_answer_alike(family, monkeypatch):
         draw(family, law, rule, random.Random(f"{family}{law}{rule}{i}")) for law in LAWS for rule in RULES for i in range(40)
     ]
     found = [attempted(scene) for scene in scenes]
-    monkeypatch.setattr(solving, "flat", lambda *_: lambda inputs: None)
+    monkeypatch.setattr(solving, "float_function", lambda *_: lambda inputs: None)
     wanted = [attempted(scene) for scene in scenes]
     assert sum(isinstance(one, col.Impact) for one in found) > len(scenes) // 3
     for one, other in zip(found, wanted, strict=True):
@@ -126,9 +125,9 @@ def test_a_function_is_made_once():
     b = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, x=2.0, y=0.0)
     contact = {"normal": 0.0, "point": (0.0, 0.1)}
     col.eccentric(a, b, 0.1, **contact, friction=0.5)
-    made = flat.cache_info().misses
+    made = float_function.cache_info().misses
     for friction in (0.0, 0.25, 0.75):
         col.eccentric(a, b, friction, **contact, friction=friction)
-    assert flat.cache_info().misses == made
+    assert float_function.cache_info().misses == made
     col.eccentric(a, b, 0.1, **contact, friction=0.5, law="kudlich-slibar")
-    assert flat.cache_info().misses <= made + 1
+    assert float_function.cache_info().misses <= made + 1

@@ -15,12 +15,12 @@ from .inputs import Inputs, OnFailure, index_of, part_of
 from .kernels.contact_laws import FRICTION
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, solve_least
-from .models import checked
+from .models import checked, model_of
 from .provenance import Reconstruction
 from .quantities import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .side import Side
-from .solving import solve
+from .solving import solve_inputs
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
@@ -327,9 +327,9 @@ class Impact:
         progress: Any = None,
         choice: ModelChoice | None = None,
     ) -> Impact:
-        """The answer to the inputs; ``plain`` as for ``solve``, ``choice`` that of a model that was chosen before."""
+        """The answer to the inputs; ``plain`` as for ``solve_inputs``, ``choice`` that of a model that was chosen before."""
         if inputs.model != "solve":
-            return build(inputs, solve(inputs, plain, on_failure, threads, progress))
+            return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
 
         raw, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
         impact = build(inputs, raw)

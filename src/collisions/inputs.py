@@ -23,7 +23,7 @@ Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 
 _ALONG_X = (1.0, 0.0)
-_NO_OTHERS = [None] * (len(RULES) - 1)
+_NOT_GIVEN = len(RULES) - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,30 +104,11 @@ class Inputs:
         """Whether it is the same question; how a number was written does not make it another."""
         if not isinstance(other, Inputs):
             return NotImplemented
-        return all(same(value, getattr(other, name)) for name, value in vars(self).items() if name != "given")
+        return all(same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self) if f.name != "given")
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked."""
         vars(self).update(lock(state))
-
-
-def _made(
-    model: str, a: Vehicle, b: Vehicle, restitution: Any, normal: Any, rule: str, rule_value: Any, law: Any, point: Any
-) -> Inputs:
-    """What ``Inputs(...)`` makes of plain numbers, in a third of its time: a frozen dataclass sets a field through object."""
-    inputs: Inputs = object.__new__(Inputs)
-    found = inputs.__dict__
-    found["model"] = model
-    found["a"] = a
-    found["b"] = b
-    found["restitution"] = restitution
-    found["normal"] = normal
-    found["rule"] = rule
-    found["rule_value"] = rule_value
-    found["law"] = law
-    found["point"] = point
-    found["given"] = found["tolerance"] = found["contact_velocity"] = None
-    return inputs
 
 
 def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
@@ -177,21 +158,22 @@ def read_inputs(
     problems: Sequence[InputError] = (),
     beside: Iterable[Any] = (),
 ) -> tuple[Inputs, bool]:
-    """The arguments of a solver as its inputs, and whether they, but for the vehicles, are plain numbers.
+    """The arguments of a solver as its inputs, and whether they were plain floats, those of the vehicles too.
 
     ``tangential`` are the values of ``RULES``, of which one must be given. Plain floats in order need no reader; anything else
     goes through it, and one error names all that cannot be used, with the ``problems`` that were found before. ``beside`` has
     the numbers that are not among these arguments, with which the normal shares its precision.
     """
-    friction, *others = tangential
+    friction = tangential[0]
     law_used = None if model == "linear_central" else law
     if (
         type(a) is type(b) is Vehicle
+        and a._given is b._given is None
         and type(restitution) is type(friction) is type(normal) is float
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
         and -6.0 < normal < 6.0
-        and others == _NO_OTHERS
+        and tangential.count(None) == _NOT_GIVEN
         and type(law) is str
         and law in LAWS
         and not problems
@@ -205,8 +187,19 @@ def read_inputs(
             )
         )
     ):
-        along = _ALONG_X if normal == 0.0 else from_radians(normal)
-        return _made(model, a, b, restitution, along, FRICTION, friction, law_used, point), True
+        # What ``Inputs(...)`` does, in a third of its time: a frozen dataclass sets a field through object.
+        inputs: Inputs = object.__new__(Inputs)
+        found = inputs.__dict__
+        found["model"] = model
+        found["a"] = a
+        found["b"] = b
+        found["restitution"] = restitution
+        found["normal"] = _ALONG_X if normal == 0.0 else from_radians(normal)
+        found["rule"] = FRICTION
+        found["rule_value"] = friction
+        found["law"] = law_used
+        found["point"] = point
+        return inputs, True
     reader = ArgumentReader()
     reader.problems.extend(problems)
     for label, vehicle in (("a", a), ("b", b)):
@@ -223,8 +216,8 @@ def read_inputs(
     reader.close()
     # Of a vector only the direction counts.
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
-    inputs = Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None)
-    return inputs, np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
+    plain = a._given is b._given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
+    return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None), plain
 
 
 def _beyond_a_turn(normal: Any) -> dict[str, Any]:

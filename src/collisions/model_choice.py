@@ -18,7 +18,7 @@ from .models import MODELS, checked, lacking, missing_numbers
 from .progress import halves, reporter
 from .quantities import Shown, lock, same, show
 from .reading import ArgumentReader, broadcast
-from .solving import check_options, say_of_cases, solve, solve_cases, value_checks
+from .solving import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
 from .units import Value, to_quantity
 
 _NAMES = tuple(model.name for model in MODELS)
@@ -127,7 +127,6 @@ class ModelChoice(Shown):
 def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
     """The choice of a model, and where the eccentric one is required and lacks something."""
     tolerance: Any = inputs.tolerance
-    plain = plain and inputs.a._given is None and inputs.b._given is None
     shape = None if plain else broadcast({"tolerance": tolerance, **inputs._numbers()})
     missing = tuple(f"{label}.{name}" for label, name in lacking(inputs.a, inputs.b))
     missing += () if inputs.point is not None else ("point",)
@@ -186,14 +185,11 @@ def solve_least(
             refuse_incomplete(inputs, lacks)
     which = choice._which
     if not isinstance(which, np.ndarray):
-        return solve(inputs, plain, on_failure, threads, report, MODELS[which]), choice
+        return solve_inputs(MODELS[which], inputs, plain, on_failure, threads, report, carrying=True), choice
     shape = broadcast({"which": which, **inputs._numbers()}) or ()
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
-    raw = (
-        solve_cases(inputs, used[0], True, shape, threads, report)
-        if len(used) == 1
-        else _solve_mixed(inputs, which, shape, threads, report)
-    )
+    models, numbers = (used, None) if len(used) == 1 else (MODELS, which)
+    raw = solve_cases(models, numbers, inputs, shape, threads, report)
 
     def one(take: Any) -> Any:
         case = checked(inputs._part(take))
@@ -202,17 +198,6 @@ def solve_least(
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)
     return raw, choice
-
-
-def _solve_mixed(inputs: Inputs, which: Any, shape: tuple[int, ...], threads: int, progress: Any) -> Any:
-    """The answer of a batch in which models are mixed."""
-    from .kernels.batch import precision
-    from .kernels.mixed import Part, solve_mixed
-
-    dtype = precision(inputs._numbers().values())
-    eps = float(np.finfo(dtype).eps)
-    parts = [Part(model.kernel, (*model.settings(inputs, True), eps), model.numbers(inputs)) for model in MODELS]
-    return solve_mixed(parts, which, value_checks(inputs, eps), shape, dtype, threads, progress)
 
 
 def _predicted(
@@ -230,18 +215,15 @@ def _predicted(
     if shape is None:
         return least_model(*numbers, inputs.rule, inputs.law, known, EPS)
     # As for batches of one model: single cases never come here.
-    from .kernels.batch import precision
-    from .kernels.mixed import least_models
+    from .kernels.batch import least_models
 
-    dtype = precision(inputs._numbers().values())
-    eps = float(np.finfo(dtype).eps)
-    settings = inputs.rule, inputs.law, known, eps
+    cases, eps = cases_of(inputs, shape, threads)
     limit = tolerance
-    if dtype == np.float32:
+    if cases.dtype == np.float32:
         # What is beyond float32 accepts every error that a float32 can have.
-        most = float(np.finfo(dtype).max)
+        most = float(np.finfo(cases.dtype).max)
         limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
-    return least_models(settings, (*numbers[:-1], limit), value_checks(inputs, eps), shape, dtype, threads, progress)
+    return least_models((inputs.rule, inputs.law, known, eps), (*numbers[:-1], limit), cases, progress)
 
 
 def _reason(inputs: Inputs, tolerance: Any, which: Any, linear: Any, oblique: Any, missing: tuple[str, ...], lacks: Any) -> str:

@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from .errors import InputError, MissingInputError
 from .inputs import Inputs, read_inputs
+from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
-from .kernels.linear import from_closing_speed, linear_central
-from .kernels.oblique import oblique_central
+from .kernels.replay import printed
 from .kernels.status import Answer
 from .vehicle import Vehicle, missing
 
@@ -99,7 +100,7 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
 )
 BY_NAME = {model.name: model for model in MODELS}
 # For reverse solvers, which find the closing speed and the slip to more digits than the rounded motions hold.
-FROM_CONTACT_VELOCITY = BY_NAME | {
+_FROM_CONTACT_VELOCITY = BY_NAME | {
     LINEAR.name: replace(LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)),
     ECCENTRIC.name: replace(
         ECCENTRIC,
@@ -109,25 +110,22 @@ FROM_CONTACT_VELOCITY = BY_NAME | {
 }
 
 
+@lru_cache(maxsize=64)
+def float_function(model: Model, settings: tuple[Any, ...]) -> Callable[[Inputs], Answer | None]:
+    """The kernel of a model as a function of inputs that are plain floats; None for a case that it leaves to the kernel."""
+    return printed(model.kernel, model.takes, settings)
+
+
+def model_of(inputs: Inputs) -> Model:
+    """The model that the inputs name; where a reverse solver found the contact velocity, the one that starts from it."""
+    return (BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY)[inputs.model]
+
+
 def read(
-    model: str,
-    a: Vehicle,
-    b: Vehicle,
-    restitution: Any,
-    normal: Any,
-    point: Any,
-    tangential: tuple[Any, ...],
-    law: Any,
-    problems: Sequence[InputError] = (),
+    model: str, a: Any, b: Any, restitution: Any, normal: Any, point: Any, tangential: tuple[Any, ...], law: Any
 ) -> tuple[Inputs, bool]:
-    """The arguments of a solver as its inputs, refused if the model lacks or cannot hold something; see ``read_inputs``."""
-    if model == "eccentric":
-        found = missing_numbers(a, b, point)
-    elif model == "solve" or (type(a) is type(b) is Vehicle and a.pivot is b.pivot is None):
-        found = ()
-    else:
-        found = pivots(model, a, b)
-    return read_inputs(model, a, b, restitution, normal, point, tangential, law, (*problems, *found) if found else problems)
+    """The arguments of a solver as its inputs, refused if its model lacks or cannot hold something; see ``read_inputs``."""
+    return read_inputs(model, a, b, restitution, normal, point, tangential, law, refusals(model, a, b, point))
 
 
 def checked(inputs: Inputs, found: bool = False) -> Inputs:
@@ -175,8 +173,12 @@ def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
     return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
 
 
-def pivots(model: str, a: Any, b: Any) -> Sequence[InputError]:
-    """The refusals of pinned bodies, which the central models cannot hold."""
+def refusals(model: str, a: Any, b: Any, point: Any) -> Sequence[InputError]:
+    """What a model lacks or cannot hold."""
+    if model == "eccentric":
+        return missing_numbers(a, b, point)
+    if model == "solve" or (type(a) is type(b) is Vehicle and a.pivot is b.pivot is None):
+        return ()
     return [
         InputError(
             f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",

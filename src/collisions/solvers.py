@@ -7,13 +7,14 @@ import math
 import numpy as np
 
 from .amounts import amount
-from .impact import Impact
-from .inputs import Inputs, Law, OnFailure
+from .impact import Impact, build
+from .inputs import Inputs, Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose, refuse_first
-from .models import read
+from .models import ECCENTRIC, LINEAR, OBLIQUE, refusals
 from .progress import Progress
 from .reading import ArgumentReader
+from .solving import solve_inputs
 from .units import Input, Pair
 from .vehicle import Vehicle
 
@@ -79,8 +80,9 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    inputs, plain = read("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH)
-    return Impact._solved(inputs, plain, on_failure, threads, progress)
+    pinned = refusals("linear_central", a, b, None)
+    inputs, plain = read_inputs("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH, pinned)
+    return build(inputs, solve_inputs(LINEAR, inputs, plain, on_failure, threads, progress))
 
 
 def oblique_central(
@@ -148,8 +150,10 @@ def oblique_central(
     >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
     (3.464, -3.0, 2.0)
     """
-    inputs, plain = read("oblique_central", a, b, restitution, normal, None, (friction, impulse_ratio, critical_fraction), law)
-    return Impact._solved(inputs, plain, on_failure, threads, progress)
+    tangential = friction, impulse_ratio, critical_fraction
+    pinned = refusals("oblique_central", a, b, None)
+    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law, pinned)
+    return build(inputs, solve_inputs(OBLIQUE, inputs, plain, on_failure, threads, progress))
 
 
 def eccentric(
@@ -225,8 +229,10 @@ def eccentric(
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
     """
-    inputs, plain = read("eccentric", a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law)
-    return Impact._solved(inputs, plain, on_failure, threads, progress)
+    tangential = friction, impulse_ratio, critical_fraction
+    missing = refusals("eccentric", a, b, point)
+    inputs, plain = read_inputs("eccentric", a, b, restitution, normal, point, tangential, law, missing)
+    return build(inputs, solve_inputs(ECCENTRIC, inputs, plain, on_failure, threads, progress))
 
 
 def required_model(
@@ -350,5 +356,5 @@ def _read(
     limit = amount(reader, tolerance, "m/s", "tolerance")
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
         refuse_first(reader, limit)
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, reader.problems)
+    inputs, plain = read_inputs("solve", a, b, restitution, normal, point, tangential, law, reader.problems)
     return inputs._changed(tolerance=limit), plain and isinstance(limit, float)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -23,9 +23,8 @@ from .kernels.elementwise import (
     rounding,
     without_length,
 )
-from .kernels.flat import flat
 from .kernels.status import Answer, Status
-from .models import BY_NAME, FROM_CONTACT_VELOCITY, Model, checked
+from .models import Model, checked, float_function, model_of
 from .progress import reporter
 from .reading import broadcast
 from .units import shown
@@ -35,31 +34,28 @@ from .warning import warn_of_cases
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 
 
-def solve(
+def solve_inputs(
+    model: Model,
     inputs: Inputs,
     plain: bool = False,
     on_failure: Any = None,
     threads: Any = 1,
     progress: Any = None,
-    model: Model | None = None,
+    carrying: bool = False,
 ) -> Any:
     """The answer of a model to one case or to a batch, with the warnings and errors that go with it.
 
-    ``plain`` says that the inputs hold no array but perhaps in the vehicles. ``model`` is that of the inputs, unless ``solve``
-    chose one, which then carries through the motion that it cannot hold.
+    ``plain`` says that the inputs are plain floats. With ``carrying`` motion that the model cannot hold is carried through.
     """
-    carrying = model is not None
-    model = model or (BY_NAME if inputs.contact_velocity is None else FROM_CONTACT_VELOCITY)[inputs.model]
-    plain = plain and inputs.a._given is None and inputs.b._given is None
     if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
-        raw = flat(model.kernel, model.takes, model.settings(inputs, carrying))(inputs)
+        raw = float_function(model, model.settings(inputs, carrying))(inputs)
         if raw is not None:
             return raw
     check_options(on_failure, threads, progress)
     if not plain:
         shape = broadcast(inputs._numbers())
         if shape is not None:
-            raw = solve_cases(inputs, model, carrying, shape, threads, progress)
+            raw = solve_cases((model,), None, inputs, shape, threads, progress, carrying)
             say_of_cases(inputs, raw, on_failure)
             return raw
     return _solve_case(inputs, model, carrying, on_failure)
@@ -77,16 +73,31 @@ def _solve_case(inputs: Inputs, model: Model, carrying: bool, on_failure: Any) -
     raise refusal(inputs, raw)
 
 
-def solve_cases(inputs: Inputs, model: Model, carrying: bool, shape: tuple[int, ...], threads: int, progress: Any) -> Any:
-    """The answer of a model to the cases of a batch."""
+def solve_cases(
+    models: Sequence[Model],
+    which: Any,
+    inputs: Inputs,
+    shape: tuple[int, ...],
+    threads: int,
+    progress: Any,
+    carrying: bool = True,
+) -> Any:
+    """The answer to the cases of a batch; ``which`` has the number of each case's model, None where there is but one."""
     # Adds a twentieth to the import of the package, and single cases never come here.
-    from .kernels.batch import precision, solve_cases
+    from .kernels.batch import Work, solve_cases
+
+    cases, eps = cases_of(inputs, shape, threads)
+    works = [Work(model.kernel, (*model.settings(inputs, carrying), eps), model.numbers(inputs)) for model in models]
+    return solve_cases(works, which, cases, reporter(progress))
+
+
+def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any, float]:
+    """The cases of a batch as the kernels take them, and the rounding of the precision they are worked out in."""
+    from .kernels.batch import Cases, precision
 
     dtype = precision(inputs._numbers().values())
     eps = float(np.finfo(dtype).eps)
-    settings = (*model.settings(inputs, carrying), eps)
-    checks = value_checks(inputs, eps)
-    return solve_cases(model.kernel, settings, model.numbers(inputs), checks, shape, dtype, threads, reporter(progress))
+    return Cases(_value_checks(inputs, eps), shape, dtype, threads), eps
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
@@ -178,7 +189,7 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
     warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds))
 
 
-def value_checks(inputs: Inputs, eps: float) -> list[Any]:
+def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
     """What the reader checks of scalars, for the arrays of the inputs: the vehicles first, which are made first."""
     from .kernels.batch import Check
 
@@ -223,7 +234,8 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
         return np.broadcast_to(value, status.shape)[index].item()
 
     try:
-        solve(checked(inputs._part(take))) if one is None else one(take)
+        case = checked(inputs._part(take))
+        solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
     outcome = Status(status[index])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..impact import Impact
-from ..kernels.linear import shares
+from ..kernels.central import shares
 from ..provenance import Reconstruction
 from .contact import delta_v
 from .eccentric import impulse_in_scene_axes, levers_of

@@ -1,19 +1,21 @@
-"""Many cases at once: a kernel run in blocks that stay in the cache, on one thread or several.
+"""Many cases at once: kernels run in blocks that stay in the cache, on one thread or several.
 
 Every case is worked out by itself. A refused one is NaN in every output and carries its status; it cannot touch its neighbours.
+Where the cases have models of their own, those of a block are put in the order of their models, worked out, and put back.
 """
 
 from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from .model_error import ECCENTRIC, least_model
 from .replay import Replay, aligned, record
 from .status import Answer, Status
 
@@ -39,6 +41,10 @@ LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
 _SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
+# Works out a block: reads inputs and writes outputs, of which None is not wanted.
+Run: TypeAlias = Callable[[Sequence[Any], Sequence[Any]], None]
+Progress: TypeAlias = Callable[[int, int], None]
+
 
 class Check(NamedTuple):
     """What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
@@ -49,6 +55,28 @@ class Check(NamedTuple):
     fault: Callable[..., Any]
     values: tuple[Any, ...]
     passes: Callable[..., bool] | None = None
+
+
+class Work(NamedTuple):
+    """A kernel, its settings and its inputs."""
+
+    kernel: Callable[..., tuple[Any, ...]]
+    settings: tuple[Any, ...]
+    inputs: tuple[Any, ...]
+
+
+class Cases(NamedTuple):
+    """The cases of a batch: what checks them, their shape, the precision they are worked out in, and on how many threads."""
+
+    checks: Sequence[Check]
+    shape: tuple[int, ...]
+    dtype: Any
+    threads: int = 1
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return math.prod(self.shape)
 
 
 def precision(values: Iterable[Any]) -> Any:
@@ -64,33 +92,44 @@ def precision(values: Iterable[Any]) -> Any:
     return np.float32 if arrays else np.float64
 
 
-def solve_cases(
-    kernel: Callable[..., tuple[Any, ...]],
-    settings: tuple[Any, ...],
-    inputs: Sequence[Any],
-    checks: Sequence[Check],
-    shape: tuple[int, ...],
-    dtype: Any,
-    threads: int = 1,
-    progress: Callable[[int, int], None] | None = None,
-) -> Any:
-    """The kernel's outputs as locked arrays of the given shape; the first check that applies decides the status of a case.
+def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progress | None = None) -> Any:
+    """The outputs of many cases as locked arrays; the first check that applies decides the status of a case.
 
-    ``progress(done, total)`` is called after every block, from the calling thread.
+    ``which`` has the number of each case's work, None where there is but one. ``progress(done, total)`` is called after every
+    block, from the calling thread.
     """
-    solve = partial(_solved, kernel, settings, inputs, checks, shape, np.dtype(dtype), threads)
-    if math.prod(shape) > BLOCK:
-        return BatchAnswer(solve, solve(first_names(inputs, dtype), progress))
+    solve = partial(_solved, works, which, cases)
+    if cases.size > BLOCK:
+        return BatchAnswer(solve, solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress))
     return Answer(**solve(Answer._fields, progress))
 
 
-def first_names(inputs: Sequence[Any], dtype: Any) -> Sequence[str]:
+def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
     """The outputs to work out at once; all of them where the status may turn on one that most callers never read.
 
     What plain numbers make is worked out in float64, and only once it is written is it seen that float32 cannot hold it.
     """
-    plain = [abs(value) for value in inputs if isinstance(value, float) and math.isfinite(value) and value]
+    plain = (abs(value) for value in inputs if isinstance(value, float) and math.isfinite(value) and value)
     return FIRST if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain) else Answer._fields
+
+
+def least_models(
+    settings: tuple[Any, ...], inputs: tuple[Any, ...], cases: Cases, progress: Progress | None = None
+) -> tuple[Any, Any, Any]:
+    """What ``least_model`` answers for many cases; where a check applies, the eccentric model, and no error is known."""
+
+    def refuse(faults: Sequence[Any], answers: Sequence[Any]) -> None:
+        which, *errors = answers
+        for fault in faults:
+            wrong = np.not_equal(fault, Status.OK)
+            which[wrong] = ECCENTRIC
+            for error in errors:
+                error[wrong] = np.nan
+
+    kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
+    outputs = _in_blocks([Work(least_model, settings, inputs)], None, kinds, cases, refuse, progress)
+    which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
+    return which, linear, oblique
 
 
 class BatchAnswer:
@@ -130,105 +169,36 @@ class BatchAnswer:
 
 
 def _solved(
-    kernel: Callable[..., tuple[Any, ...]],
-    settings: tuple[Any, ...],
-    inputs: Sequence[Any],
-    checks: Sequence[Check],
-    shape: tuple[int, ...],
-    dtype: Any,
-    threads: int,
-    names: Sequence[str],
-    progress: Callable[[int, int], None] | None = None,
+    works: Sequence[Work], which: Any, cases: Cases, names: Sequence[str], progress: Progress | None = None
 ) -> dict[str, Any]:
-    """The outputs of these names, the status always among them."""
-    size = math.prod(shape)
-    kinds, outputs = room_for(names, size, dtype)
-    # An array that is looked at more than once is cut once.
-    given = {id(value): value for value in chain(inputs, *(check.values for check in checks))}
-    lanes = {key: value if isinstance(value, float) else flat(value, shape) for key, value in given.items()}
-    work: Callable[[], Callable[[Sequence[Any], Sequence[Any]], None]] = partial(Straight, kernel, settings)
-    length = BLOCK
-    if size > BLOCK:
-        texts = tuple(value.hex() if isinstance(value, float) else None for value in inputs)
-        program = record(kernel, settings, texts, dtype, kinds)
-        length = block_length(size, threads, sum(program.buffers))
-        work = partial(Replay, program, length)
-    mine = threading.local()
-
-    def solve(start: int) -> int:
-        block = slice(start, min(start + length, size))
-        if not hasattr(mine, "run"):
-            mine.run = work()
-        cut = {key: part(lane, block, dtype) for key, lane in lanes.items()}
-        answers = [None if output is None else output[block] for output in outputs]
-        with np.errstate(all="ignore"):
-            faults = faults_of(checks, cut)
-            mine.run([cut[id(value)] for value in inputs], answers)
-        blank(faults, answers)
-        return block.stop - block.start
-
-    each_block(solve, range(0, size, length), size, threads, progress)
-    return settled(outputs, shape, dtype)
-
-
-def room_for(names: Sequence[str], size: int, dtype: Any) -> tuple[tuple[Any, ...], list[Any]]:
-    """The type and an array for every output of these names; None for the others."""
+    """The outputs of these names, the status always among them; locked."""
+    dtype = np.dtype(cases.dtype)
     types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
     kinds = tuple(types.get(name, dtype) if name in names else None for name in Answer._fields)
-    return kinds, [None if kind is None else aligned(size, kind) for kind in kinds]
-
-
-def settled(outputs: Sequence[Any], shape: tuple[int, ...], dtype: Any) -> dict[str, Any]:
-    """The outputs by name, locked; of float32 without the cases whose answers only the float64 of plain numbers could hold."""
+    outputs = _in_blocks(works, which, kinds, cases, blank, progress)
     if dtype == np.float32:
-        beyond = np.zeros(outputs[0].shape, dtype=bool)
-        for output in outputs:
-            if output is not None and output.dtype == dtype:
-                beyond |= np.isinf(output)
-        closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
-        if closing is not None and normal is not None:
-            # The work of the normal impulse, of which an elastic contact loses nothing, however large it is.
-            with np.errstate(over="ignore"):
-                beyond |= np.isinf(closing * normal)
-        beyond &= outputs[0] <= Status.ENERGY_GAIN
-        if beyond.any():
-            blank([np.where(beyond, np.uint8(Status.OUT_OF_RANGE), np.uint8(Status.OK))], outputs)
-    found = {name: output.reshape(shape) for name, output in zip(Answer._fields, outputs, strict=True) if output is not None}
+        _refuse_beyond(outputs)
+    named = zip(Answer._fields, outputs, strict=True)
+    found = {name: output.reshape(cases.shape) for name, output in named if output is not None}
     for output in found.values():
         output.setflags(write=False)
     return found
 
 
-def each_block(
-    solve: Callable[[int], int],
-    starts: Sequence[int],
-    size: int,
-    threads: int,
-    progress: Callable[[int, int], None] | None,
-) -> None:
-    """Calls ``solve`` with the start of every block, on so many threads; it gives back how many cases it has worked out."""
-    if threads == 1 or len(starts) < 2:
-        _report(map(solve, starts), size, progress)
-        return
-    # Costs a tenth of importing numpy, and most calls need no second thread.
-    from concurrent.futures import ThreadPoolExecutor
-
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            _report(pool.map(solve, starts), size, progress)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
-
-
-def faults_of(checks: Sequence[Check], values: Mapping[int, Any]) -> list[Any]:
-    """The statuses that the checks give the cases of a block, values found by their ids; checks that all pass give none."""
-    found = []
-    for check in checks:
-        block = [values[id(value)] for value in check.values]
-        if check.passes is None or not check.passes(*block):
-            found.append(check.fault(*block))
-    return found
+def _refuse_beyond(outputs: Sequence[Any]) -> None:
+    """Refuses the cases of float32 whose answers only the float64 of plain numbers could hold."""
+    beyond = np.zeros(outputs[0].shape, dtype=bool)
+    for output in outputs:
+        if output is not None and output.dtype == np.float32:
+            beyond |= np.isinf(output)
+    closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
+    if closing is not None and normal is not None:
+        # The work of the normal impulse, of which an elastic contact loses nothing, however large it is.
+        with np.errstate(over="ignore"):
+            beyond |= np.isinf(closing * normal)
+    beyond &= outputs[0] <= Status.ENERGY_GAIN
+    if beyond.any():
+        blank([np.where(beyond, np.uint8(Status.OUT_OF_RANGE), np.uint8(Status.OK))], outputs)
 
 
 def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
@@ -241,6 +211,110 @@ def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
         for name, answer in zip(Answer._fields[1:], answers[1:], strict=True):
             if answer is not None:
                 answer[refused] = False if name == "sticks" else np.nan
+
+
+def _in_blocks(
+    works: Sequence[Work],
+    which: Any,
+    kinds: tuple[Any, ...],
+    cases: Cases,
+    refuse: Callable[[Sequence[Any], Sequence[Any]], None],
+    progress: Progress | None,
+) -> list[Any]:
+    """What the kernels answer to all cases, in arrays of these types; ``refuse`` has the faults and the answers of a block."""
+    checks, shape, dtype, threads = cases
+    size = cases.size
+    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
+    # By the id of a value what its cases are cut from: an array that is looked at more than once is cut once.
+    values = chain(*(work.inputs for work in works), *(check.values for check in checks))
+    lanes = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
+    numbers = None if which is None else flat(which, shape)
+    prepared = [_prepared(work, size, kinds, np.dtype(dtype)) for work in works]
+    # A thread keeps the scratch of every model, and of several an output of a block, and has at a time the inputs of a block.
+    gathered = 0 if which is None else sum(not isinstance(lane, float) for lane in lanes.values()) + len(works)
+    length = block_length(size, threads, sum(scratch for _, scratch in prepared) + gathered * np.dtype(dtype).itemsize)
+    stretch = length * len(works)
+    mine = threading.local()
+
+    def solve(start: int) -> int:
+        block = slice(start, min(start + stretch, size))
+        if not hasattr(mine, "runs"):
+            mine.runs = [make(length) for make, _ in prepared]
+            mine.room = None if which is None else aligned(min(stretch, size), np.float64)
+        cut = {key: _part(lane, block, dtype) for key, lane in lanes.items()}
+        inputs = [[cut[id(value)] for value in work.inputs] for work in works]
+        answers = [None if output is None else output[block] for output in outputs]
+        with np.errstate(all="ignore"):
+            # Before anything is gathered: this reads the inputs in the order of the cases, which brings them into the cache.
+            faults = _faults(checks, cut)
+            if numbers is None:
+                mine.runs[0](inputs[0], answers)
+            else:
+                _run_by_model(mine.runs, inputs, numbers[block], answers, length, mine.room)
+        refuse(faults, answers)
+        return block.stop - block.start
+
+    each_block(solve, range(0, size, stretch), size, threads, progress)
+    return outputs
+
+
+def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
+    """The statuses that the checks give the cases of a block; checks that all pass give none."""
+    found = []
+    for check in checks:
+        values = [cut[id(value)] for value in check.values]
+        if check.passes is None or not check.passes(*values):
+            found.append(check.fault(*values))
+    return found
+
+
+def _run_by_model(
+    runs: Sequence[Run], inputs: Sequence[Sequence[Any]], numbers: Any, answers: Sequence[Any], length: int, room: Any
+) -> None:
+    """Gathers the cases of each model, works them out so many at a time, and puts all answers in the order of the cases."""
+    chosen = [np.flatnonzero(numbers == number) for number in range(len(runs))]
+    order = np.concatenate(chosen)
+    in_order = bool(np.all(order[1:] > order[:-1]))
+    at = 0
+    for run, given, cases in zip(runs, inputs, chosen, strict=True):
+        for some in np.array_split(cases, math.ceil(cases.size / length) or 1):
+            here = slice(at, at + some.size)
+            at += some.size
+            if some.size:
+                wanted = here if in_order else some
+                run([_gathered(lane, wanted) for lane in given], [None if one is None else one[here] for one in answers])
+    if not in_order:
+        place = np.empty_like(order)
+        place[order] = np.arange(order.size)
+        for answer in answers:
+            if answer is not None:
+                moved = room.view(answer.dtype)[: answer.size]
+                answer[...] = answer.take(place, out=moved, mode="clip")
+
+
+def _gathered(lane: Any, some: Any) -> Any:
+    """Some cases of a block, which all are inside: to have numpy look takes as long as to gather them."""
+    if isinstance(lane, float):
+        return lane
+    return lane[some] if isinstance(some, slice) else lane.take(some, mode="clip")
+
+
+def _prepared(work: Work, size: int, kinds: tuple[Any, ...], dtype: Any) -> tuple[Callable[[int], Run], int]:
+    """What makes the run of a kernel for blocks of a length, and its scratch in bytes a case: where they are many, recorded."""
+    if size <= BLOCK:
+        return lambda length: partial(run_as_it_is, work.kernel, work.settings), 0
+    texts = tuple(value.hex() if isinstance(value, float) else None for value in work.inputs)
+    program = record(work.kernel, work.settings, texts, dtype, kinds)
+    return partial(Replay, program), sum(kind.itemsize for kind in program.buffers)
+
+
+def run_as_it_is(
+    kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
+) -> None:
+    """A kernel called on a block: for so few cases that recording it would cost more."""
+    for output, answer in zip(outputs, kernel(*inputs, *settings), strict=True):
+        if output is not None:
+            output[...] = answer
 
 
 def block_length(size: int, threads: int, scratch: int) -> int:
@@ -256,20 +330,23 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     return max(BLOCK, math.ceil(even / 64) * 64)
 
 
-class Straight:
-    """A kernel called on a block as it is: for so few cases that recording it would cost more."""
+def each_block(solve: Callable[[int], int], starts: Sequence[int], size: int, threads: int, progress: Progress | None) -> None:
+    """Calls ``solve`` with the start of every block, on so many threads; it gives back how many cases it has worked out."""
+    if threads == 1 or len(starts) < 2:
+        _report(map(solve, starts), size, progress)
+        return
+    # Costs a tenth of importing numpy, and most calls need no second thread.
+    from concurrent.futures import ThreadPoolExecutor
 
-    def __init__(self, kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...]) -> None:
-        self.kernel = kernel
-        self.settings = settings
-
-    def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
-        for output, answer in zip(outputs, self.kernel(*inputs, *self.settings), strict=True):
-            if output is not None:
-                output[...] = answer
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            _report(pool.map(solve, starts), size, progress)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
 
 
-def _report(counts: Any, size: int, progress: Callable[[int, int], None] | None) -> None:
+def _report(counts: Any, size: int, progress: Progress | None) -> None:
     done = 0
     for count in counts:
         done += count
@@ -277,7 +354,7 @@ def _report(counts: Any, size: int, progress: Callable[[int, int], None] | None)
             progress(done, size)
 
 
-def part(lane: Any, block: slice, dtype: Any) -> Any:
+def _part(lane: Any, block: slice, dtype: Any) -> Any:
     """The cases of a block, in the precision of the batch; a plain number as it is."""
     if isinstance(lane, float):
         return lane

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from math import inf, nan
 from typing import Any, NamedTuple
 
+from .central import oblique_central
 from .contact_laws import CRITICAL_FRACTION
 from .eccentric import eccentric
 from .elementwise import larger, select
-from .oblique import oblique_central
 from .status import EPS
 
 # With ``impulse_only`` they answer with other things.

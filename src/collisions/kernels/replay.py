@@ -1,13 +1,13 @@
-"""A kernel recorded once, then repeated on block after block in the same few buffers.
+"""A kernel recorded once: then repeated on block after block in the same few buffers, or printed as a function of floats.
 
-The kernel is called with operands that note what is done to them. What comes of it is a list of numpy calls, each with a
-place to write to: an output, or a buffer that is free again after its last use. Nothing is worked out twice, nothing that no
-output needs, and no memory is asked for while a block runs. The calls are those of the kernel itself, so the bits are too.
+The kernel is called with operands that note what is done to them. Of what it did, nothing is worked out twice, and nothing that
+no output needs. The steps are those of the kernel itself, so the bits are too.
 """
 
 from __future__ import annotations
 
 import math
+from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from operator import itemgetter
@@ -16,37 +16,48 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-INPUT, CONSTANT, BUFFER, OUTPUT = range(4)
+from .status import Answer, Status
+
 _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
 _CODE = np.dtype(np.uint8)
 _PAGE = 4096
+# How a step is written for floats.
+_WRITTEN: dict[Any, str] = {
+    np.add: "({} + {})",
+    np.subtract: "({} - {})",
+    np.multiply: "({} * {})",
+    np.true_divide: "({} / {})",
+    np.negative: "(-{})",
+    np.absolute: "abs({})",
+    np.sqrt: "sqrt({})",
+    np.greater: "({} > {})",
+    np.greater_equal: "({} >= {})",
+    np.less: "({} < {})",
+    np.less_equal: "({} <= {})",
+    np.equal: "({} == {})",
+    np.not_equal: "({} != {})",
+    np.bitwise_and: "({} and {})",
+    np.bitwise_or: "({} or {})",
+    np.bitwise_xor: "({} != {})",
+    np.where: "({1} if {0} else {2})",
+}
 
 Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
-class Cell(NamedTuple):
-    """Where a value lives: its kind of place, which one of that kind (or the constant itself), and what it is read as."""
+class Step(NamedTuple):
+    """One value of a kernel: the function that makes it, of which values, and one element of it, which has its type.
 
-    place: int
-    which: Any
-    dtype: Any
-
-
-class Program(NamedTuple):
-    """Calls in order, each a function and what picks the cells it reads and, last, writes; and the sizes of the buffers.
-
-    The late ones only find out the status, and are left out of a block where all cases are fine.
+    Without a function it is an input, and the operand is its place among them, or a constant, which has no operand.
     """
 
-    calls: tuple[Call, ...]
-    late: tuple[Call, ...]
-    fine: int | None
-    cells: tuple[Cell, ...]
-    buffers: tuple[int, ...]
+    function: Callable[..., Any] | None
+    operands: tuple[int, ...]
+    sample: Any
 
 
 class Traced(NDArrayOperatorsMixin):
-    """An array of the kernel as the tape knows it, with one element of it to tell the type."""
+    """A value of the kernel, by the number of its step."""
 
     def __init__(self, tape: Tape, index: int, sample: Any) -> None:
         self.tape = tape
@@ -59,94 +70,92 @@ class Traced(NDArrayOperatorsMixin):
     def __array_function__(self, function: Any, types: Any, operands: Any, options: Any) -> Any:
         return NotImplemented if function is not np.where or options else self.tape.choose(*operands)
 
-    def __pow__(self, power: Any) -> Any:
-        """What numpy does for an array and these powers."""
-        return self.tape.call(np.sqrt, self) if power == 0.5 else self.tape.call(np.power, self, power)
-
     def __bool__(self) -> bool:
         raise TypeError("a kernel chooses between arrays through select")
 
 
 class Tape:
-    """What a kernel did: every value in order, the call it came from, and the value whose memory it shares."""
+    """What a kernel did, step by step."""
 
     def __init__(self) -> None:
-        self.made: dict[int, tuple[Callable[..., Any], tuple[int, ...]]] = {}
-        self.cells: list[Cell] = []
-        self.root: list[int] = []
+        self.steps: list[Step] = []
         self.known: dict[Any, Traced] = {}
 
-    def add(self, cell: Cell, made: Any, sample: Any, root: int | None = None) -> Traced:
-        if made is not None:
-            self.made[len(self.cells)] = made
-        self.cells.append(cell)
-        self.root.append(len(self.root) if root is None else root)
-        return Traced(self, len(self.cells) - 1, sample)
+    def add(self, function: Any, operands: tuple[int, ...], sample: Any, key: Any = None) -> Traced:
+        """The value of a step, which is the one noted before if it was made before."""
+        key = key or (function, operands, sample.dtype)
+        if key not in self.known:
+            self.known[key] = Traced(self, len(self.steps), sample)
+            self.steps.append(Step(function, operands, sample))
+        return self.known[key]
 
     def input(self, which: int, dtype: Any) -> Traced:
         """An array that the kernel is called with."""
-        return self.add(Cell(INPUT, which, np.dtype(dtype)), None, np.ones(1, dtype))
+        return self.add(None, (which,), np.ones(1, dtype))
 
     def operand(self, value: Any, dtype: Any = None) -> Traced:
         """A value of the kernel, or a plain number, which is noted as it is unless a type is asked for."""
         if isinstance(value, Traced):
-            return (
-                value
-                if dtype is None or dtype == value.sample.dtype
-                else self.keep(_cast, (value,), value.sample.astype(dtype))
-            )
-        if dtype is not None:
-            value = np.array(value, dtype=dtype)
-        key = "number", type(value), np.asarray(value).dtype, np.asarray(value).tobytes()
-        if key not in self.known:
-            self.known[key] = self.add(Cell(CONSTANT, value, dtype), None, value)
-        return self.known[key]
+            same = dtype is None or dtype == value.sample.dtype
+            return value if same else self.add(_cast, (value.index,), value.sample.astype(dtype))
+        number = value if dtype is None else np.array(value, dtype=dtype)
+        array = np.asarray(number)
+        return self.add(None, (), number, ("number", type(number), array.dtype, array.tobytes()))
 
     def call(self, function: Callable[..., Any], *values: Any) -> Traced:
+        """What numpy does for an operator or a ufunc."""
         kinds = {value.sample.dtype for value in values if isinstance(value, Traced)}
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":
             beside = None
         elif function is np.multiply and type(values[0]) is float and values[0] == 1.0:
             return self.operand(values[1])
+        elif function is np.power and type(values[1]) is float and values[1] == 0.5:
+            return self.call(np.sqrt, values[0])
         # A plain number takes the type of the array beside it: the same value, read faster.
-        operands = tuple(self.operand(value, beside if type(value) is float else None) for value in values)
-        return self.keep(function, operands, function(*(operand.sample for operand in operands)))
-
-    def keep(self, function: Callable[..., Any], operands: tuple[Traced, ...], sample: Any) -> Traced:
-        """The value of a call, which is the one noted before if it was made before."""
-        numbers = tuple(operand.index for operand in operands)
-        key = function, numbers, sample.dtype
-        if key not in self.known:
-            self.known[key] = self.add(Cell(BUFFER, None, sample.dtype), (function, numbers), sample)
-        return self.known[key]
-
-    def seen_as(self, value: Traced, dtype: Any) -> Traced:
-        """The same memory read as another type."""
-        key = "seen", value.index, dtype
-        if key not in self.known:
-            sample = value.sample.view(dtype)
-            self.known[key] = self.add(Cell(BUFFER, None, dtype), None, sample, self.root[value.index])
-        return self.known[key]
+        operands = [self.operand(value, beside if type(value) is float else None) for value in values]
+        return self.add(function, tuple(one.index for one in operands), function(*(one.sample for one in operands)))
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         """``np.where`` on the bits of both values: without branches, a quarter of its time where the cases are mixed."""
         samples = [value.sample if isinstance(value, Traced) else value for value in (condition, yes, no)]
-        dtype = np.where(*samples).dtype
-        if dtype.kind in "iu":
-            operands = self.operand(condition), self.operand(yes, _CODE), self.operand(no, _CODE)
-            return self.keep(_label, operands, np.zeros(1, _CODE))
-        bits = _BITS[dtype.itemsize]
-        mask = self.keep(_mask, (self.operand(condition),), np.zeros(1, bits))
-        one, other = (self.bits(self.operand(value, dtype), bits) for value in (yes, no))
-        return self.seen_as(((one ^ other) & mask) ^ other, dtype)
+        dtype, which = np.where(*samples).dtype, self.operand(condition)
+        codes = dtype.kind in "iu"
+        if codes:
+            dtype = _CODE
+        else:
+            which = self.add(_mask, (which.index,), np.zeros(1, _BITS[dtype.itemsize]))
+        operands = which, self.operand(yes, dtype), self.operand(no, dtype)
+        return self.add(_label if codes else _pick, tuple(one.index for one in operands), np.zeros(1, dtype))
 
-    def bits(self, value: Traced, bits: Any) -> Traced:
-        return (
-            self.operand(value.sample.view(bits), bits)
-            if self.cells[value.index].place == CONSTANT
-            else self.seen_as(value, bits)
-        )
+    def fine(self, status: int) -> int | None:
+        """The condition on which the status is 0 without more ado, if the kernel ends by choosing so."""
+        function, operands, _ = self.steps[status]
+        if function not in (_label, np.where) or self.steps[operands[1]].sample != Status.OK:
+            return None
+        return None if self.steps[operands[0]].function is None else operands[0]
+
+
+class _FloatTape(Tape):
+    """A tape whose choices stay choices."""
+
+    def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
+        operands = [self.operand(value) for value in (condition, yes, no)]
+        return self.add(np.where, tuple(one.index for one in operands), np.where(*(one.sample for one in operands)))
+
+
+class Program(NamedTuple):
+    """Calls in order, each a function and what picks the arrays that it reads and, last, writes.
+
+    The arrays are inputs, outputs, constants, and buffers of these types. The late calls only find out the status, and are left
+    out of a block where all cases are fine.
+    """
+
+    calls: tuple[Call, ...]
+    late: tuple[Call, ...]
+    fine: int | None
+    constants: tuple[Any, ...]
+    buffers: tuple[Any, ...]
 
 
 @lru_cache(maxsize=64)
@@ -162,102 +171,78 @@ def record(
     ``outputs`` are the types to write, None for what is not wanted; the first one is.
     """
     tape = Tape()
-    operands: list[Any] = []
-    for which, text in enumerate(inputs):
-        if text is None:
-            operands.append(tape.input(which, dtype))
-        else:
-            operands.append(float.fromhex(text))
+    operands = [tape.input(at, dtype) if text is None else float.fromhex(text) for at, text in enumerate(inputs)]
+    written: dict[int, int] = {}
     with np.errstate(all="ignore"):
-        answers = kernel(*operands, *settings)
-        for which, (answer, wanted) in enumerate(zip(answers, outputs, strict=True)):
-            if wanted is None:
-                continue
-            value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
-            root = tape.root[value.index]
-            if tape.cells[root].place == BUFFER and value.sample.dtype == wanted:
-                tape.cells[root] = Cell(OUTPUT, which, tape.cells[root].dtype)
-            else:
-                tape.add(Cell(OUTPUT, which, np.dtype(wanted)), (_cast, (value.index,)), None)
-    return _placed(tape)
+        for which, (answer, wanted) in enumerate(zip(kernel(*operands, *settings), outputs, strict=True)):
+            if wanted is not None:
+                value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
+                step, index = tape.steps[value.index], value.index
+                if step.function is None or index in written or step.sample.dtype != wanted:
+                    index = len(tape.steps)
+                    tape.steps.append(Step(_cast, (value.index,), np.zeros(1, wanted)))
+                written[index] = which
+    return _placed(tape, written, len(inputs), len(outputs))
 
 
-def _needs(tape: Tape, wanted: set[int]) -> set[int]:
-    """All values that are worked out for these, themselves included."""
-    needed = {tape.root[index] for index in wanted}
-    for index in sorted(tape.made, reverse=True):
-        if index in needed:
-            needed.update(tape.root[operand] for operand in tape.made[index][1])
-    return needed & tape.made.keys()
-
-
-def _fine(tape: Tape, status: int) -> int | None:
-    """The condition on which the status is 0 without more ado, if the kernel ends by choosing so."""
-    function, operands = tape.made[status]
-    is_short = function is _label and tape.cells[operands[1]].place == CONSTANT and tape.cells[operands[1]].which == 0
-    return operands[0] if is_short and tape.cells[operands[0]].place == BUFFER else None
+def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
+    """All steps that are made for these, themselves included."""
+    needed = set(wanted)
+    for index in range(len(steps) - 1, -1, -1):
+        if index in needed and steps[index].function is not None:
+            needed.update(steps[index].operands)
+    return {index for index in needed if steps[index].function is not None}
 
 
 class _Room(NamedTuple):
-    """Memory for a value between: a buffer, or an output up to the call that writes it."""
+    """Memory for a value between: a buffer, or an output up to the step that writes it."""
 
     until: float
     place: int
-    which: int
 
 
-def _placed(tape: Tape) -> Program:
-    """The calls that an output needs, and for every value between a room, which is free again after its last use."""
-    outputs = {index for index, cell in enumerate(tape.cells) if cell.place == OUTPUT}
-    status = min(outputs, key=lambda index: int(tape.cells[index].which))
-    fine = _fine(tape, status)
-    early = _needs(tape, outputs if fine is None else (outputs - {status}) | {fine})
-    order = [*sorted(early), *sorted(_needs(tape, outputs) - early)]
-    written = {index: at for at, index in enumerate(order)}
-    last = {tape.root[operand]: at for at, index in enumerate(order) for operand in tape.made[index][1]}
-    # A ufunc may write over what it reads; what takes two steps may not.
-    in_place = [isinstance(tape.made[index][0], np.ufunc) for index in order]
-    cells = list(tape.cells)
+def _placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Program:
+    """The steps that an output needs, and for every value between a room, which is free again after its last use."""
+    steps = tape.steps
+    (status,) = (index for index, which in written.items() if which == 0)
+    fine = tape.fine(status)
+    early = _needs(steps, set(written) if fine is None else (written.keys() - {status}) | {fine})
+    order = [*sorted(early), *sorted(_needs(steps, set(written)) - early)]
+    last = {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
+    constants = [index for index in sorted(last) if steps[index].function is None and not steps[index].operands]
+    # Where each value is found among inputs, outputs, constants and buffers.
+    places = {index: steps[index].operands[0] for index in last if steps[index].function is None and steps[index].operands}
+    places |= {index: inputs + which for index, which in written.items()}
+    places |= {index: inputs + outputs + at for at, index in enumerate(constants)}
     rooms: dict[int, _Room] = {}
-    free: dict[int, list[_Room]] = {}
-    for index in sorted(outputs - {status}):
-        until = written[index] if in_place[written[index]] else written[index] - 1
-        free.setdefault(cells[index].dtype.itemsize, []).append(_Room(until, OUTPUT, cells[index].which))
-    buffers: list[int] = []
+    free: dict[Any, list[_Room]] = defaultdict(list)
+    # A ufunc may write over what it reads; what takes two steps may not.
+    in_place = [isinstance(steps[index].function, np.ufunc) for index in order]
     for at, index in enumerate(order):
-        size = cells[index].dtype.itemsize
-        ended = [root for root in {tape.root[operand] for operand in tape.made[index][1]} & rooms.keys() if last[root] == at]
-        if cells[index].place == BUFFER:
-            found = [rooms[root] for root in ended if in_place[at] and cells[root].dtype.itemsize == size]
-            found = [room for room in found + free.get(size, [])[::-1] if room.until >= last[index]]
+        if index in written and index != status:
+            free[steps[index].sample.dtype].append(_Room(at if in_place[at] else at - 1, places[index]))
+    buffers: list[Any] = []
+    for at, index in enumerate(order):
+        dtype = steps[index].sample.dtype
+        ended = [operand for operand in set(steps[index].operands) & rooms.keys() if last[operand] == at]
+        if index not in written:
+            found = [rooms[one] for one in ended if in_place[at] and steps[one].sample.dtype == dtype] + free[dtype][::-1]
+            found = [room for room in found if room.until >= last[index]]
             if not found:
-                found.append(_Room(math.inf, BUFFER, len(buffers)))
-                buffers.append(size)
-            rooms[index] = min(found, key=lambda room: room.until)
-            cells[index] = Cell(rooms[index].place, rooms[index].which, cells[index].dtype)
-        for root in ended:
-            free.setdefault(cells[root].dtype.itemsize, []).append(rooms.pop(root))
-        free[size] = [room for room in free.get(size, []) if room != rooms.get(index)]
-    return _numbered(tape, order, len(early), fine, cells, buffers)
-
-
-def _numbered(tape: Tape, order: list[int], early: int, fine: int | None, cells: list[Cell], buffers: list[int]) -> Program:
-    """The program of placed values, in which those that share a place and a type are one cell."""
-    places: dict[Any, int] = {}
-    found: list[Cell] = []
-
-    def number(index: int) -> int:
-        home = cells[tape.root[index]]
-        cell = Cell(home.place, home.which, cells[index].dtype)
-        key = (CONSTANT, index) if cell.place == CONSTANT else cell
-        if key not in places:
-            places[key] = len(found)
-            found.append(cell)
-        return places[key]
-
-    calls = [(tape.made[index][0], itemgetter(*map(number, (*tape.made[index][1], index)))) for index in order]
+                found.append(_Room(math.inf, inputs + outputs + len(constants) + len(buffers)))
+                buffers.append(dtype)
+            rooms[index] = min(found)
+            places[index] = rooms[index].place
+        for one in ended:
+            free[steps[one].sample.dtype].append(rooms.pop(one))
+        free[dtype] = [room for room in free[dtype] if room != rooms.get(index)]
+    calls: list[Any] = [(steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i)))) for i in order]
     return Program(
-        tuple(calls[:early]), tuple(calls[early:]), None if fine is None else number(fine), tuple(found), tuple(buffers)
+        tuple(calls[: len(early)]),
+        tuple(calls[len(early) :]),
+        None if fine is None else places[fine],
+        tuple(steps[index].sample for index in constants),
+        tuple(buffers),
     )
 
 
@@ -275,26 +260,13 @@ class Replay:
     def __init__(self, program: Program, length: int) -> None:
         self.program = program
         self.length = length
-        self.buffers = [aligned(size * length, _CODE) for size in program.buffers]
-        self.arrays = self._bound(length)
-        self.moving = [(index, cell) for index, cell in enumerate(program.cells) if cell.place in (INPUT, OUTPUT)]
-
-    def _bound(self, length: int) -> list[Any]:
-        found: list[Any] = []
-        for place, which, dtype in self.program.cells:
-            if place == BUFFER:
-                found.append(self.buffers[which][: length * dtype.itemsize].view(dtype))
-            else:
-                found.append(which if place == CONSTANT else None)
-        return found
+        self.buffers = [aligned(length, dtype) for dtype in program.buffers]
 
     def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
         """Work out one block: the inputs, arrays cut to it, and slices of the outputs to write to."""
         length = len(outputs[0])
-        arrays = self.arrays if length == self.length else self._bound(length)
-        for index, (place, which, dtype) in self.moving:
-            array = inputs[which] if place == INPUT else outputs[which]
-            arrays[index] = array if array.dtype == dtype else array.view(dtype)
+        buffers = self.buffers if length == self.length else [buffer[:length] for buffer in self.buffers]
+        arrays = [*inputs, *outputs, *self.program.constants, *buffers]
         for function, chosen in self.program.calls:
             function(*chosen(arrays))
         if self.program.fine is not None and arrays[self.program.fine].all():
@@ -318,3 +290,58 @@ def _mask(condition: Any, out: Any) -> None:
     """All bits set where the condition holds."""
     np.copyto(out, condition)
     np.negative(out, out)
+
+
+def _pick(mask: Any, yes: Any, no: Any, out: Any) -> None:
+    one, other, bits = (array.view(mask.dtype) for array in (yes, no, out))
+    np.bitwise_xor(one, other, bits)
+    np.bitwise_and(bits, mask, bits)
+    np.bitwise_xor(bits, other, bits)
+
+
+def printed(kernel: Callable[..., Answer], takes: tuple[str, ...], settings: tuple[Any, ...]) -> Callable[[Any], Answer | None]:
+    """A kernel with these settings as one plain function, which reads its numbers where ``takes`` says.
+
+    It answers the cases in which nothing is unusual; for any other it gives None, and the kernel itself decides.
+    """
+    tape = _FloatTape()
+    with np.errstate(all="ignore"):
+        numbers = [tape.input(which, np.float64) for which in range(len(takes))]
+        answers = [tape.operand(answer).index for answer in kernel(*numbers, *settings)]
+    fine = tape.fine(answers[0])
+    if fine is None:
+        raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
+    wanted = [fine, *answers[1:]]
+    uses = Counter(wanted)
+    for index in range(len(tape.steps) - 1, -1, -1):
+        if index in uses and tape.steps[index].function is not None:
+            uses.update(tape.steps[index].operands)
+    names: dict[int, str] = {}
+    lines = ["a = inputs.a", "b = inputs.b"]
+    for index in sorted(uses):
+        function, operands, sample = tape.steps[index]
+        parts = [] if function is None else [names[operand] for operand in operands]
+        if function is np.bitwise_xor and parts[1] == "True":
+            written = f"(not {parts[0]})"
+        elif function is not None:
+            written = _WRITTEN[function].format(*parts)
+        elif operands:
+            path = takes[operands[0]]
+            written = path if path.startswith(("a.", "b.")) else f"inputs.{path}"
+        else:
+            value = sample.item() if isinstance(sample, (np.ndarray, np.generic)) else sample
+            written = repr(value) if math.isfinite(value) else f"float('{value}')"
+        names[index] = written
+        if uses[index] > 1 and (function is not None or operands):
+            names[index] = f"v{index}"
+            lines.append(f"v{index} = {written}")
+    returned = ", ".join(["OK", *(names[index] for index in answers[1:])])
+    body = "\n        ".join([*lines, f"if {names[fine]}:"])
+    source = (
+        f"def function(inputs):\n    try:\n        {body}\n            return new(Answer, ({returned}))\n"
+        f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
+    )
+    found: dict[str, Any] = {"sqrt": math.sqrt, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
+    exec(compile(source, f"<{kernel.__name__} of floats>", "exec"), found)
+    function_made: Callable[[Any], Answer | None] = found["function"]
+    return function_made

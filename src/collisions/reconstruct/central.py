@@ -11,9 +11,9 @@ from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..impact import Impact
 from ..inputs import Inputs, OnFailure
+from ..kernels.central import shares
 from ..kernels.contact_laws import FRICTION
 from ..kernels.elementwise import POSITIVE, RESTITUTION
-from ..kernels.linear import shares
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
 from ..provenance import Reconstruction

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
+from ..kernels.central import shares
 from ..kernels.elementwise import POSITIVE, RESTITUTION
-from ..kernels.linear import shares
 from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
 from ..kernels.status import Status
 from ..reading import ArgumentReader

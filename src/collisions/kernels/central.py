@@ -1,11 +1,113 @@
-"""Oblique central impact: two point masses, impulse along the normal and, with friction, the tangent (eq 9 of the paper)."""
+"""Central impacts of two point masses: along one line (eqs 2 to 8 of the paper), and oblique, with friction (eq 9)."""
 
+from math import inf
 from typing import Any
 
 from .contact_laws import LAWS, RULES, dissipates, energy_losses
-from .elementwise import first_status, select
-from .linear import shares
+from .elementwise import first_status, more_digits, select
 from .status import EPS, Answer, Status
+
+
+def shares(mass_a: Any, mass_b: Any) -> tuple[Any, Any, Any, Any]:
+    """Share of A, share of B, reduced mass, and whether both bodies are immovable.
+
+    Built on ratios of the masses, which are 0 or infinite against a barrier: no sum or product of masses overflows, and no
+    infinity meets another. The reduced mass is the lighter mass times its own share.
+    """
+    share_a = 1.0 / (1.0 + mass_a / mass_b)
+    share_b = 1.0 / (1.0 + mass_b / mass_a)
+    reduced = select(mass_a <= mass_b, mass_a * share_a, mass_b * share_b)
+    return share_a, share_b, reduced, (mass_a == inf) & (mass_b == inf)
+
+
+def linear_central(
+    restitution: Any,
+    nx: Any,
+    ny: Any,
+    mass_a: Any,
+    vx_a: Any,
+    vy_a: Any,
+    spin_a: Any,
+    mass_b: Any,
+    vx_b: Any,
+    vy_b: Any,
+    spin_b: Any,
+    carrying: bool = False,
+    eps: float = EPS,
+    *,
+    contact_velocity: tuple[Any, Any] | None = None,
+) -> Answer:
+    """The ``Answer`` of the linear central model.
+
+    What turns or moves across the normal is refused, or, if ``carrying``, carried through unchanged. ``contact_velocity`` is as
+    for ``eccentric``, without slip.
+    """
+    share_a, share_b, effective_mass, immovable = shares(mass_a, mass_b)
+    # Velocities are subtracted before anything else, so that a common motion of both bodies costs no digits.
+    ux = vx_b - vx_a
+    uy = vy_b - vy_a
+    closing = -(nx * ux + ny * uy)
+    if contact_velocity is not None:
+        speeds = abs(vx_a) + abs(vy_a) + abs(vx_b) + abs(vy_b)
+        closing, _ = more_digits(contact_velocity, closing, 0.0, speeds, eps)
+    change = (1.0 + restitution) * closing
+    compression = effective_mass * closing
+    normal = effective_mass * change
+    loss = 0.5 * (1.0 - restitution) * (closing * normal)
+    dvn_a = -(share_a * change)
+    dvn_b = share_b * change
+    total = normal + loss + dvn_a + dvn_b
+    slip: Any = 0.0
+    spins: Any = False
+    across: Any = False
+    if carrying:
+        slip = nx * uy - ny * ux
+        total = total + slip
+    else:
+        spins = (spin_a != 0.0) | (spin_b != 0.0)
+        # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
+        most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
+        across = (abs(nx * vy_a - ny * vx_a) > most) | (abs(nx * vy_b - ny * vx_b) > most)
+    fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
+    status = (
+        Status.OK
+        if fine is True
+        else select(
+            fine,
+            Status.OK,
+            first_status(
+                (spins, Status.SPINNING),
+                (across, Status.TRANSVERSE),
+                (immovable, Status.IMMOVABLE),
+                (closing < 0.0, Status.SEPARATING),
+                (closing == 0.0, Status.GRAZING),
+                (total - total != 0.0, Status.OUT_OF_RANGE),
+            ),
+        )
+    )
+    return Answer(
+        status=status,
+        closing_speed=closing,
+        slip_before=slip,
+        slip_after=slip,
+        normal_impulse=normal,
+        compression_impulse=compression,
+        no_slip_normal=normal,
+        effective_mass=effective_mass,
+        energy_loss_normal=loss,
+        energy_loss=loss,
+        impulse_x=nx * normal,
+        impulse_y=ny * normal,
+        delta_vx_a=nx * dvn_a,
+        delta_vy_a=ny * dvn_a,
+        delta_vx_b=nx * dvn_b,
+        delta_vy_b=ny * dvn_b,
+    )
+
+
+def from_closing_speed(closing: Any, *inputs: Any) -> Answer:
+    """``linear_central`` with the closing speed before its other inputs."""
+    return linear_central(*inputs, contact_velocity=(closing, 0.0))
 
 
 def oblique_central(
