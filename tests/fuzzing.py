@@ -37,7 +37,7 @@ from collisions.diagnostics.finding import Findings
 from collisions.inputs import Inputs
 from collisions.model_choice import ByModel
 from collisions.quantities import Quantities
-from collisions.reconstruct.fit_parts import Direction, Estimate, Residual, Values
+from collisions.reconstruct.fit_result import Direction, Estimate, Residual, Values
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.side import Side
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries

@@ -18,8 +18,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct, travel
 from collisions.reconstruct import fit
-from collisions.reconstruct.chi_squared import survival
-from collisions.reconstruct.least_squares import Problem, spread
+from collisions.reconstruct.least_squares import Problem, chi_squared_tail, spread
 from collisions.uncertainty.distributions import Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from collisions.uncertainty.propagation import propagate
 
@@ -89,12 +88,12 @@ def test_chi_squared_tail(freedom):
         exact = mpmath.gammainc(mpmath.mpf(freedom) / 2, mpmath.mpf(x) / 2, regularized=True)
         size = 1.0 + 0.5 * x + 0.5 * freedom * abs(math.log(0.5 * x)) if x else 1.0
         size += abs(math.lgamma(0.5 * freedom))
-        assert abs(survival(x, freedom) - exact) <= 16 * 2.0**-52 * size * exact + 1e-300
-    assert survival(math.inf, freedom) == 0.0
+        assert abs(chi_squared_tail(x, freedom) - exact) <= 16 * 2.0**-52 * size * exact + 1e-300
+    assert chi_squared_tail(math.inf, freedom) == 0.0
 
 
 def test_chi_squared_without_freedom_is_nan():
-    assert math.isnan(survival(1.0, 0))
+    assert math.isnan(chi_squared_tail(1.0, 0))
 
 
 @pytest.mark.parametrize("seed", range(8))

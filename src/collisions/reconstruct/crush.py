@@ -13,11 +13,12 @@ from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels.status import Status
 from ..reading import ArgumentReader, largest, warn_if_large
+from ..solving import warn_of_refusals
 from ..units import Input, Value, has_unit, is_quantity, shown
 from ..warning import warn
-from .common import ASK_ALONE, Cases, input_faults, raise_or_warn
+from .common import ASK_ALONE, Cases, input_faults
 
-_NO_WORK = 2.0**-52  # what is left of the cosine of 90 degrees in radians
+_RIGHT_ANGLE = 2.0**-52  # what is left of the cosine of 90 degrees in radians
 # In metres: no car is crushed so deep, and no damage is so wide.
 _DEEPEST, _WIDEST = 2.0, 10.0
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
@@ -110,7 +111,7 @@ def crush_energy(
         )
     angle = Angle(*reader.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
-    if isinstance(cosine, float) and not (cosine > _NO_WORK or math.isnan(cosine)):
+    if isinstance(cosine, float) and not (cosine > _RIGHT_ANGLE or math.isnan(cosine)):
         reader.refuse(
             InputError(
                 f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {shown(force_angle)}",
@@ -121,12 +122,12 @@ def crush_energy(
     reader.close()
     _warn_if_large(depths, crush, _DEEPEST, "depths", max)
     _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
-    numbers = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
-    numbers["stiffness_a"] = a
-    cases = Cases.of({**numbers, "stiffness_b": b, "force_angle": angle.value})
-    cosine = angle.beside((*numbers.values(), b)).direction[0]
-    # What the reader has looked at in single numbers; nothing is left of a cosine of 90 degrees.
-    oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _NO_WORK)
+    amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {f"widths[{i}]": gap for i, gap in enumerate(gaps)}
+    amounts["stiffness_a"] = a
+    numbers = amounts | {"stiffness_b": b, "force_angle": angle.value}
+    cases = Cases.of(numbers)
+    cosine = angle.beside((*amounts.values(), b)).direction[0]
+    oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(cosine, _RIGHT_ANGLE)
     if np.any(oblique):
         warn(
             OutOfRangeWarning(
@@ -140,17 +141,20 @@ def crush_energy(
         energy = sum(_gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)) / (cosine * cosine)
         status = cases.first_status(
             (
-                *input_faults({**numbers, "stiffness_b": b, "force_angle": angle.value}),
-                *((np.less(value, 0.0), Status.CONTRADICTORY) for value in numbers.values()),
+                *input_faults(numbers),
+                *((np.less(value, 0.0), Status.CONTRADICTORY) for value in amounts.values()),
                 (np.less_equal(b, 0.0), Status.NOT_POSITIVE),
-                (np.less_equal(cosine, _NO_WORK), Status.CONTRADICTORY),
+                (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY),
                 (cases.beyond(energy), Status.OUT_OF_RANGE),
             )
         )
-    if cases.shape is not None:
-        raise_or_warn(status, None, _too_large, ASK_ALONE)
-    elif status != Status.OK:
-        raise _too_large()
+    if cases.shape is None and status != Status.OK:
+        # The reader has seen to the rest.
+        raise InputError(
+            "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
+        )
+    if np.any(status > Status.ENERGY_GAIN):
+        warn_of_refusals(status, ASK_ALONE)
     absorbed: Value = cases.values(np.where(np.equal(status, Status.OK), energy, np.nan))
     return absorbed
 
@@ -164,26 +168,20 @@ def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_
 
 
 def _profile(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """A list of one number for each point or gap, each with an array if it is of many cases; a number that is one alone."""
-    if isinstance(value, (list, tuple)):
-        return [amount(reader, part, "m", f"{name}[{i}]") for i, part in enumerate(value)]
-    read = amount(reader, value, "m", name)
-    if not isinstance(read, np.ndarray):
-        return read
-    if read.ndim > 1:
-        raise ShapeError(
-            f"{name} is an array of shape {read.shape}; one profile is an array of one dimension, and many cases are a list "
-            f"of arrays, such as list({name}.T) if each row is a case",
-            code="bad_shape",
-            argument=name,
-        )
-    return [amount(reader, part, "m", f"{name}[{i}]") for i, part in enumerate(read.tolist())]
-
-
-def _too_large(index: tuple[int, ...] = ()) -> InputError:
-    return InputError(
-        "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
-    )
+    """A list of one number for each point or gap, each with an array if it is of many cases; or a single number."""
+    if not isinstance(value, (list, tuple)):
+        read = amount(reader, value, "m", name)
+        if not isinstance(read, np.ndarray):
+            return read
+        if read.ndim > 1:
+            raise ShapeError(
+                f"{name} is an array of shape {read.shape}; one profile is an array of one dimension, and many cases are a "
+                f"list of arrays, such as list({name}.T) if each row is a case",
+                code="bad_shape",
+                argument=name,
+            )
+        value = read.tolist()
+    return [amount(reader, part, "m", f"{name}[{i}]") for i, part in enumerate(value)]
 
 
 def _gap_energy(width: Any, one: Any, two: Any, a: Any, b: Any) -> Any:

@@ -8,31 +8,38 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import (
-    AmbiguousSolutionError,
-    CollisionsWarning,
-    IllConditionedWarning,
-    NoSolutionError,
-    SuspectUnitsWarning,
-)
+from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
 from ..warning import warn
-from .fit_answer import answer_at, turns
-from .fit_place import SAME, TWICE, Place, agreed, on_bounds, seen_closely, told_at
-from .fit_problem import Question, read_question, refused_everywhere
-from .fit_result import BENT, CONTRADICTION, Fit
-from .least_squares import AT_REFUSAL, CONVERGED, REFUSED, SEARCHING, STALLED, Ends, minimise, spread
+from .fit_candidate import SAME_CHI_SQUARED, TWO_ERROR_RISE, Candidate, examined, with_limits
+from .fit_problem import FitInputs, read_fit_inputs
+from .fit_result import Direction, Fit, Residual, Values, warnings_of
+from .least_squares import (
+    AT_REFUSAL,
+    CONVERGED,
+    REFUSED,
+    SEARCHING,
+    STALLED,
+    Ends,
+    Problem,
+    chi_squared_tail,
+    minimise,
+    spread,
+)
 
 _STARTS = 64
 _MORE_STARTS = 4096  # looked at where the model refuses all of the first
 _FEW = 2  # searches that ended at the best: more are begun around it
 _CLOSER, _CLOSEST = 4.0, 6  # how many times closer each time, and how often
-_NARROWER = 10.0  # times
-_BENT = (
-    "there the model has a jump or a bend (a contact that begins to stick, an angle without unit that goes round), so that no "
-    "error can be given"
-)
+_OVERSTATED = 10.0  # times the errors that chi-squared shows: the slope vanishes close by
 _APART = 1.0  # standard errors
 _AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
+
+_WHY_NO_MINIMUM = {
+    STALLED: "there the model has a jump or a bend (a contact that begins to stick, an angle without unit that goes round), so "
+    "that no error can be given",
+    AT_REFUSAL: "beyond it the model refuses (the bodies no longer meet, for one)",
+    SEARCHING: "the search was still going down",
+}
 
 
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
@@ -109,46 +116,72 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     """
     # What leaves the range of floats is a point that is refused.
     with np.errstate(all="ignore"):
-        question = read_question(model, unknowns, observed)
-        first = _searched(question)
-        ends = _searched_around(question, first)
-        best = seen_closely(question, ends, _lowest(ends))
+        inputs = read_fit_inputs(model, unknowns, observed)
+        problem = inputs.problem()
+        first = _search(inputs, problem)
+        ends = _search_around(inputs, problem, first)
+        best = examined(inputs, problem, ends, _lowest(ends))
         if best.state == CONVERGED:
-            best = on_bounds(best, ends)
-        _check_ended(best, ends)
-        fits = [answer_at(place, ends, len(ends.state) - len(first.state)) for place in _rivals(question, ends, best)]
-    if len(fits) > 1:
-        raise _ambiguous(fits)
-    _say(question, fits[0])
-    return fits[0]
+            best = with_limits(best, ends)
+        _check_minimum(best, ends)
+        fits = [_answer(candidate, ends, len(ends.state) - len(first.state)) for candidate in _rivals(problem, ends, best)]
+        if len(fits) > 1:
+            raise _ambiguous(fits)
+        found = fits[0]
+        if not any(map(math.isnan, found.values.values())):
+            # For the warnings that the model itself gives there.
+            inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
+    for warning in warnings_of(found):
+        warn(warning)
+    return found
 
 
-def _searched(question: Question) -> Ends:
+def _search(inputs: FitInputs, problem: Problem) -> Ends:
     """Where the searches from all starts ended; refuses a model that answers at none."""
-    low, high = (np.array(ends) for ends in zip(*(unknown.box for unknown in question.unknowns), strict=True))
-    starts = spread(_STARTS, low, high)
-    starts[0] = [unknown.start for unknown in question.unknowns]
-    ends = minimise(question.problem, starts)
+    starts = spread(_STARTS, *inputs.box)
+    starts[0] = inputs.numbers_of("start")
+    ends = minimise(problem, starts)
     if np.all(ends.state == REFUSED):
-        starts = spread(_MORE_STARTS, low, high)
-        known = np.all(np.isfinite(question.problem.evaluate(starts)), axis=1)
+        starts = spread(_MORE_STARTS, *inputs.box)
+        known = np.all(np.isfinite(problem.evaluate(starts)), axis=1)
         if np.any(known):
-            ends = minimise(question.problem, starts[known][:_STARTS])
+            ends = minimise(problem, starts[known][:_STARTS])
     if np.all(ends.state == REFUSED):
-        raise refused_everywhere(question, _STARTS + _MORE_STARTS)
+        raise _refused_everywhere(inputs)
     return ends
 
 
-def _searched_around(question: Question, ends: Ends) -> Ends:
+def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
+    """The model answers nowhere that was looked at, and why not if it says so for a single case."""
+    at = {unknown.name: unknown.start for unknown in inputs.unknowns}
+    reason = "; call the model there with on_failure='raise' to be told why"
+    try:
+        inputs.model.function(**at)
+    except CollisionsError as error:
+        reason = f": {error}"
+    except Exception:
+        # A model of arrays need not take floats, and why it does not is no reason of the scene.
+        pass
+    tried = _STARTS + _MORE_STARTS
+    return NoSolutionError(
+        f"the model refuses all {tried} points tried for the unknowns, among them {_listed(at)}{reason}. Give bounds or starts "
+        f"of the unknowns within which the impact happens",
+        code="refused",
+        points=tried,
+        at=at,
+    )
+
+
+def _search_around(inputs: FitInputs, problem: Problem, ends: Ends) -> Ends:
     """The same searches, and where few ended at the best, as among many hollows, more around it, closer and closer."""
-    low, high = (np.array(ends) for ends in zip(*(unknown.box for unknown in question.unknowns), strict=True))
+    low, high = inputs.box
     best = _lowest(ends)
-    here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME)
+    here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME_CHI_SQUARED)
     if ends.state[best] != CONVERGED or np.count_nonzero(here) > _FEW or len(here) <= _FEW:
         return ends
     for closer in range(1, _CLOSEST + 1):
         middle, half = ends.points[_lowest(ends)], 0.5 * (high - low) / _CLOSER**closer
-        more = minimise(question.problem, spread(_STARTS, middle - half, middle + half))
+        more = minimise(problem, spread(_STARTS, middle - half, middle + half))
         ends = Ends(*(np.concatenate(both) for both in zip(ends, more, strict=True)))
     return ends
 
@@ -157,73 +190,60 @@ def _lowest(ends: Ends) -> int:
     """The search of the least misfit, one that converged if it is as good."""
     lowest = int(np.argmin(ends.chi_squared))
     best = int(np.argmin(np.where(ends.state == CONVERGED, ends.chi_squared, np.inf)))
-    return best if ends.state[best] == CONVERGED and ends.chi_squared[best] <= ends.chi_squared[lowest] + SAME else lowest
+    as_good = ends.chi_squared[best] <= ends.chi_squared[lowest] + SAME_CHI_SQUARED
+    return best if ends.state[best] == CONVERGED and as_good else lowest
 
 
-def _check_ended(place: Place, ends: Ends) -> None:
+def _check_minimum(best: Candidate, ends: Ends) -> None:
     """Refuses where the misfit is least at a place that is no minimum of a smooth model."""
-    advice = "Narrow the bounds to one side of it, or give fewer unknowns"
-    if place.state != CONVERGED:
-        why = {
-            STALLED: _BENT,
-            AT_REFUSAL: "beyond it the model refuses (the bodies no longer meet, for one)",
-            SEARCHING: "the search was still going down",
-        }[place.state]
-    elif place.question.problem.is_bent(place.point):
-        why = _BENT
-    elif _turns(place, ends):
+    why, advice = _WHY_NO_MINIMUM.get(best.state), "Narrow the bounds to one side of it, or give fewer unknowns"
+    if why is None and best.problem.has_kink(best.point):
+        why = _WHY_NO_MINIMUM[STALLED]
+    # Searches that agree in an unknown that no slope identifies, or slopes that vanish so close by that no error holds.
+    if why is None and (np.any(np.isinf(best.errors) & best.agreed(ends)) or best.overstates_errors(_OVERSTATED)):
         why = "there the model turns round, so that its slopes tell no error"
         advice = (
             "Narrow the bounds to one side of it (on a bound the rise of chi-squared tells a range), give a prior of it (a "
             "Normal), or fewer unknowns"
         )
-    else:
-        return
-    at = dict(zip(place.question.names, place.point.tolist(), strict=True))
-    where = ", ".join(f"{name} = {value:.6g}" for name, value in at.items())
-    raise NoSolutionError(
-        f"no search ended at a minimum: the least misfit found is chi-squared {place.chi_squared:.6g} at {where}, and "
-        f"{why}. {advice}",
-        code="no_convergence",
-        chi_squared=place.chi_squared,
-        at=at,
-    )
+    if why is not None:
+        at = dict(zip(best.inputs.names, best.point.tolist(), strict=True))
+        raise NoSolutionError(
+            f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {_listed(at)}, and "
+            f"{why}. {advice}",
+            code="no_convergence",
+            chi_squared=best.chi_squared,
+            at=at,
+        )
 
 
-def _turns(place: Place, ends: Ends) -> bool:
-    """Whether searches agree in an unknown that the slopes leave open, or slopes vanish so close by that no error holds."""
-    is_open = np.isinf(np.diagonal(told_at(place).covariance))
-    return bool(np.any(is_open & agreed(place, ends))) or turns(place, _NARROWER)
-
-
-def _rivals(question: Question, ends: Ends, best: Place) -> list[Place]:
+def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
     """The best answer, and others that the evidence does not rule out although the errors of the best do.
 
-    Apart are those beyond one standard error in what the better one determines; what it leaves open is open there too.
+    Apart are those beyond one standard error in what the better one determines; what it does not is not in the other either.
     """
-    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + TWICE))
-    turning = np.array([unknown.unit == "rad" for unknown in question.unknowns])
-    kept = [(best, _precision(told_at(best).covariance))]
+    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + TWO_ERROR_RISE))
+    turning = np.array([unknown.unit == "rad" for unknown in best.inputs.unknowns])
+    found = [(best, _precision(best.determination.covariance))]
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
-        for one, precision in kept:
+        for one, precision in found:
             way = ends.points[k] - one.point
             way = np.where(turning, (way + np.pi) % (2.0 * np.pi) - np.pi, way)
             if way @ precision @ way <= _APART**2:
                 break
         else:
-            place = seen_closely(question, ends, k)
-            if _is_minimum(place):
-                place = on_bounds(place, ends)
-                kept.append((place, _precision(told_at(place).covariance)))
-    return [place for place, _ in kept]
+            rival = examined(best.inputs, problem, ends, k)
+            if _is_minimum(rival):
+                rival = with_limits(rival, ends)
+                found.append((rival, _precision(rival.determination.covariance)))
+    return [one for one, _ in found]
 
 
-def _is_minimum(place: Place) -> bool:
+def _is_minimum(found: Candidate) -> bool:
     """Whether searches from around the place do not leave it: from a ridge that one start met exactly they do."""
-    problem = place.question.problem
-    away = np.minimum(_NUDGE * problem.scale, np.sqrt(np.diagonal(told_at(place).covariance)))
-    again = minimise(problem, place.point + spread(_AROUND, -away, away))
-    return bool(np.min(again.chi_squared) >= place.chi_squared - SAME)
+    away = np.minimum(_NUDGE * found.problem.scale, found.errors)
+    again = minimise(found.problem, found.point + spread(_AROUND, -away, away))
+    return bool(np.min(again.chi_squared) >= found.chi_squared - SAME_CHI_SQUARED)
 
 
 def _precision(covariance: Any) -> Any:
@@ -234,12 +254,68 @@ def _precision(covariance: Any) -> Any:
     return np.linalg.pinv(correlation, hermitian=True) / np.outer(size, size)
 
 
-def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
-    listed = "; ".join(
-        f"chi-squared {one.chi_squared:.4g} at "
-        + ", ".join(f"{name} {'open' if math.isnan(value) else f'= {value:.6g}'}" for name, value in one.values.items())
-        for one in fits
+def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
+    """The Fit of a candidate; the last searches, as many as ``around``, were begun around the best."""
+    inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
+    names = inputs.names
+    units = {unknown.name: unknown.unit for unknown in inputs.unknowns}
+    identified = np.isfinite(found.errors)
+    over_sigma = -problem.misfit(found.outputs)
+    residuals = {
+        f"prior of {row.name}" if row.is_prior else row.name: Residual(
+            name=row.name,
+            unit=row.value.unit or inputs.model.units.get(row.name) or "",
+            observed=row.value.given_mean,
+            computed=float(computed),
+            residual=float(sigmas * row.value.given_sd),
+            sigma=row.value.given_sd,
+            over_sigma=float(sigmas),
+            is_prior=row.is_prior,
+        )
+        for row, computed, sigmas in zip(inputs.rows, inputs.computed(point[np.newaxis])[0], over_sigma, strict=True)
+    }
+    sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", ""))
+    degrees_of_freedom = len(inputs.rows) - found.determination_of(found.free).rank
+    chi_squared = float(over_sigma @ over_sigma)
+    covariance = np.array(determined.covariance)
+    covariance.setflags(write=False)
+    values = np.where(identified, point, math.nan).tolist()
+    shares = [
+        dict(zip(residuals, row, strict=True)) if known else {}
+        for row, known in zip(determined.shares.tolist(), identified, strict=True)
+    ]
+    return Fit(
+        values=Values(dict(zip(names, values, strict=True)), units),
+        names=names,
+        units=units,
+        bounds={unknown.name: (unknown.low, unknown.high) for unknown in inputs.unknowns},
+        covariance=covariance,
+        residuals=residuals,
+        contributions=dict(zip(names, shares, strict=True)),
+        chi_squared=chi_squared,
+        degrees_of_freedom=degrees_of_freedom,
+        p_value=chi_squared_tail(chi_squared, degrees_of_freedom),
+        undetermined=tuple(
+            Direction(changes={names[j]: float(row[j]) for j in np.flatnonzero(row)}, held_by_prior=held)
+            for held, rows in ((False, determined.unidentified), (True, determined.prior_only))
+            for row in rows
+        ),
+        at_bounds={name: str(side) for name, side, known in zip(names, sides, identified, strict=True) if side and known},
+        reaches={names[j]: limit.value for j, limit in found.limits.items()},
+        nonlinearity=found.nonlinearity,
+        searches=_counted(ends, found.chi_squared) | {"around": around},
     )
+
+
+def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
+    converged, refused = ends.state == CONVERGED, ends.state == REFUSED
+    here = converged & (abs(ends.chi_squared - chi_squared) <= SAME_CHI_SQUARED)
+    kinds = {"here": here, "elsewhere": converged & ~here, "refused": refused, "without_end": ~refused & ~converged}
+    return {"starts": len(here)} | {name: int(np.count_nonzero(one)) for name, one in kinds.items()}
+
+
+def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
+    listed = "; ".join(f"chi-squared {one.chi_squared:.4g} at {_listed(one.values)}" for one in fits)
     return AmbiguousSolutionError(
         f"{len(fits)} answers fit the evidence about as well: {listed}. All are in .solutions; narrow the bounds of an unknown "
         f"to one of them, or add an observation that tells them apart",
@@ -248,45 +324,5 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
     )
 
 
-def _say(question: Question, found: Fit) -> None:
-    """What must not be overlooked in the answer, as warnings; and those that the model itself gives there."""
-    lost = [name for name in found.names if not found[name].determined]
-    if lost:
-        sentences = "; ".join(one.sentence for one in found.undetermined if not one.held_by_prior)
-        _warn(
-            IllConditionedWarning,
-            f"nothing determines {', '.join(lost)}, which are NaN: {sentences}. Give a prior (a Normal), or an observation "
-            f"that tells it",
-            "undetermined",
-        )
-    else:
-        with np.errstate(all="ignore"):
-            question.model.function(**{name: np.array([value]) for name, value in found.values.items()})
-    if math.isnan(found.nonlinearity) or found.nonlinearity > BENT:
-        _warn(IllConditionedWarning, f"{found.bend}; sample the unknowns, or give priors that hold them closer", "not_linear")
-    if found.told_by_bounds:
-        sentences = "; ".join(one for one in found.statements if "exceeds the width of its bounds" in one)
-        _warn(IllConditionedWarning, f"{sentences}; give an observation that tells more, or a prior", "told_by_bounds")
-    if found.consistent is False:
-        worst = max(found.residuals.items(), key=lambda item: abs(item[1].over_sigma))
-        _warn(
-            CollisionsWarning,
-            f"the evidence contradicts itself, the model or the stated errors: a misfit this large (chi-squared "
-            f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found._chance}, and "
-            f"{CONTRADICTION} would pass; the furthest off is {worst[0]}, by {abs(worst[1].over_sigma):.3g} sigma",
-            "contradictory",
-        )
-    for name, one in found.residuals.items():
-        bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
-        if bare and abs(one.residual) > math.pi:
-            _warn(
-                SuspectUnitsWarning,
-                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
-                f"way between them is round the circle: give it with its unit, such as Normal("
-                f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg')",
-                "bare_angle",
-            )
-
-
-def _warn(kind: type[CollisionsWarning], text: str, code: str) -> None:
-    warn(kind(text, code=code))
+def _listed(values: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {'open' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())

@@ -1,14 +1,14 @@
-"""What a fit is asked: unknowns with what is known of them, observations with their errors, and the model as numbers."""
+"""The inputs of a fit: unknowns with what is known of them, observations with their errors, and the model as numbers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
+from ..errors import InputError, UnitsError
 from ..reading import ArgumentReader
 from ..uncertainty.distribution import read_alike, show
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
@@ -16,8 +16,7 @@ from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
 
-_TURN = 2.0 * math.pi
-_REACH = 3.0  # standard deviations of a prior within which searches start
+_PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 
 
 class Unknown(NamedTuple):
@@ -33,18 +32,25 @@ class Unknown(NamedTuple):
 
     @property
     def box(self) -> tuple[float, float]:
-        """Where searches start: the bounds, or as far as the scale reaches."""
-        reach = (_REACH if self.prior else 1.0) * self.scale
-        return max(self.low, self.start - reach), min(self.high, self.start + reach)
+        """Where searches start: the bounds, or as far as the scale goes."""
+        span = (_PRIOR_SPAN if self.prior else 1.0) * self.scale
+        return max(self.low, self.start - span), min(self.high, self.start + span)
 
 
-class Question(NamedTuple):
-    """A fit in numbers; rows are the observations in their order, then the priors."""
+class Stated(NamedTuple):
+    """An observation or a prior: a row of the least squares."""
+
+    name: str
+    value: Normal
+    is_prior: bool
+
+
+class FitInputs(NamedTuple):
+    """The inputs of a fit; ``rows`` are the observations in their order, then the priors."""
 
     model: Model
     unknowns: tuple[Unknown, ...]
-    observed: dict[str, Normal]
-    problem: Problem
+    rows: tuple[Stated, ...]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -52,92 +58,89 @@ class Question(NamedTuple):
         return tuple(unknown.name for unknown in self.unknowns)
 
     @property
-    def stated(self) -> list[tuple[str, Normal, bool]]:
-        """Name, value and whether it is a prior, of every row."""
-        priors = [(unknown.name, unknown.prior, True) for unknown in self.unknowns if unknown.prior]
-        return [*((name, value, False) for name, value in self.observed.items()), *priors]
+    def has_prior(self) -> Any:
+        """Of each unknown, whether it has a prior."""
+        return np.array([unknown.prior is not None for unknown in self.unknowns])
 
     @property
-    def with_prior(self) -> list[int]:
-        """Which unknowns have a prior."""
-        return [j for j, unknown in enumerate(self.unknowns) if unknown.prior]
+    def is_prior(self) -> Any:
+        """Of each row, whether it is a prior."""
+        return np.array([row.is_prior for row in self.rows])
+
+    def numbers_of(self, part: str) -> Any:
+        """The start, scale, low or high of every unknown."""
+        return np.array([getattr(unknown, part) for unknown in self.unknowns])
+
+    @property
+    def box(self) -> tuple[Any, Any]:
+        """The lowest and the highest point where searches start."""
+        low, high = np.array([unknown.box for unknown in self.unknowns]).T
+        return low, high
 
     def computed(self, points: Any) -> Any:
-        """What the model makes of each observation at these points (k, n), in SI; a refused point is NaN throughout."""
-        values = {name: np.array(points[:, j]) for j, name in enumerate(self.names)}
-        answered = self.model(values, len(points))
-        absent = [name for name in self.observed if name not in answered]
+        """What the model makes of each row at these points (k, n), in SI; a refused point is NaN in all observations."""
+        answered = self.model({name: np.array(points[:, j]) for j, name in enumerate(self.names)}, len(points))
+        observed = [row.name for row in self.rows if not row.is_prior]
+        absent = [name for name in observed if name not in answered]
         if absent:
             raise InputError(
-                f"observed names {_listed(absent)}, which the model does not return; it returns {_listed(answered)}",
+                f"observed names {', '.join(absent)}, which the model does not return; it returns {', '.join(answered)}",
                 code="unknown_output",
                 argument="observed",
             )
-        found = np.stack([answered[name] for name in self.observed], axis=1)
-        return np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
+        found = np.stack([answered[name] for name in observed], axis=1)
+        found = np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
+        return np.concatenate([found, points[:, self.has_prior]], axis=1)
 
-    def angles(self) -> list[bool]:
-        """Of the observations, whether each is known to be an angle."""
-        for name, value in self.observed.items():
-            unit = self.model.units.get(name)
-            if unit and value.unit and unit != value.unit:
-                raise UnitsError(
-                    f"observed {name} is in {value.unit}, but the model returns it in {unit}; one of them is another quantity",
-                    code="bad_units",
-                    argument="observed",
-                )
-        return ["rad" in (value.unit, self.model.units.get(name)) for name, value in self.observed.items()]
-
-
-def read_question(model: Any, unknowns: Any, observed: Any) -> Question:
-    """The question through the reader: one error names every wrong argument."""
-    reader = ArgumentReader()
-    seen = {name: _unknown(reader, name, given) for name, given in _entries(unknowns, "unknowns", "20.0").items()}
-    told = {
-        name: _observation(reader, name, given)
-        for name, given in _entries(observed, "observed", "Normal('30 km/h', '2 km/h')").items()
-    }
-    reader.close()
-    sought = tuple(unknown for unknown in seen.values() if unknown)
-    measured = {name: value for name, value in told.items() if value}
-    low, high, scale = (np.array([getattr(unknown, part) for unknown in sought]) for part in ("low", "high", "scale"))
-
-    def evaluate(points: Any) -> Any:
-        return np.concatenate([question.computed(points), points[:, question.with_prior]], axis=1) / sigma
-
-    question = Question(Model(model, {}), sought, measured, Problem(evaluate, low, low, low, high, scale))
-    rows = [value for _, value, _ in question.stated]
-    sigma = np.array([row.given_sd for row in rows])
-    check_names(model, question.names, "unknowns", "bad_model")
-    # Two cases tell a model that takes arrays from one that takes numbers; one would not.
-    question.computed(np.array([[unknown.start for unknown in sought]] * 2))
-    angles = [*question.angles(), *[False] * len(question.with_prior)]
-    return question._replace(
-        problem=question.problem._replace(
-            target=np.array([row.given_mean for row in rows]) / sigma, period=np.where(angles, _TURN / sigma, np.nan)
+    def problem(self) -> Problem:
+        """The same in numbers, counted in standard deviations."""
+        sigma = np.array([row.value.given_sd for row in self.rows])
+        return Problem(
+            evaluate=lambda points: self.computed(points) / sigma,
+            target=np.array([row.value.given_mean for row in self.rows]) / sigma,
+            period=np.where([self._is_angle(row) for row in self.rows], math.tau / sigma, np.nan),
+            low=self.numbers_of("low"),
+            high=self.numbers_of("high"),
+            scale=self.numbers_of("scale"),
         )
-    )
+
+    def _is_angle(self, row: Stated) -> bool:
+        """Whether an observation goes round a circle, as far as the units tell."""
+        returned, observed = self.model.units.get(row.name), row.value.unit
+        if row.is_prior:
+            return False
+        if returned and observed and returned != observed:
+            raise UnitsError(
+                f"observed {row.name} is in {observed}, but the model returns it in {returned}; one of them is another "
+                f"quantity",
+                code="bad_units",
+                argument="observed",
+            )
+        return "rad" in (observed, returned)
 
 
-def refused_everywhere(question: Question, tried: int) -> NoSolutionError:
-    """The model answers nowhere that was looked at, and why not if it says so for a single case."""
-    at = {unknown.name: unknown.start for unknown in question.unknowns}
-    where = ", ".join(f"{name} = {value:.6g}" for name, value in at.items())
-    reason = "; call the model there with on_failure='raise' to be told why"
-    try:
-        question.model.function(**at)
-    except CollisionsError as error:
-        reason = f": {error}"
-    except Exception:
-        # A model of arrays need not take floats, and why it does not is no reason of the scene.
-        pass
-    return NoSolutionError(
-        f"the model refuses all {tried} points tried for the unknowns, among them {where}{reason}. Give bounds or starts of "
-        f"the unknowns within which the impact happens",
-        code="refused",
-        points=tried,
-        at=at,
+def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
+    """The arguments of a fit through the reader: one error names all that cannot be used."""
+    reader = ArgumentReader()
+    sought = [_unknown(reader, name, given) for name, given in _entries(unknowns, "unknowns", "20.0").items()]
+    measured = [
+        (name, _observation(reader, f"observed[{name!r}]", given))
+        for name, given in _entries(observed, "observed", "Normal('30 km/h', '2 km/h')").items()
+    ]
+    reader.close()
+    known = tuple(unknown for unknown in sought if unknown)
+    inputs = FitInputs(
+        Model(model, {}),
+        known,
+        (
+            *(Stated(name, value, False) for name, value in measured if value),
+            *(Stated(unknown.name, unknown.prior, True) for unknown in known if unknown.prior),
+        ),
     )
+    check_names(model, inputs.names, "unknowns", "bad_model")
+    # Two cases tell a model that takes arrays from one that takes numbers; one would not.
+    inputs.computed(np.tile(inputs.numbers_of("start"), (2, 1)))
+    return inputs
 
 
 def _entries(given: Any, argument: str, value: str) -> Mapping[str, Any]:
@@ -154,85 +157,76 @@ def _entries(given: Any, argument: str, value: str) -> Mapping[str, Any]:
 def _unknown(reader: ArgumentReader, name: str, given: Any) -> Unknown | None:
     label = f"unknowns[{name!r}]"
     if isinstance(given, Normal):
-        low, high = (
-            math.inf * side if end is None else end for side, end in zip((-1, 1), given.truncate or (None, None), strict=True)
-        )
-        start = min(max(given.given_mean, low), high)
-        return Unknown(name, given.unit, start, given.given_sd, low, high, given)
+        low, high = given.support
+        return Unknown(name, given.unit, min(max(given.given_mean, low), high), given.given_sd, low, high, given)
     if isinstance(given, (Uniform, Interval)):
         low, high = given.support if isinstance(given, Uniform) else (given.low, given.high)
         return Unknown(name, given.unit, 0.5 * (low + high), high - low, low, high, None)
     if isinstance(given, Distribution) or not (isinstance(given, (int, float, str, np.number)) or is_quantity(given)):
-        reader.refuse(
-            InputError(
-                f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform "
-                f"or an Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is "
-                f"normally distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as "
-                f"well{range_hint(given)}",
-                code="bad_prior",
-                argument=label,
-            )
+        _refuse(
+            reader,
+            label,
+            "bad_prior",
+            f"is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform or an "
+            f"Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is normally "
+            f"distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as "
+            f"well{range_hint(given)}",
         )
         return None
-    number = _told(reader, label, lambda: read_alike({label: given}))
-    if number is None:
+    numbers = _read_numbers(reader, label, {label: given})
+    if numbers is None:
         return None
-    (start,), unit = number
+    (start,), unit = numbers
     return Unknown(name, unit, start, abs(start) or 1.0, -math.inf, math.inf, None)
 
 
-def _observation(reader: ArgumentReader, name: str, given: Any) -> Normal | None:
-    label = f"observed[{name!r}]"
+def _observation(reader: ArgumentReader, label: str, given: Any) -> Normal | None:
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        ends = dict(zip((f"{label} value", f"{label} error"), given, strict=True))
-        numbers = _told(reader, label, lambda: read_alike(ends))
+        value, error = given
+        numbers = _read_numbers(reader, label, {f"{label} value": value, f"{label} error": error})
         if numbers is None:
             return None
-        (value, error), unit = numbers
-        if not error > 0.0:
-            reader.refuse(
-                InputError(
-                    f"{label} error must be > 0, got {show(error, unit)}; give the pair (value, error), the error as a "
-                    f"standard deviation. What is known exactly is written into the model",
-                    code="not_positive",
-                    argument=label,
-                )
-            )
-            return None
-        given = Normal._of(unit, value, error, None)
-    if not isinstance(given, Normal):
+        (_, sigma), unit = numbers
+        if sigma > 0.0:
+            return Normal(value, error)
+        _refuse(
+            reader,
+            label,
+            "not_positive",
+            f"error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard deviation. "
+            f"What is known exactly is written into the model",
+        )
+    elif not isinstance(given, Normal):
         kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
-        reader.refuse(
-            InputError(
-                f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. "
-                f"Of a range write Normal.between(low, high, coverage)",
-                code="bad_observation",
-                argument=label,
-            )
+        _refuse(
+            reader,
+            label,
+            "bad_observation",
+            f"is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a range "
+            f"write Normal.between(low, high, coverage)",
         )
-        return None
-    if given.truncate is not None:
-        reader.refuse(
-            InputError(
-                f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, "
-                f"bounds belong to unknowns",
-                code="bad_observation",
-                argument=label,
-            )
+    elif given.truncate is not None:
+        _refuse(
+            reader,
+            label,
+            "bad_observation",
+            f"is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds belong "
+            f"to unknowns",
         )
-        return None
-    return given
+    else:
+        return given
+    return None
 
 
-def _told(reader: ArgumentReader, label: str, read: Callable[[], Any]) -> Any:
-    """What reading gives, or None after its refusal with the place where it stands."""
+def _read_numbers(reader: ArgumentReader, label: str, given: dict[str, Any]) -> tuple[list[Any], str] | None:
+    """SI numbers and their unit, or None after a refusal that names where they stand."""
     try:
-        return read()
+        return read_alike(given)
     except InputError as problem:
         text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
         reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
         return None
 
 
-def _listed(names: Any) -> str:
-    return ", ".join(names) or "nothing"
+def _refuse(reader: ArgumentReader, label: str, code: str, text: str) -> None:
+    reader.refuse(InputError(f"{label} {text}", code=code, argument=label))

@@ -1,22 +1,151 @@
-"""What a fit answers with: estimates and their errors, how each observation is met, and what stays open."""
+"""What a fit answers with: estimates and their errors, how each observation is met, and what stays unidentified."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, NoSolutionError
-from ..quantities import Shown, derived, show
+from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
+from ..quantities import OWN, Shown, derived, show
 from ..uncertainty.distributions import Normal
-from .fit_parts import Direction, Estimate, Residual, Values
+from ..uncertainty.normal import score_of_coverage
+from ..units import shown, to_quantity
 
-BENT = 0.2  # of the half-width of a 95 percent interval
+TWO_ERRORS = 2.0
+_LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 # Chances of the misfit below which evidence is said to agree with itself weakly, and to contradict itself.
-WEAK, CONTRADICTION = 0.05, 0.01
+_WEAK, _CONTRADICTION = 0.05, 0.01
+
+
+def _quantity(value: float, unit: str) -> Any:
+    """With its unit, or the number itself where that is not known."""
+    return to_quantity(value, unit) if unit else value
+
+
+class Values(dict[str, float]):
+    """SI numbers by name; with their units through ``.q``, as far as they were given any."""
+
+    def __init__(self, values: Mapping[str, float], units: Mapping[str, str]) -> None:
+        super().__init__(values)
+        self.units = dict(units)
+
+    @property
+    def q(self) -> dict[str, Any]:
+        """The same as Quantities; a number of an unknown unit stays a number."""
+        return {name: _quantity(value, self.units[name]) for name, value in self.items()}
+
+
+class WithUnit(Shown):
+    """Numbers that share one unit, which differs from one to the next."""
+
+    __slots__ = ()
+    unit: str
+
+    @property
+    def q(self) -> dict[str, Any]:
+        """The numbers that have the unit as Quantities; those of an unknown unit stay numbers."""
+        shared = {f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN}
+        return {name: _quantity(value, self.unit) for name, value in shared.items() if value is not None}
+
+    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if value is not None and f.name != "unit":
+                yield prefix + f.name, show(value, self.unit if f.metadata.get("unit") == OWN else None)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Estimate(WithUnit):
+    """One unknown: its value and standard error, NaN and inf where nothing determines it; ``at_bound`` is "low" or "high".
+
+    ``reach`` is None but where the model turns round on the bound: then it is the end of the range of two standard errors.
+    """
+
+    name: str
+    unit: str
+    value: float = field(metadata={"unit": OWN})
+    standard_error: float = field(metadata={"unit": OWN})
+    low: float = field(metadata={"unit": OWN})
+    high: float = field(metadata={"unit": OWN})
+    at_bound: str | None
+    reach: float | None = field(default=None, metadata={"unit": OWN})
+
+    _title = "Estimate"
+
+    @property
+    def determined(self) -> bool:
+        """Whether evidence or a prior identifies it."""
+        return math.isfinite(self.standard_error)
+
+    def interval(self, coverage: float) -> tuple[float, float]:
+        """Central range that holds the truth with this probability given the stated errors, cut off at the bounds.
+
+        Normal theory around the estimate; the bounds themselves where nothing determines the unknown. From a bound on which the
+        model turns round to ``reach`` for any coverage up to that of two standard errors (0.9545), and the bounds above it.
+        """
+        if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
+            raise InputError(
+                f"coverage must be between 0 and 1, such as 0.95, got {shown(coverage)}",
+                code="bad_fraction",
+                argument="coverage",
+            )
+        score = score_of_coverage(float(coverage))
+        if not self.determined or (self.reach is not None and score > TWO_ERRORS):
+            return self.low, self.high
+        if self.reach is not None:
+            return min(self.value, self.reach), max(self.value, self.reach)
+        half = score * self.standard_error
+        return max(self.low, self.value - half), min(self.high, self.value + half)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Residual(WithUnit):
+    """One observation or prior: what was stated, what the fit makes of it, and by how many sigma they differ.
+
+    ``residual`` is observed less computed; of angles by the short way round, in (-pi, pi].
+    """
+
+    name: str
+    unit: str
+    observed: float = field(metadata={"unit": OWN})
+    computed: float = field(metadata={"unit": OWN})
+    residual: float = field(metadata={"unit": OWN})
+    sigma: float = field(metadata={"unit": OWN})
+    over_sigma: float
+    is_prior: bool
+
+    _title = "Residual"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Direction:
+    """A change of the unknowns that the evidence does not tell: that of each in SI, all moving together.
+
+    ``held_by_prior`` says whether what was stated before settles it; otherwise nothing does.
+    """
+
+    changes: dict[str, float]
+    held_by_prior: bool
+
+    @property
+    def unknowns(self) -> tuple[str, ...]:
+        """Those that take part."""
+        return tuple(self.changes)
+
+    @property
+    def sentence(self) -> str:
+        """The same in words."""
+        if len(self.changes) == 1:
+            what = f"{self.unknowns[0]} is not determined by the evidence"
+        else:
+            first, *rest = self.changes
+            moves = ", ".join(f"{name} by {self.changes[name] / self.changes[first]:+.4g}" for name in rest)
+            what = f"the evidence cannot tell a change of {first} by +1 together with {moves} (SI)"
+        return what + (", which rests on what was stated before" if self.held_by_prior else ", and nothing else tells it")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -25,9 +154,9 @@ class Fit(Shown):
 
     ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]`` has value, standard error and
     interval. ``covariance`` (locked, in the order of ``names``) is that of the model's slopes at the answer, with inf and NaN
-    for what is open; where an unknown is in ``at_bounds`` it is that without the bound, so the errors of all are not too small,
-    and that of the unknown itself reaches to one side only. ``residuals`` and ``contributions`` go by the names of the
-    observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
+    for what is not determined; where an unknown is in ``at_bounds`` it is that without the bound, so the errors of all are not
+    too small, and that of the unknown itself reaches to one side only. ``residuals`` and ``contributions`` go by the names of
+    the observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
     the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there. ``reaches`` has the
@@ -37,21 +166,21 @@ class Fit(Shown):
     ``around`` are those among them that were added around an answer that few found.
     """
 
-    values: Values = field()
-    names: tuple[str, ...] = field()
-    units: dict[str, str] = field()
-    bounds: dict[str, tuple[float, float]] = field()
-    covariance: Any = field()
-    residuals: dict[str, Residual] = field()
-    contributions: dict[str, dict[str, float]] = field()
+    values: Values
+    names: tuple[str, ...]
+    units: dict[str, str]
+    bounds: dict[str, tuple[float, float]]
+    covariance: Any
+    residuals: dict[str, Residual]
+    contributions: dict[str, dict[str, float]]
     chi_squared: float = field(metadata={"unit": ""})
     degrees_of_freedom: int = field(metadata={"unit": ""})
     p_value: float = field(metadata={"unit": ""})
-    undetermined: tuple[Direction, ...] = field()
-    at_bounds: dict[str, str] = field()
-    reaches: dict[str, float] = field()
+    undetermined: tuple[Direction, ...]
+    at_bounds: dict[str, str]
+    reaches: dict[str, float]
     nonlinearity: float = field(metadata={"unit": ""})
-    searches: dict[str, int] = field()
+    searches: dict[str, int]
 
     _title = "Fit to evidence"
 
@@ -92,8 +221,9 @@ class Fit(Shown):
     def correlation(self) -> dict[tuple[str, str], float]:
         """By pair of unknowns, as ``uncertainty.propagate`` takes it beside ``inputs``."""
         self._check_determined("correlation")
-        pairs = [(i, j) for i in range(len(self.names)) for j in range(i + 1, len(self.names))]
-        return {(self.names[i], self.names[j]): float(self.correlation_matrix[i, j]) for i, j in pairs}
+        matrix = self.correlation_matrix
+        pairs = zip(*np.triu_indices(len(self.names), 1), strict=True)
+        return {(self.names[i], self.names[j]): float(matrix[i, j]) for i, j in pairs}
 
     @property
     def inputs(self) -> dict[str, Normal]:
@@ -104,13 +234,13 @@ class Fit(Shown):
     @property
     def consistent(self) -> bool | None:
         """Whether a misfit this large has a chance of 0.01 or more; None where there is no more evidence than unknowns."""
-        return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
+        return None if math.isnan(self.p_value) else self.p_value >= _CONTRADICTION
 
     @property
     def _chance(self) -> str:
         """The chance of a misfit this large or larger, in two digits that round it past neither 0.05 nor 0.01."""
         text = f"{self.p_value:.2g}"
-        for limit in (WEAK, CONTRADICTION):
+        for limit in (_WEAK, _CONTRADICTION):
             if self.p_value < limit <= float(text):
                 return f"just below {limit:g}"
         return text
@@ -120,6 +250,10 @@ class Fit(Shown):
         """The unknowns whose standard error exceeds the width of their bounds."""
         widths = {name: high - low for name, (low, high) in self.bounds.items()}
         return tuple(name for name in self.names if widths[name] < self.standard_errors[name] < math.inf)
+
+    @property
+    def _is_nonlinear(self) -> bool:
+        return math.isnan(self.nonlinearity) or self.nonlinearity > _LARGE_NONLINEARITY
 
     @property
     def bend(self) -> str:
@@ -138,20 +272,25 @@ class Fit(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON: an infinity and NaN by name."""
-        unknowns = [self[name] for name in self.names]
-        found = {
-            "unknowns": {one.name: {f.name: getattr(one, f.name) for f in fields(one)} for one in unknowns},
+        plain = (
+            "contributions",
+            "at_bounds",
+            "reaches",
+            "chi_squared",
+            "degrees_of_freedom",
+            "p_value",
+            "nonlinearity",
+            "searches",
+        )
+        record = {
+            "names": self.names,
+            "unknowns": {name: asdict(self[name]) for name in self.names},
             "covariance": self.covariance.tolist(),
-            "residuals": {name: {f.name: getattr(one, f.name) for f in fields(one)} for name, one in self.residuals.items()},
-            "undetermined": [
-                {"changes": one.changes, "held_by_prior": one.held_by_prior, "sentence": one.sentence}
-                for one in self.undetermined
-            ],
-            "statements": list(self.statements),
+            "residuals": {name: asdict(one) for name, one in self.residuals.items()},
+            "undetermined": [asdict(one) | {"sentence": one.sentence} for one in self.undetermined],
+            "statements": self.statements,
         }
-        counts = ("chi_squared", "degrees_of_freedom", "p_value", "nonlinearity", "searches")
-        plain = {name: getattr(self, name) for name in ("contributions", "at_bounds", "reaches", *counts)}
-        strict: dict[str, Any] = _strict({"names": list(self.names), **found, **plain})
+        strict: dict[str, Any] = _strict(record | {name: getattr(self, name) for name in plain})
         return strict
 
     def __str__(self) -> str:
@@ -182,51 +321,50 @@ class Fit(Shown):
         if self.consistent is None:
             yield "there is no more evidence than unknowns, so that nothing checks it"
         else:
-            verdict = "agrees with itself"
+            how = "agrees with itself"
             if not self.consistent:
-                verdict = "contradicts itself, the model or the stated errors"
-            elif self.p_value < WEAK:
-                verdict = "agrees only weakly with itself, the model and the stated errors"
-            yield f"the evidence {verdict}: a misfit this large or larger has a chance of {self._chance}"
-        for direction in self.undetermined:
-            yield direction.sentence
+                how = "contradicts itself, the model or the stated errors"
+            elif self.p_value < _WEAK:
+                how = "agrees only weakly with itself, the model and the stated errors"
+            yield f"the evidence {how}: a misfit this large or larger has a chance of {self._chance}"
+        yield from (direction.sentence for direction in self.undetermined)
         for name, side in self.at_bounds.items():
             inward = "above" if side == "low" else "below"
             if name in self.reaches:
                 yield (
                     f"{name} ended on its {side} bound, where the model turns round: its error reaches {inward} only, and two "
-                    f"errors, at the rise of chi-squared by 4 or the other bound, to {show(*self._reach(name))}"
+                    f"errors, at the rise of chi-squared by 4 or the other bound, to "
+                    f"{show(self.reaches[name], self.units[name])}"
                 )
             else:
                 yield (
                     f"{name} ended on its {side} bound, beyond which the evidence pulls it: its error is not symmetric and "
                     f"reaches {inward} only"
                 )
-        for name in self.told_by_bounds:
-            yield (
-                f"the standard error of {name}, {self.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell "
-                f"its range, not the evidence"
-            )
+        yield from self._bound_limited()
         if self.searches["around"]:
             yield (
                 f"few searches ended at this answer, so that {self.searches['around']} more were begun around it; a better one "
                 f"may still lie between them, which narrower bounds would show"
             )
-        if math.isnan(self.nonlinearity) or self.nonlinearity > BENT:
+        if self._is_nonlinear:
             yield self.bend
 
-    def _reach(self, name: str) -> tuple[float, str | None]:
-        return self.reaches[name], self.units[name] or None
+    def _bound_limited(self) -> Iterator[str]:
+        for name in self.told_by_bounds:
+            yield (
+                f"the standard error of {name}, {self.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell "
+                f"its range, not the evidence"
+            )
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
-        unit = f" {one.unit}" if one.unit else ""
 
-        def told(value: float) -> Any:
-            return f"{value!r}{unit}" if unit and math.isfinite(value) else value
+        def with_unit(value: float) -> float | str:
+            return f"{value!r} {one.unit}" if one.unit else value
 
-        ends = (told(one.low) if math.isfinite(one.low) else None, told(one.high) if math.isfinite(one.high) else None)
-        return Normal(told(one.value), told(one.standard_error), truncate=None if ends == (None, None) else ends)
+        low, high = (with_unit(end) if math.isfinite(end) else None for end in (one.low, one.high))
+        return Normal(with_unit(one.value), with_unit(one.standard_error), truncate=(low, high))
 
     def _check_determined(self, what: str) -> None:
         left = [name for name in self.names if not self[name].determined]
@@ -239,11 +377,47 @@ class Fit(Shown):
             )
 
 
+def warnings_of(found: Fit) -> Iterator[CollisionsWarning]:
+    """What must not be overlooked in the answer."""
+    lost = [name for name in found.names if not found[name].determined]
+    if lost:
+        sentences = "; ".join(one.sentence for one in found.undetermined if not one.held_by_prior)
+        yield IllConditionedWarning(
+            f"nothing determines {', '.join(lost)}, which are NaN: {sentences}. Give a prior (a Normal), or an observation "
+            f"that tells it",
+            code="undetermined",
+        )
+    if found._is_nonlinear:
+        yield IllConditionedWarning(
+            f"{found.bend}; sample the unknowns, or give priors that hold them closer", code="not_linear"
+        )
+    if found.told_by_bounds:
+        yield IllConditionedWarning(
+            f"{'; '.join(found._bound_limited())}; give an observation that tells more, or a prior", code="told_by_bounds"
+        )
+    if found.consistent is False:
+        name, worst = max(found.residuals.items(), key=lambda item: abs(item[1].over_sigma))
+        yield CollisionsWarning(
+            f"the evidence contradicts itself, the model or the stated errors: a misfit this large (chi-squared "
+            f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found._chance}, and "
+            f"{_CONTRADICTION} would pass; the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
+            code="contradictory",
+        )
+    for name, one in found.residuals.items():
+        bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
+        if bare and abs(one.residual) > math.pi:
+            yield SuspectUnitsWarning(
+                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
+                f"way between them is round the circle: give it with its unit, such as Normal("
+                f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg')",
+                code="bare_angle",
+            )
+
+
 def _with_error(one: Estimate) -> str:
-    unit = f" {one.unit}" if one.unit else ""
     if not one.determined:
         return "not determined"
-    return f"{one.value:.6g} +/- {one.standard_error:.3g}{unit}"
+    return f"{one.value:.6g} +/- {one.standard_error:.3g} {one.unit}".rstrip()
 
 
 def _strict(value: Any) -> Any:
@@ -251,6 +425,4 @@ def _strict(value: Any) -> Any:
         return {name: _strict(part) for name, part in value.items()}
     if isinstance(value, (list, tuple)):
         return [_strict(part) for part in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
-    return value
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,7 +1,8 @@
-"""Weighted least squares within bounds, from many starts at once: numbers only."""
+"""Weighted least squares within bounds, as numbers only: the searches, what their slopes determine, the chance of a misfit."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -15,13 +16,14 @@ _CLOSE = 1e-8
 _CLOSE_ENOUGH = 1e-3
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
 _LEAST_DAMPING = 1e-12  # that rounding leaves something of: where equations are singular without
-_BEND = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
 _LEAST_WEIGHT = 1e-6  # of the damping: an unknown that changes nothing is damped all the same
-FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not tell it
-
-_PART = 0.1  # of a direction
-_ROUNDING = 10.0  # eps of what is computed, in a difference
+_KINK = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
+FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
+_UNBOUNDED_SHARE = 0.1  # of a direction, in unknowns without bounds: along it a small slope may identify all the same
+_NEGLIGIBLE_SHARE = 1e-4  # of its scale: an unknown that moves less along a direction is not part of it
+_DIFFERENCE_ERROR = 10.0  # eps of what is computed, in a difference
 _LARGEST = 1e100
+_TERMS = 10_000  # both expansions of the chi-squared tail take about 6 sqrt(degrees of freedom) terms at worst
 
 SEARCHING, CONVERGED, STALLED, AT_REFUSAL, REFUSED = range(5)
 
@@ -41,6 +43,11 @@ class Problem(NamedTuple):
     high: Any
     scale: Any
     size: Any = None
+
+    @property
+    def unbounded(self) -> Any:
+        """Of each unknown, whether it has no bound on either side."""
+        return np.isinf(self.low) & np.isinf(self.high)
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
@@ -74,13 +81,14 @@ class Problem(NamedTuple):
         slopes = np.where(np.isnan(one), other, np.where(np.isnan(other), one, slopes))
         return outputs, np.swapaxes(slopes, 1, 2)
 
-    def is_bent(self, point: Any) -> bool:
+    def has_kink(self, point: Any) -> bool:
         """Whether the slopes to both neighbours differ by more than a smooth model's do: a bend or a jump between them."""
         _, one, other, _, _ = self._differences(point[np.newaxis])
         sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (one, other, one - other)]
-        return bool(np.any(sizes[2] > _BEND * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
+        return bool(np.any(sizes[2] > _KINK * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
 
     def _differences(self, points: Any) -> tuple[Any, Any, Any, Any, Any]:
+        """Outputs, the slopes to two neighbours along each unknown (k, n, m), and how far away these are (k, n, 1)."""
         count, n = points.shape
         step = self.steps(points)
         first = np.where(points + step <= self.high, step, -step)
@@ -90,11 +98,10 @@ class Problem(NamedTuple):
         moves = np.einsum("kjii->kji", places) - points[:, np.newaxis]
         every = np.concatenate([points[:, np.newaxis], places.reshape(count, 2 * n, n)], axis=1)
         found = self.evaluate(every.reshape(-1, n)).reshape(count, 2 * n + 1, -1)
-        outputs = found[:, 0]
         changes = self.wrapped(found[:, 1:] - found[:, :1]).reshape(count, 2, n, -1)
         with np.errstate(invalid="ignore", divide="ignore"):
             one, other = np.moveaxis(changes / moves[..., np.newaxis], 1, 0)
-        return outputs, one, other, moves[:, 0, :, np.newaxis], moves[:, 1, :, np.newaxis]
+        return found[:, 0], one, other, moves[:, 0, :, np.newaxis], moves[:, 1, :, np.newaxis]
 
 
 class Ends(NamedTuple):
@@ -136,7 +143,7 @@ def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = 
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
     for _ in range(_ROUNDS):
-        arrived = _left_to_go(problem, points, misfit, slopes, movable, state) <= close
+        arrived = _left_to_go(problem, points, misfit, slopes, movable, state == SEARCHING) <= close
         state = np.where(arrived, CONVERGED, state)
         live = np.flatnonzero(state == SEARCHING)
         if not live.size:
@@ -159,9 +166,9 @@ def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = 
         stuck = damping[live] > _MOST_DAMPING
         state[live[stuck]] = np.where(np.isfinite(new[stuck]), STALLED, AT_REFUSAL)
 
-    ended = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
-    rest = _left_to_go(problem, points, misfit, slopes, movable, np.where(ended, SEARCHING, REFUSED))
-    return Ends(points, outputs, slopes, cost, np.where(ended & (rest <= _CLOSE_ENOUGH), CONVERGED, state))
+    short_of_it = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
+    near = _left_to_go(problem, points, misfit, slopes, movable, short_of_it) <= _CLOSE_ENOUGH
+    return Ends(points, outputs, slopes, cost, np.where(near, CONVERGED, state))
 
 
 def _cost(problem: Problem, misfit: Any, slopes: Any) -> Any:
@@ -171,18 +178,9 @@ def _cost(problem: Problem, misfit: Any, slopes: Any) -> Any:
     return np.where(usable, np.sum(np.where(usable[:, np.newaxis], misfit, 0.0) ** 2, axis=1), np.inf)
 
 
-def rounding(outputs: Any, scale: Any, steps: Any) -> Any:
+def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
     """What rounding of the outputs makes of slopes that are differences over these steps, for a whole scale."""
-    return _ROUNDING * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
-
-
-def _untold(problem: Problem, points: Any, misfit: Any, direction: Any) -> Any:
-    """The length of slopes along each direction below which they tell nothing: rounding, or within bounds what is too flat."""
-    noise = rounding(misfit + problem.target, problem.scale, problem.steps(points))
-    least = np.einsum("kij,ki->kj", abs(direction), noise)
-    unbounded = np.isinf(problem.low) & np.isinf(problem.high)
-    outwards = np.linalg.norm(direction * unbounded[:, np.newaxis], axis=1) > _PART
-    return np.where(outwards, least, np.maximum(FLAT, least))
+    return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
 
 
 def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
@@ -214,15 +212,127 @@ def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any,
     return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)
 
 
-def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, state: Any) -> Any:
-    """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not searching."""
+def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, wanted: Any) -> Any:
+    """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not wanted."""
     left = np.full(len(points), np.inf)
-    live = np.flatnonzero(state == SEARCHING)
-    if live.size:
-        gradient, curvature = _normal_equations(problem, points[live], misfit[live], slopes[live], movable[live])
+    rows = np.flatnonzero(wanted)
+    if rows.size:
+        points, misfit = points[rows], misfit[rows]
+        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows], movable[rows])
         size, direction = np.linalg.eigh(curvature)
         along = np.einsum("kij,ki->kj", direction, gradient)
-        told = size > _untold(problem, points[live], misfit[live], direction) ** 2
-        step = np.sqrt(np.sum(np.where(told, along**2 / np.where(told, size, 1.0), 0.0), axis=1))
-        left[live] = step / np.maximum(1.0, np.sqrt(np.einsum("km,km->k", misfit[live], misfit[live])))
+        # Within bounds what is too flat does not count either.
+        error = np.einsum(
+            "kij,ki->kj", abs(direction), _slope_error(misfit + problem.target, problem.scale, problem.steps(points))
+        )
+        unbounded = np.linalg.norm(direction * problem.unbounded[:, np.newaxis], axis=1) > _UNBOUNDED_SHARE
+        identified = size > np.where(unbounded, error, np.maximum(FLAT, error)) ** 2
+        step = np.sqrt(np.sum(np.where(identified, along**2 / np.where(identified, size, 1.0), 0.0), axis=1))
+        left[rows] = step / np.maximum(1.0, np.sqrt(np.einsum("km,km->k", misfit, misfit)))
     return left
+
+
+class Determination(NamedTuple):
+    """What evidence determines: covariance (inf and NaN where nothing does), and what each row contributed.
+
+    ``unidentified`` are directions that nothing determines, ``prior_only`` those that the priors determine and the evidence
+    does not, each a row of changes in the units of the unknowns, the largest share of a scale being one whole scale. ``rank``
+    is how many directions are determined.
+    """
+
+    covariance: Any
+    unidentified: Any
+    prior_only: Any
+    shares: Any
+    rank: int
+
+
+def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any) -> Determination:
+    """Of slopes (m, n) in standard deviations per unknown, some rows of them priors.
+
+    A direction is unidentified if moving along it by one scale changes everything by less than a thousandth of a standard
+    deviation, or by less than the rounding of the differences that the slopes came from.
+    """
+    scaled = slopes * scale
+    error = _slope_error(outputs, scale, steps)
+    size, direction = _directions(scaled)
+    identified = size > np.maximum(FLAT, abs(direction) @ error)
+    unidentified, axes = direction[~identified], direction[identified] / size[identified, np.newaxis]
+
+    size, direction = _directions(scaled[~is_prior])
+    without_priors = direction[size <= np.maximum(FLAT, abs(direction) @ error)]
+    # Less what nothing determines at all.
+    size, direction = _directions(without_priors - without_priors @ unidentified.T @ unidentified)
+    prior_only = direction[size > 0.5]
+
+    lost = np.linalg.norm(unidentified, axis=0) > _NEGLIGIBLE_SHARE
+    gain = np.where(lost[:, np.newaxis], np.nan, axes.T @ (axes @ scaled.T))
+    covariance = np.where(lost[:, np.newaxis] | lost, np.nan, axes.T @ axes) * np.outer(scale, scale)
+    covariance[lost, lost] = np.inf
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shares = gain**2 / np.sum(gain**2, axis=1, keepdims=True)
+    return Determination(covariance, _reduced(unidentified) * scale, _reduced(prior_only) * scale, shares, len(axes))
+
+
+def _directions(matrix: Any) -> tuple[Any, Any]:
+    """All n singular values, those that are not there as 0, and their directions as rows."""
+    n = matrix.shape[1]
+    _, size, direction = np.linalg.svd(matrix, full_matrices=True)
+    return np.append(size, np.zeros(n - len(size))), direction
+
+
+def _reduced(directions: Any) -> Any:
+    """The same space spanned by rows of few unknowns each: reduced row echelon form, what is small left out."""
+    rows = np.array(directions)
+    for i in range(len(rows)):
+        rest = abs(rows[i:])
+        k, column = np.unravel_index(np.argmax(rest), rest.shape)
+        rows[[i, i + int(k)]] = rows[[i + int(k), i]]
+        rows[i] /= rows[i, column]
+        others = np.arange(len(rows)) != i
+        rows[others] -= np.outer(rows[others, column], rows[i])
+    rows = np.where(abs(rows) > _NEGLIGIBLE_SHARE, rows, 0.0)
+    return rows / np.max(abs(rows), axis=1, keepdims=True, initial=_NEGLIGIBLE_SHARE)
+
+
+def chi_squared_tail(chi_squared: float, degrees_of_freedom: int) -> float:
+    """Probability that a chi-squared variable exceeds the value: the regularised upper incomplete gamma function.
+
+    The power series below the mean, the continued fraction by Lentz's method above (Abramowitz and Stegun 6.5.29, 6.5.31). NaN
+    without degrees of freedom.
+    """
+    if degrees_of_freedom < 1 or math.isnan(chi_squared):
+        return math.nan
+    a, x = 0.5 * degrees_of_freedom, 0.5 * chi_squared
+    if x <= 0.0:
+        return 1.0
+    if math.isinf(x):
+        return 0.0
+    front = math.exp(a * math.log(x) - x - math.lgamma(a))
+    return 1.0 - front * _lower_series(a, x) if x < a + 1.0 else front * _upper_fraction(a, x)
+
+
+def _lower_series(a: float, x: float) -> float:
+    term = total = 1.0 / a
+    for k in range(1, _TERMS):
+        term *= x / (a + k)
+        total += term
+        if term <= _EPS * total:
+            break
+    return total
+
+
+def _upper_fraction(a: float, x: float) -> float:
+    """For x >= a + 1, where by induction ``1 / d`` and ``c`` are at least k + 1, so that nothing is divided by 0."""
+    b = x + 1.0 - a
+    c, d = 1e300, 1.0 / b
+    product = d
+    for k in range(1, _TERMS):
+        factor = k * (a - k)
+        b += 2.0
+        d = 1.0 / (factor * d + b)
+        c = b + factor / c
+        product *= c * d
+        if abs(c * d - 1.0) <= 4.0 * _EPS:
+            break
+    return product
