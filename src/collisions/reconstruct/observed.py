@@ -95,7 +95,7 @@ def restitution(
         _check(cases, status, before)
         answer = np.where(np.equal(status, Status.OK), found, np.nan)
         # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
-        error = 4.0 * _eps(cases) * (before.speeds + after.speeds) / closing
+        error = 4.0 * cases.eps * (before.speeds + after.speeds) / closing
         below, above = answer < -error, answer > 1.0 + error
     if np.any(below | above):
         _warn_of_restitution(answer, below, above, cases.shape is not None)
@@ -273,7 +273,7 @@ def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -
         mass, inertia = (given.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
         motion = [given[f"{label}.{name}"] for name in _PINNED]
         about: list[Any] = [np.asarray(value, dtype=np.float64) for value in motion]
-        about.append(rounding(_eps(cases), *motion[:2]))
+        about.append(rounding(cases.eps, *motion[:2]))
         faults.append((either_infinite(mass, inertia), Status.PINNED_INFINITE))
         faults.append((not_about_pivot(*about), Status.PINNED_VELOCITY))
     return faults
@@ -281,7 +281,7 @@ def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -
 
 def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Faults:
     """Where a body before is not the same body in the same place after; single numbers that differ are refused at once."""
-    within = _SAME_BODY if cases.shape is None else max(_SAME_BODY, 8.0 * _eps(cases))
+    within = _SAME_BODY if cases.shape is None else max(_SAME_BODY, 8.0 * cases.eps)
     # A coordinate may be 0 but for rounding, so what is small is judged by the size of the scene.
     scene = np.zeros(())
     for place in (*(value for name, value in given.items() if name.endswith((".x", ".y"))), *(contact or ())):
@@ -336,7 +336,7 @@ def _check(cases: Cases, status: Any, before: _Moment) -> None:
             code="not_pushed",
         )
     elif status in (Status.SEPARATING, Status.NO_CLOSING):
-        speed, error = float(before.closing_speed), 4.0 * _eps(cases) * float(before.speeds)
+        speed, error = float(before.closing_speed), 4.0 * cases.eps * float(before.speeds)
         what = f"closing speed {speed:.6g} m/s along the normal, which must point from A into B"
         if 0.0 < abs(speed) <= error:
             what = f"closing speed {speed:.3g} m/s, which cannot be told from rounding, up to {error:.3g} m/s"
@@ -348,7 +348,3 @@ def _check(cases: Cases, status: Any, before: _Moment) -> None:
         )
     elif status != Status.OK:
         raise error_of(status, f"{Status(status).sentence}: give motions that are known")
-
-
-def _eps(cases: Cases) -> float:
-    return float(np.finfo(cases.dtype).eps)
