@@ -191,7 +191,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
                 argument="impact",
             )
         )
-    time = _read_duration(reader, duration)
+    time = read_duration(reader, duration)
     pull = read_drag(reader, drag, "drag")
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
@@ -285,7 +285,8 @@ def _assembled(found: dict[str, Any]) -> LeftOut:
     return LeftOut(**{name: lock(value) for name, value in found.items() if "." not in name}, a=a, b=b)
 
 
-def _read_duration(reader: ArgumentReader, duration: Any) -> Any:
+def read_duration(reader: ArgumentReader, duration: Any) -> Any:
+    """How long the contact lasts, with a warning if a bare number is longer than any contact."""
     read = one_value(reader, duration, "s", "duration")
     read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
     warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")

@@ -56,7 +56,7 @@ class Reconstruction:
         velocity = self.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in self.contact_velocity))
         return replace(self, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
 
-    @property
-    def _fitting(self) -> str:
-        """How many impacts fit, as a sentence says it."""
-        return "a whole range of impacts" if self.answers == math.inf else f"{self.answers} impacts"
+
+def how_many(answers: float) -> str:
+    """How many impacts fit, as a sentence says it."""
+    return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"

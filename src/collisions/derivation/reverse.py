@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from ..impact import Impact
 from ..kernels.central import shares
-from ..provenance import Reconstruction
+from ..provenance import Reconstruction, how_many
 from .contact import delta_v
 from .eccentric import impulse_in_scene_axes, levers_of
 from .expressions import HALF, ONE, Expression, root
@@ -76,7 +76,7 @@ def what_was_known(page: Page, origin: Reconstruction) -> None:
     )
     if origin.answers > 1:
         page.stress(
-            f"Not the only answer: {origin._fitting} fit what was known, and this is one of them. Nothing here tells "
+            f"Not the only answer: {how_many(origin.answers)} fit what was known, and this is one of them. Nothing here tells "
             "which of them happened; look at the others too, and rule them out by other evidence."
         )
 

@@ -2,71 +2,32 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from ..amounts import at_least_zero
-from ..contact_effects import left_out
-from ..errors import InputError, ShapeError
+from ..amounts import amount
+from ..contact_effects import LeftOut, left_out, read_duration
+from ..errors import InputError, MissingInputError, ShapeError
 from ..impact import Impact
+from ..kernels.elementwise import UNCHECKED
 from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
-from ..travel.surfaces import one_value, read_drag
-from ..unit_systems import UnitSystem
-from ..units import Input
-from . import balance, checks_evidence, checks_impact, inputs, robustness
-from .case import Balance, Case, Examined, Told, named
-from .finding import Finding, Findings, read_limits
-from .limits import LIMITS
-from .words import read_words
+from ..travel.chain import GRAVITY
+from ..travel.surfaces import read_drag
+from ..unit_systems import UnitSystem, bad_system
+from ..units import Input, shown
+from ..vehicle import Vehicle, missing
+from . import checks_consistency, checks_inputs, checks_reliability
+from .finding import Case, Check, Damage, Findings, ImpactCase, Limit, MomentumCase, VehicleResult, share
 
-_Examined = TypeVar("_Examined", bound=Examined)
-_EVIDENCE: tuple[Callable[[Examined], Iterator[Finding]], ...] = (
-    checks_evidence.momentum_energy,
-    checks_evidence.pdof_off_damage,
-    checks_evidence.delta_v_off_damage,
-    inputs.suspect_drag,
-    inputs.suspect_duration,
-)
-_IMPACT: tuple[Callable[[Case], Iterator[Finding]], ...] = (
-    checks_impact.energy_gain,
-    checks_impact.rounding,
-    checks_impact.restitution,
-    checks_impact.impulse_ratio,
-    checks_impact.friction_gain,
-    checks_impact.jamming,
-    checks_impact.contact_points,
-    checks_impact.outlines,
-    checks_impact.normal_against_positions,
-    checks_evidence.yaw_against_lever,
-    checks_impact.impulse_off_normal,
-    checks_impact.heading_off_course,
-    checks_impact.point_outside,
-    checks_impact.ill_conditioned,
-    checks_impact.not_unique,
-    checks_impact.tyre_impulse,
-    checks_impact.reference_range,
-    robustness.model,
-    robustness.law,
-    robustness.normal,
-    inputs.suspect_inputs,
-    inputs.suspect_friction,
-    inputs.suspect_distance,
-)
-_BALANCE: tuple[Callable[[Balance], Iterator[Finding]], ...] = (
-    balance.energy_gain,
-    balance.restitution,
-    balance.near_collinear,
-    balance.ill_conditioned,
-    balance.speed_backwards,
-    balance.tyre_impulse,
-    balance.suspect_inputs,
-)
+_MODULES = (checks_consistency, checks_reliability, checks_inputs)
+_CHECKS = [check for module in _MODULES for check in vars(module).values() if isinstance(check, Check)]
+LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
+"""By code, in the order in which findings are listed: what is measured, its default limit and where that is from."""
 
 
 def diagnose(
@@ -157,80 +118,149 @@ def diagnose(
     reader = ArgumentReader(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     outlines = {
-        label: read_outline(reader, given, f"outline_{label}")
+        label: _read_outline(reader, impact, given, label)
         for label, given in (("a", outline_a), ("b", outline_b))
         if given is not None
     }
-    if isinstance(impact, MomentumSolution) and outlines:
-        reader.refuse(
-            InputError(
-                "outline_a and outline_b need positions, which a MomentumSolution has not; leave them out, or diagnose the "
-                "impact of collisions.eccentric at its speeds",
-                code="not_an_impact",
-                argument="outline_a" if "a" in outlines else "outline_b",
-            )
-        )
-    words = read_words(reader, units)
+    problem = bad_system(units)
+    if problem is not None:
+        reader.refuse(problem)
     allowed = read_limits(limits, reader)
-    found = checks_evidence.read_evidence(
-        reader,
-        impact,
-        crush_energy,
-        {"a": damage_pdof_a, "b": damage_pdof_b},
-        {"a": damage_delta_v_a, "b": damage_delta_v_b},
-    )
-    if isinstance(impact, MomentumSolution):
-        time = one_value(reader, duration, "s", "duration")
-        time = at_least_zero(reader, time, duration, "duration", "negative_duration", "it is the time from touching to parting")
-        pull = read_drag(reader, drag, "drag")
+    if crush_energy is not None:
+        crush_energy = _single(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
+    known: dict[str, Any] = {
+        "damage": {
+            "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
+            "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
+        },
+        "crush_energy": crush_energy,
+        "units": units,
+    }
+    case: Case
+    if isinstance(impact, Impact):
         reader.close()
-        _check_single(time, pull)
-        solved = Balance(
-            solution=impact,
-            limits=allowed,
-            evidence=found,
-            energy_lost=impact.translational_energy_loss,
-            told={
-                label: Told(f"vehicle {label.upper()}", getattr(impact, f"delta_v_{label}"), getattr(impact, f"pdof_{label}"))
-                for label in "ab"
-            },
-            duration=time,
-            drag=pull,
-            words=words,
-        )
-        return _sorted([*_each(_EVIDENCE, solved), *_each(_BALANCE, solved)], solved)
-    reader.close()
-    left = left_out(impact, duration=duration, drag=drag)
-    _check_single(left.duration, left.drag)
-    case = Case(
-        impact=impact,
-        outlines=outlines,
-        left_out=left,
-        limits=allowed,
-        evidence=found,
-        energy_lost=impact.energy_loss,
-        told={label: Told(named(label, side), side.delta_v, side.pdof) for label, side in (("a", impact.a), ("b", impact.b))},
-        duration=left.duration,
-        drag=left.drag,
-        words=words,
+        left = left_out(impact, duration=duration, drag=drag)
+        time, pull = _single(reader, left.duration, "duration"), _single(reader, left.drag, "drag")
+        reader.close()
+        case = _impact_case(impact, outlines, left, duration=time, drag=pull, **known)
+    else:
+        time = _single(reader, read_duration(reader, duration), "duration")
+        pull = _single(reader, read_drag(reader, drag, "drag"), "drag")
+        reader.close()
+        case = _momentum_case(impact, duration=time, drag=pull, **known)
+    findings, measured = [], []
+    for check in _CHECKS:
+        if isinstance(case, check.kind) and allowed[check.code] != check.off:
+            values = list(check.measure(case))
+            findings += check.findings(values, allowed[check.code])
+            measured += [check.code] if values else []
+    return Findings(findings, measured)
+
+
+def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
+    """The limits of a call: the defaults, and what the caller has instead; units allowed."""
+    limits = {code: limit.default for code, limit in LIMITS.items()}
+    if given is not None and not isinstance(given, Mapping):
+        kind = type(given).__name__
+        text = f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {kind}"
+        reader.refuse(InputError(text, code="bad_limit", argument="limits"))
+        return limits
+    for code, value in (given or {}).items():
+        name = f"limits[{code!r}]"
+        if code not in LIMITS:
+            text = f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}"
+            reader.refuse(InputError(text, code="unknown_finding", argument="limits"))
+            continue
+        count = len(reader.problems)
+        read = _single(reader, reader.number(value, LIMITS[code].unit, name, UNCHECKED), name, "limits")
+        if len(reader.problems) == count and not read >= 0.0:
+            text = f"{name} must be >= 0 (inf switches it off), got {shown(value)}"
+            reader.refuse(InputError(text, code="bad_limit", argument="limits"))
+        limits[code] = read
+    return limits
+
+
+def _single(reader: ArgumentReader, read: Any, name: str, argument: str = "") -> Any:
+    """A number that was read, which must be one."""
+    if isinstance(read, np.ndarray):
+        text = f"{name} takes one value: diagnose takes one case"
+        return reader.refuse(ShapeError(text, code="bad_shape", argument=argument or name))
+    return read
+
+
+def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, given: Any, label: str) -> Any:
+    """The corners of an outline, whose vehicle must have a place."""
+    name = f"outline_{label}"
+    if isinstance(answer, Impact):
+        _need(reader, answer, ("x", "y", "heading"), name, label)
+        return read_outline(reader, given, name)
+    text = (
+        f"{name} needs positions, which a MomentumSolution has not; leave it out, or diagnose the impact of "
+        f"collisions.eccentric at its speeds"
     )
-    return _sorted([*_each(_EVIDENCE, case), *_each(_IMPACT, case)], case)
+    return reader.refuse(InputError(text, code="not_an_impact", argument=name))
 
 
-def _each(checks: tuple[Callable[[_Examined], Iterator[Finding]], ...], case: _Examined) -> Iterator[Finding]:
-    for check in checks:
-        yield from check(case)
+def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str) -> Damage:
+    """PDOF, which is seen from the vehicle, and delta-V that its damage shows."""
+    if pdof is not None:
+        name = f"damage_pdof_{label}"
+        pdof = _single(reader, reader.number(pdof, "rad", name), name)
+        if isinstance(answer, Impact):
+            _need(reader, answer, ("heading",), name, label)
+        elif getattr(answer, f"pdof_{label}") is None:
+            text = (
+                f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 deg' (where the vehicle "
+                f"points) to reconstruct.momentum"
+            )
+            reader.refuse(MissingInputError(text, code="missing_heading", argument=f"heading_{label}"))
+    if delta_v is not None:
+        name = f"damage_delta_v_{label}"
+        delta_v = _single(reader, amount(reader, delta_v, "m/s", name), name)
+    return Damage(pdof, delta_v)
 
 
-def _sorted(findings: list[Finding], case: Examined) -> Findings:
-    """By code and vehicle; every answer has an energy that was looked at, also one without a gain."""
-    order = {code: at for at, code in enumerate(LIMITS)}
-    measured = case.measured | ({"energy_gain"} if case.limits["energy_gain"] != math.inf else set())
-    return Findings(sorted(findings, key=lambda finding: (order[finding.code], finding.vehicle)), measured)
+def _need(reader: ArgumentReader, impact: Impact, fields: tuple[str, ...], purpose: str, label: str) -> None:
+    vehicle: Vehicle = getattr(impact, label).before
+    lacking = [field for field in fields if getattr(vehicle, field) is None]
+    if lacking:
+        reader.refuse(missing(vehicle, lacking[0], purpose, label))
 
 
-def _check_single(duration: Any, drag: Any) -> None:
-    if isinstance(duration, np.ndarray) or isinstance(drag, np.ndarray):
-        raise ShapeError(
-            "duration and drag take one value each: diagnose takes one case", code="bad_shape", argument="duration"
+def _impact_case(impact: Impact, outlines: dict[str, Any], left: LeftOut, **known: Any) -> ImpactCase:
+    origin = impact.reconstruction
+    vehicles = {}
+    for label, side, tyres in (("a", impact.a, left.a), ("b", impact.b, left.b)):
+        before = side.before
+        vehicles[label] = VehicleResult(
+            who=f"vehicle {label.upper()} ({before.name})" if before.name else f"vehicle {label.upper()}",
+            mass=before.mass,
+            speed=before.speed,
+            speed_found=origin is not None and not {f"v{label}", f"speed_{label}"} & set(origin.known),
+            delta_v=side.delta_v,
+            pdof=side.pdof,
+            tyre_delta_v=tyres.tyre_delta_v_bound,
+            tyre_share=tyres.tyre_share_bound,
         )
+    return ImpactCase(
+        answer=impact, vehicles=vehicles, energy_loss=impact.energy_loss, outlines=outlines, left_out=left, **known
+    )
+
+
+def _momentum_case(solution: MomentumSolution, duration: float, drag: float, **known: Any) -> MomentumCase:
+    tyres = drag * GRAVITY * duration
+    vehicles = {}
+    for label in "ab":
+        mass, speed, delta_v, pdof = (getattr(solution, f"{name}_{label}") for name in ("mass", "speed", "delta_v", "pdof"))
+        vehicles[label] = VehicleResult(
+            who=f"vehicle {label.upper()}",
+            mass=mass,
+            speed=abs(speed),
+            speed_found=f"speed_{label}" in solution.unknowns,
+            delta_v=delta_v,
+            pdof=pdof,
+            tyre_delta_v=tyres,
+            tyre_share=share(tyres, delta_v),
+        )
+    loss = solution.translational_energy_loss
+    return MomentumCase(answer=solution, vehicles=vehicles, energy_loss=loss, duration=duration, drag=drag, **known)

@@ -1,21 +1,61 @@
-"""A finding, and how the limits of a call are read."""
+"""A finding, how one is declared with its limit, unit and source, and the cases in which it is looked for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cache, cached_property, partial
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
-from ..errors import InputError, ShapeError
-from ..kernels.elementwise import UNCHECKED
-from ..quantities import OWN, Quantities
-from ..reading import ArgumentReader
-from ..units import shown
-from .limits import LIMITS
+from ..contact_effects import LeftOut
+from ..directions import from_degrees
+from ..impact import Impact
+from ..kernels.contact_laws import BRACH, LAWS
+from ..kernels.status import EPS
+from ..model_choice import ModelChoice
+from ..outlines import overlap, placed
+from ..quantities import OWN, Quantities, in_words
+from ..reconstruct import MomentumSolution
+from ..side import Side
+from ..solvers import required_model
+from ..unit_systems import decimals_of, scale_of, unit_of
+from ..vehicle import Vehicle
 
-# The reader's word for a number that no domain bounds: an infinite limit switches a finding off.
+# Sources of several limits.
+_HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
+MESSAGES = f"EDCRASH manual, chapter 6 ({_HVE}/06-messages.md)"
+METHOD = f"EDCRASH manual, chapter 4 ({_HVE}/04-calculation-method.md)"
+SET_HERE = "set here"
+# A ratio that comes out of an answer and rounds to its limit has not passed it.
+RATIO_ROUNDING = 1e-9
+# How far the normal is turned, in degrees, to see what depends on it.
+_TURN = 10.0
+_ENERGY_FIGURES = 4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limit:
+    """The limit that a finding passes.
+
+    Parameters
+    ----------
+    default : float or None
+        In ``unit``; None where it depends on the case.
+    unit : str
+        SI unit.
+    measured : str
+        What is measured, and from which side the limit is passed.
+    source : str
+        Where the default is from: "set here" with the reason where nothing was found to cite.
+    """
+
+    default: float | None
+    unit: str
+    measured: str
+    source: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,43 +105,231 @@ class Findings(tuple[Finding, ...]):
         return made
 
 
-def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
-    """The limits of a call: the defaults, and what the caller has instead; units allowed."""
-    limits = {code: limit.default for code, limit in LIMITS.items()}
-    if given is None:
-        return limits
-    if not isinstance(given, Mapping):
-        reader.refuse(
-            InputError(
-                f"limits must be a dict from code to limit, such as {{'tyre_impulse': 0.2}}; got {type(given).__name__}",
-                code="bad_limit",
-                argument="limits",
-            )
+class Measured(NamedTuple):
+    """What a check measured, and the sentence it makes if the limit is passed.
+
+    ``limit`` is the default of one that depends on the case; ``rounding`` is by how much the value has to be above its limit.
+    """
+
+    value: float
+    sentence: str
+    vehicle: str = ""
+    limit: float = math.nan
+    rounding: float = 0.0
+
+
+class Bound(NamedTuple):
+    """From which side a limit is passed, and its default, or how it depends on the case."""
+
+    passed: str
+    limit: float | str
+    unit: str = ""
+
+
+above, below, at_or_below = (partial(Bound, passed) for passed in ("above", "below", "at or below"))
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A finding as it was declared: ``measure`` looks at cases of one kind."""
+
+    code: str
+    limit: Limit
+    passed: str
+    kind: type[Case]
+    measure: Callable[[Any], Iterator[Measured]]
+
+    @property
+    def off(self) -> float:
+        """The limit that nothing passes."""
+        return math.inf if self.passed == "above" else 0.0
+
+    def findings(self, values: Iterable[Measured], allowed: float | None) -> list[Finding]:
+        """Those that pass the limit, vehicle A before B."""
+        found = []
+        for value, sentence, vehicle, limit, rounding in values:
+            limit = limit if allowed is None else allowed
+            if self.passed == "above":
+                passed = value > limit + rounding
+            else:
+                passed = value < limit or (self.passed == "at or below" and value == limit)
+            if passed:
+                found.append(
+                    Finding(
+                        code=self.code,
+                        sentence=sentence,
+                        measured=float(value),
+                        limit=float(limit),
+                        unit=self.limit.unit,
+                        vehicle=vehicle,
+                        source=self.limit.source,
+                    )
+                )
+        return sorted(found, key=lambda finding: finding.vehicle)
+
+
+def finding(measured: str, bound: Bound, source: str) -> Callable[[Callable[[Any], Iterator[Measured]]], Check]:
+    """Declare a finding by the function that measures it: its name is the code, its annotation the kind of case it looks at.
+
+    Where the limit depends on the case, every ``Measured`` has the number.
+    """
+    default, words = (None, f" {bound.limit}") if isinstance(bound.limit, str) else (bound.limit, "")
+    limit = Limit(default=default, unit=bound.unit, measured=f"{measured}: {bound.passed}{words}", source=source)
+
+    def declare(measure: Callable[[Any], Iterator[Measured]]) -> Check:
+        kind, _ = get_type_hints(measure).values()
+        return Check(measure.__name__, limit, bound.passed, kind, measure)
+
+    return declare
+
+
+class Damage(NamedTuple):
+    """What the damage of a vehicle shows, apart from the answer."""
+
+    pdof: float | None
+    delta_v: float | None
+
+
+class VehicleResult(NamedTuple):
+    """What every answer has of a vehicle; of its tyres the most they can give, and that as a share of delta-V."""
+
+    who: str
+    mass: float
+    speed: float
+    speed_found: bool
+    delta_v: float
+    pdof: float | None
+    tyre_delta_v: float
+    tyre_share: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Case:
+    """One answer that is examined, with what was given about it; sentences are in ``units``."""
+
+    answer: Impact | MomentumSolution
+    vehicles: dict[str, VehicleResult]
+    energy_loss: float
+    damage: dict[str, Damage]
+    crush_energy: float | None
+    duration: float
+    drag: float
+    units: str
+
+    def number(self, value: float, kind: str) -> str:
+        """A number in these units, to the decimals of its kind; an energy to four figures."""
+        scale, decimals, _ = _format(kind, self.units)
+        scaled = value * scale
+        if not math.isfinite(scaled):
+            return in_words(scaled)
+        text = f"{float(f'{scaled:.{_ENERGY_FIGURES}g}'):.12g}" if decimals is None else f"{scaled:.{decimals}f}"
+        return text.lstrip("-") if float(text) == 0.0 else text
+
+    def text(self, value: float, kind: str) -> str:
+        """The number with its unit."""
+        return f"{self.number(value, kind)} {_format(kind, self.units)[2]}" if math.isfinite(value) else in_words(value)
+
+
+@cache
+def _format(kind: str, units: str) -> tuple[float, int | None, str]:
+    """Scale, decimals and unit of a kind; of an angle one decimal more than an answer has, as it stands beside a limit."""
+    decimals = decimals_of(kind, units)
+    more = int(kind == "angle")
+    unit = unit_of(kind, units).replace("deg", "degrees").replace("*", " ")
+    return scale_of(kind, units), None if decimals is None else decimals + more, unit
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MomentumCase(Case):
+    """A reconstruction by planar momentum, which knows courses and speeds but no contact."""
+
+    answer: MomentumSolution
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ImpactCase(Case):
+    """An impact with outlines by vehicle label and what the impulse leaves out, and what several findings compare it with."""
+
+    answer: Impact
+    outlines: dict[str, Any]
+    left_out: LeftOut
+
+    @cached_property
+    def sides(self) -> tuple[tuple[str, str, Side], tuple[str, str, Side]]:
+        """Label, name in a sentence, and side of both vehicles."""
+        return ("a", self.vehicles["a"].who, self.answer.a), ("b", self.vehicles["b"].who, self.answer.b)
+
+    @cached_property
+    def overlaps(self) -> tuple[float, float, float] | None:
+        """How deep the outlines overlap at the impact and the duration after it (below 0: a gap), and what both are off by."""
+        if len(self.outlines) < 2:
+            return None
+        now, later = (
+            overlap(*(placed(self.outlines[label], side.after, label, time) for label, _, side in self.sides))
+            for time in (0.0, self.duration)
         )
-        return limits
-    for code, value in given.items():
-        name = f"limits[{code!r}]"
-        if code not in LIMITS:
-            reader.refuse(
-                InputError(
-                    f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}",
-                    code="unknown_finding",
-                    argument="limits",
-                )
-            )
-            continue
-        count = len(reader.problems)
-        read = reader.number(value, LIMITS[code].unit, name, UNCHECKED)
-        if len(reader.problems) > count:
-            continue
-        if isinstance(read, np.ndarray):
-            reader.refuse(ShapeError(f"{name} takes one value", code="bad_shape", argument="limits"))
-        elif not read >= 0.0:
-            reader.refuse(
-                InputError(
-                    f"{name} must be >= 0 (inf switches it off), got {shown(value)}", code="bad_limit", argument="limits"
-                )
-            )
-        else:
-            limits[code] = read
-    return limits
+        return now, later, sum(outline_off_by(self.outlines[label], side.after, self.duration) for label, _, side in self.sides)
+
+    @cached_property
+    def model_choice(self) -> tuple[ModelChoice, str]:
+        """What the central models err by, and which contact point was taken where there is none."""
+        impact, inputs, a, b = self.answer, self.answer.inputs, self.answer.a.before, self.answer.b.before
+        point: Any = impact.point
+        how = ""
+        places: Any = (a.x, a.y, b.x, b.y)
+        if point is None and None not in places:
+            point = 0.5 * (places[0] + places[2]), 0.5 * (places[1] + places[3])
+            how = ", with the contact point taken half-way between the centres"
+        options: dict[str, Any] = {inputs.rule: inputs.rule_value, "law": inputs.law or BRACH}
+        return required_model(a, b, impact.restitution, normal=impact.normal, point=point, **options), how
+
+    @cached_property
+    def other_laws(self) -> list[tuple[str, Impact]]:
+        """The answers under every other law, each with how it came about."""
+        impact = self.answer
+        if impact.law is None or impact.model == "linear_central":
+            return []
+        others = [name for name in LAWS if name != impact.law]
+        return [(f"under the law {name!r} instead of {impact.law!r}", impact._again(law=name)) for name in others]
+
+    @cached_property
+    def turned_normals(self) -> list[tuple[str, Impact]]:
+        """The answers with the normal turned either way, each with how it came about."""
+        if self.answer.inputs.model == "linear_central":
+            return []
+        nx, ny = self.answer.normal
+        answers = []
+        for angle in (-_TURN, _TURN):
+            c, s = from_degrees(angle)
+            how = f"with the normal turned by {'+' if angle > 0.0 else ''}{self.text(math.radians(angle), 'angle')}"
+            answers.append((how, self.answer._again(normal=(c * nx - s * ny, s * nx + c * ny))))
+        return answers
+
+
+def percent(share: float, decimals: int = 0) -> str:
+    """A share; of nothing everything is an infinite one."""
+    return f"{share:.{decimals}%}" if math.isfinite(share) else f"a share that is {in_words(share)}"
+
+
+def plain(value: float) -> str:
+    """A number without a unit, to three figures."""
+    return f"{value:.3g}" if math.isfinite(value) else in_words(value)
+
+
+def share(part: float, whole: float) -> float:
+    """The quotient; infinite where there is nothing to compare with, or no number to compare."""
+    if part == 0.0:
+        return 0.0
+    return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
+
+
+def off_by(*sizes: float) -> float:
+    """What a few sums and differences of numbers of these sizes may be off by: 16 eps of all of them together."""
+    return 16.0 * EPS * sum(map(abs, sizes))
+
+
+def outline_off_by(outline: Any, vehicle: Vehicle, after: float = 0.0) -> float:
+    """What the corners may be off by where they were placed; a heading is known to eps of itself."""
+    x, y, heading = (getattr(vehicle, name) for name in ("x", "y", "heading"))
+    turned = float(np.max(np.abs(outline))) * (1.0 + abs(heading) + abs(vehicle.yaw_rate * after))
+    return off_by(x, y, vehicle.speed * after, turned)

@@ -14,7 +14,8 @@ from ..derivation import reverse
 from ..derivation.explain import answers
 from ..derivation.explain import inputs as inputs_of_impact
 from ..diagnostics import LIMITS, Finding
-from ..diagnostics.finding import Findings, read_limits
+from ..diagnostics.diagnosis import read_limits
+from ..diagnostics.finding import Findings
 from ..errors import Status
 from ..impact import Impact
 from ..kernels.contact_laws import LAWS

@@ -1,0 +1,387 @@
+"""Findings on contradictions: within the answer, and between answer, outlines, positions, directions and damage."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..directions import from_radians
+from ..outlines import distance_outside, placed
+from ..reference import restitution_range
+from ..side import Side
+from .finding import (
+    MESSAGES,
+    METHOD,
+    RATIO_ROUNDING,
+    SET_HERE,
+    Case,
+    ImpactCase,
+    Measured,
+    MomentumCase,
+    above,
+    finding,
+    off_by,
+    outline_off_by,
+    percent,
+    share,
+)
+
+# In metres, of positions and outlines together.
+_POSITION_ERROR = 0.3
+# A lever that a force turned by 10 degrees would reverse tells nothing.
+_LEVER_TOL = math.sin(math.radians(10.0))
+# Slower than this, in m/s, a course tells little; faster than this, in rad/s, a vehicle spins.
+_SLOW, _SPINNING = 1.0, 0.5
+_BACKWARDS = math.radians(135.0)
+
+
+@finding(
+    "energy that the bodies have after above that before",
+    above(0.0, "J"),
+    f'eq 7 of the paper; "the crash created energy", {MESSAGES}',
+)
+def energy_gain(case: Case) -> Iterator[Measured]:
+    gain = 0.0 if case.answer.ok else -case.energy_loss
+    yield Measured(gain, f"the impact ends with {case.text(gain, 'energy')} more than it began with; none can")
+
+
+@finding(
+    "difference of the crush energy that was given from the energy that the impact takes, as a share of it",
+    above(0.5),
+    f"Conservation of Energy Warning, {MESSAGES}: typically 50 percent",
+)
+def momentum_energy(case: Case) -> Iterator[Measured]:
+    crush, lost = case.crush_energy, case.energy_loss
+    if crush is not None:
+        sentence = (
+            f"the damage takes {case.text(crush, 'energy')} by the crush energy given, and momentum leaves "
+            f"{case.text(lost, 'energy')} to be lost: speeds or damage are wrong"
+        )
+        yield Measured(share(abs(crush - lost), lost), sentence, rounding=off_by(1.0))
+
+
+@finding(
+    (
+        "what momentum, or the loss of energy worked out from the speeds before and after, differs by from the impulse and its "
+        "work, as a share"
+    ),
+    above(0.01),
+    f"{SET_HERE}: both are one number but for rounding, and one percent would be seen by whoever checks by hand",
+)
+def rounding(case: ImpactCase) -> Iterator[Measured]:
+    impact = case.answer
+    off = share(impact.momentum_residual, math.hypot(impact.normal_impulse, impact.tangential_impulse))
+    what = f"momentum changes by {off:.2g} of the impulse"
+    sides = (impact.a, impact.b)
+    if not any(_has_infinite_energy(side) for side in sides):
+        before, after = (sum(_energy(side, which) for side in sides) for which in ("before", "after"))
+        lost = impact.energy_loss
+        by_speeds = share(abs((before - after) - lost), max(abs(lost), impact.energy_absorbed))
+        if by_speeds > off:
+            off = by_speeds
+            what = (
+                f"kinetic energies before and after differ by {case.text(before - after, 'energy')}, and the impulse takes "
+                f"{case.text(lost, 'energy')}"
+            )
+    yield Measured(off, f"{what}: rounding of speeds that are large against the closing speed")
+
+
+def _has_infinite_energy(side: Side) -> bool:
+    before = side.before
+    turning = before.yaw_inertia is not None and math.isinf(before.yaw_inertia) and before.yaw_rate != 0.0
+    return turning or (math.isinf(before.mass) and before.speed > 0.0)
+
+
+def _energy(side: Side, which: str) -> float:
+    """Kinetic energy before or after; that of a yaw rate which does not change is left out."""
+    vehicle = getattr(side, which)
+    energy = 0.0 if math.isinf(vehicle.mass) else 0.5 * vehicle.mass * (vehicle.vx * vehicle.vx + vehicle.vy * vehicle.vy)
+    if side.delta_yaw_rate == 0.0 or vehicle.yaw_inertia is None or math.isinf(vehicle.yaw_inertia):
+        return energy
+    return energy + 0.5 * vehicle.yaw_inertia * vehicle.yaw_rate * vehicle.yaw_rate
+
+
+@finding("restitution", above("the highest that is plausible for the closing speed"), "reference.restitution_range")
+def restitution(case: Case) -> Iterator[Measured]:
+    closing, e = case.answer.closing_speed, case.answer.restitution
+    # Planar momentum has neither without a normal, and its centres may move apart along it.
+    if closing is not None and e is not None and closing > 0.0:
+        highest = restitution_range(closing)[1]
+        of = " of the centres" if isinstance(case, MomentumCase) else ""
+        sentence = (
+            f"restitution{of} {e:.3g} at a closing speed of {case.text(closing, 'speed')}, where {highest:.2g} is the highest "
+            f"that published values make plausible"
+        )
+        yield Measured(e, sentence, limit=highest, rounding=RATIO_ROUNDING)
+
+
+@finding(
+    "how far the restitution of momentum is below 0, infinite where the centres do not approach",
+    above(0.01),
+    f"{SET_HERE}: what rounded inputs leave of 0; Coefficient of Restitution Warnings, {MESSAGES}, warn of any",
+)
+def restitution_negative(case: MomentumCase) -> Iterator[Measured]:
+    closing, e = case.answer.closing_speed, case.answer.restitution
+    if closing is None or e is None:
+        return
+    speed = case.text(closing, "speed")
+    if closing > 0.0:
+        sentence = f"restitution of the centres {e:.3g} at a closing speed of {speed}: they would pass through each other"
+        yield Measured(-e, sentence)
+    else:
+        sentence = f"the centres do not approach along the normal: closing speed {speed}; it must point from A into B"
+        yield Measured(math.inf, sentence)
+
+
+@finding(
+    "impulse ratio as a share of the critical one, infinite where it drives the slip",
+    above(1.0),
+    "Coulomb friction ends with the slip and cannot reverse it; reference.SHARE_OF_CRITICAL_SMALL_OVERLAP ends at 1",
+)
+def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
+    ratio, critical = case.answer.impulse_ratio, case.answer.critical_impulse_ratio
+    # A contact with one degree of freedom has no critical ratio.
+    if ratio == 0.0 or math.isnan(critical) or case.answer.model == "linear_central":
+        return
+    part = math.inf if critical == 0.0 else ratio / critical
+    if part < 0.0:
+        part = math.inf
+        what = f"drives the slip instead of ending it: the critical one is {critical:.3g}; check its sign"
+    else:
+        part = 1.0 if abs(part - 1.0) <= RATIO_ROUNDING else part
+        what = f"is {part:.2f} of the critical one, {critical:.3g}, which already ends the slip"
+    yield Measured(part, f"the impulse ratio {ratio:.3g} {what}")
+
+
+@finding(
+    "energy that the tangential impulse adds, as a share of the energy absorbed",
+    above(0.005),
+    f"{SET_HERE}: friction takes energy; half a percent is less than what any speed is known to",
+)
+def friction_gain(case: ImpactCase) -> Iterator[Measured]:
+    gain = -case.answer.energy_loss_tangential
+    part = share(gain, case.answer.energy_absorbed) if gain > 0.0 else 0.0
+    sentence = (
+        f"the tangential impulse adds {case.text(gain, 'energy')}, {percent(part, 1)} of the energy absorbed, where friction "
+        f"can only take it: the slip turns round during the contact, which one impulse ratio does not tell"
+    )
+    yield Measured(part, sentence)
+
+
+@finding(
+    "impulse ratio as a share of the one at which the bodies jam",
+    above(0.5),
+    f"{SET_HERE}: at one half, the normal impulse is twice that of a frictionless contact",
+)
+def jamming(case: ImpactCase) -> Iterator[Measured]:
+    impact = case.answer
+    frictionless = impact.effective_mass * impact.closing_speed
+    if impact.regime in ("given", "sliding") and frictionless > 0.0 and impact.compression_impulse != 0.0:
+        part = 1.0 - frictionless / impact.compression_impulse
+        sentence = (
+            f"the tangential impulse makes the normal one {impact.compression_impulse / frictionless:.2f} times as large: the "
+            f"ratio is {part:.2f} of the one at which the bodies jam"
+        )
+        yield Measured(part, sentence)
+
+
+@finding(
+    "speed at which the contact points still approach after the impact",
+    above(0.1, "m/s"),
+    f"{SET_HERE}: 0.4 km/h, below what evidence shows; {MESSAGES} warns of any",
+)
+def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
+    impact = case.answer
+    point, (nx, ny) = impact.point, impact.normal
+    if point is None or any(side.after.yaw_rate != 0.0 and side.after.x is None for _, _, side in case.sides):
+        return
+    (ax, ay), (bx, by) = (side.after.velocity_at(point) for _, _, side in case.sides)
+    approach = nx * (ax - bx) + ny * (ay - by)
+    speed = case.text(approach, "speed")
+    sentence = f"after the impact the contact points still approach at {speed}: {impact.model} leaves the turning out"
+    yield Measured(approach, sentence)
+
+
+@finding(
+    "how much further the outlines pass into each other by the end of the duration after separation",
+    above(0.2, "m"),
+    f"{SET_HERE}: two positions of 10 cm each; stiff outlines of vehicles that turn apart pass by less",
+)
+def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
+    if case.overlaps is not None:
+        now, later, rounding = case.overlaps
+        depth = max(now, 0.0)
+        sentence = (
+            f"{case.duration:.3g} s after separation the outlines overlap by {case.text(later, 'length')}, "
+            f"{case.text(later - depth, 'length')} more than at the impact ({case.text(depth, 'length')})"
+        )
+        yield Measured(later - depth, sentence, rounding=rounding)
+
+
+@finding(
+    "how deep the outlines overlap at the impact",
+    above("the mutual crush of the impact in the duration and 0.3 m more", "m"),
+    f"{SET_HERE}: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are rounder than drawn",
+)
+def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
+    if case.overlaps is not None:
+        now, _, rounding = case.overlaps
+        depth, crush = max(now, 0.0), case.left_out.mutual_crush
+        sentence = (
+            f"at the impact the outlines overlap by {case.text(depth, 'length')}, and the impact crushes both together by "
+            f"{case.text(crush, 'length')} in {case.duration:.3g} s; check positions and headings"
+        )
+        yield Measured(depth, sentence, limit=crush + _POSITION_ERROR, rounding=rounding)
+
+
+@finding(
+    "gap between the outlines at the impact",
+    above(0.3, "m"),
+    f"{SET_HERE}: positions to 10 cm each, and 10 cm for outlines that are smaller than drawn",
+)
+def outlines_gap(case: ImpactCase) -> Iterator[Measured]:
+    if case.overlaps is not None:
+        now, _, rounding = case.overlaps
+        gap = case.text(-now, "length")
+        sentence = f"at the impact there is a gap of {gap} between the outlines; check positions and headings"
+        yield Measured(-now, sentence, rounding=rounding)
+
+
+@finding(
+    (
+        "how far, along the normal, the contact point lies behind the centre of A or B before its own, or without a point the "
+        "centre of B behind that of A"
+    ),
+    above(0.1, "m"),
+    f"{SET_HERE}: the normal points from A into B, so that a convex body has its centre behind the contact; 10 cm of reading",
+)
+def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
+    (nx, ny), point = case.answer.normal, case.answer.point
+    a, b = (
+        None if vehicle.x is None or vehicle.y is None or math.isinf(vehicle.mass) else (vehicle.x, vehicle.y)
+        for vehicle in (case.answer.a.before, case.answer.b.before)
+    )
+    # Along the normal the first of each pair should come first.
+    for label, one, other in [("", a, b)] if point is None else [("a", a, point), ("b", point, b)]:
+        if one is None or other is None:
+            continue
+        behind = nx * (one[0] - other[0]) + ny * (one[1] - other[1])
+        far = case.text(behind, "length")
+        if label:
+            sentence = (
+                f"the normal, which points from A into B, points {'back into A' if label == 'a' else 'away from B'}: the "
+                f"centre of {case.vehicles[label].who} is {far} on the wrong side of the contact point"
+            )
+        else:
+            sentence = (
+                f"along the normal, which points from A into B, the centre of B is {far} behind that of A; check the normal "
+                f"and the positions"
+            )
+        yield Measured(behind, sentence, label, rounding=off_by(*one, *other))
+
+
+@finding(
+    (
+        "change of yaw rate against the lever of the principal force, in the damage_pdof that was given, where 10 degrees "
+        "either way do not turn the lever"
+    ),
+    above(0.1, "rad/s"),
+    f"{SET_HERE}: 6 deg/s; Rotation Direction Warning, {MESSAGES}, warns of any",
+)
+def yaw_against_lever(case: ImpactCase) -> Iterator[Measured]:
+    point = case.answer.point
+    for label, who, side in case.sides:
+        before, pdof = side.before, case.damage[label].pdof
+        x, y = before.pivot if before.pivot is not None else (before.x, before.y)
+        if point is None or pdof is None or x is None or y is None or before.heading is None:
+            continue
+        # The PDOF is where the force comes from, clockwise from the heading.
+        c, s = from_radians(before.heading - pdof)
+        arm_x, arm_y = point[0] - x, point[1] - y
+        lever = arm_y * c - arm_x * s
+        if abs(lever) > _LEVER_TOL * math.hypot(arm_x, arm_y):
+            sentence = (
+                f"{who} is turned by {case.text(side.delta_yaw_rate, 'yaw rate')}, against the lever "
+                f"({case.text(abs(lever), 'length')}) of a force from the {case.text(pdof, 'angle')} that its damage shows"
+            )
+            yield Measured(-math.copysign(1.0, lever) * side.delta_yaw_rate, sentence, label)
+
+
+@finding(
+    "angle between the PDOF and the damage_pdof that was given",
+    above(math.radians(10.0), "rad"),
+    f"PDOF Compatibility Warning, {MESSAGES}: about 10 degrees",
+)
+def pdof_off_damage(case: Case) -> Iterator[Measured]:
+    for label, vehicle in case.vehicles.items():
+        pdof, seen = vehicle.pdof, case.damage[label].pdof
+        if pdof is not None and seen is not None:
+            off = abs(math.remainder(seen - pdof, math.tau))
+            sentence = (
+                f"{vehicle.who} has a PDOF of {case.text(pdof, 'angle')}, {case.text(off, 'angle')} off the "
+                f"{case.text(seen, 'angle')} that its damage shows (0 ahead, positive clockwise)"
+            )
+            yield Measured(off, sentence, label, rounding=off_by(seen, pdof, math.tau))
+
+
+@finding(
+    "difference of the damage_delta_v that was given from delta-V, as a share of delta-V",
+    above(0.1),
+    f"Delta-V Compatibility Note, {MESSAGES}: about 10 percent",
+)
+def delta_v_off_damage(case: Case) -> Iterator[Measured]:
+    for label, vehicle in case.vehicles.items():
+        delta_v, seen = vehicle.delta_v, case.damage[label].delta_v
+        if seen is not None:
+            has, shows = case.text(delta_v, "speed"), case.text(seen, "speed")
+            sentence = f"{vehicle.who} has a delta-V of {has}, and its damage shows {shows}"
+            yield Measured(share(abs(seen - delta_v), delta_v), sentence, label, rounding=off_by(1.0))
+
+
+@finding(
+    "angle between the impulse and the normal",
+    above(math.radians(45.0), "rad"),
+    f"the angle up to which crush energy is corrected for a force that is not perpendicular, {METHOD}",
+)
+def impulse_off_normal(case: ImpactCase) -> Iterator[Measured]:
+    angle = math.atan2(abs(case.answer.tangential_impulse), case.answer.normal_impulse)
+    pdofs = [f"{who} has a PDOF of {case.text(side.pdof, 'angle')}" for _, who, side in case.sides if side.pdof is not None]
+    which = f"; {', '.join(pdofs)} (0 ahead, positive clockwise)" if pdofs else ""
+    yield Measured(angle, f"the impulse is {case.text(angle, 'angle')} off the normal, the direction of damage{which}")
+
+
+@finding(
+    (
+        "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by less than 0.5 rad/s (one "
+        "that spins may point anywhere)"
+    ),
+    above(math.radians(45.0), "rad"),
+    f"{SET_HERE}: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays below",
+)
+def heading_off_course(case: ImpactCase) -> Iterator[Measured]:
+    for label, who, side in case.sides:
+        before = side.before
+        if before.heading is None or math.isinf(before.mass) or before.speed < _SLOW or abs(before.yaw_rate) >= _SPINNING:
+            continue
+        off = abs(math.remainder(before.course - before.heading, math.tau))
+        how = "backwards" if off > _BACKWARDS else "sideways"
+        sentence = (
+            f"{who} goes {how} before, at {case.text(before.speed, 'speed')}, {case.text(off, 'angle')} off its heading, as "
+            f"only a vehicle that slides far aside or is in reverse does; check heading, vx and vy"
+        )
+        yield Measured(off, sentence, label, rounding=off_by(before.heading, math.tau))
+
+
+@finding(
+    "distance of the contact point from the outline, outside of it",
+    above(0.1, "m"),
+    f"{SET_HERE}: 10 cm, about what positions are read to",
+)
+def point_outside(case: ImpactCase) -> Iterator[Measured]:
+    point = case.answer.point
+    for label, who, side in case.sides:
+        if point is not None and label in case.outlines:
+            outline = case.outlines[label]
+            distance = distance_outside(placed(outline, side.before, label), point)
+            sentence = f"the contact point is {case.text(distance, 'length')} outside the outline of {who}"
+            yield Measured(distance, sentence, label, rounding=outline_off_by(outline, side.before) + off_by(*point))

@@ -1,0 +1,200 @@
+"""Findings on inputs: sizes that suggest another unit, and what is missing to judge the model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..reference import CONTACT_DURATION
+from ..travel.surfaces import HIGHEST_DRAG
+from ..vehicle import Vehicle
+from .finding import SET_HERE, Case, ImpactCase, Measured, MomentumCase, above, below, finding, off_by
+
+# How far a contact may be from the centre of mass: in radii of gyration, and in metres where there is none.
+_RADII, _FURTHEST = 3.0, 10.0
+
+
+@finding(
+    "mass",
+    below(150.0, "kg"),
+    f"{SET_HERE}: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg",
+)
+def suspect_mass(case: Case) -> Iterator[Measured]:
+    for label, vehicle in case.vehicles.items():
+        sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were tonnes or slugs meant?"
+        yield Measured(vehicle.mass, sentence, label)
+
+
+@finding(
+    "finite mass",
+    above(1e5, "kg"),
+    f"{SET_HERE}: no road vehicle is heavier; grams as kg, or an immovable body that should be inf",
+)
+def suspect_heavy(case: Case) -> Iterator[Measured]:
+    immovable = ", or an immovable body (inf)" if isinstance(case, ImpactCase) else ""
+    for label, vehicle in case.vehicles.items():
+        if not math.isinf(vehicle.mass):
+            sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were grams meant{immovable}?"
+            yield Measured(vehicle.mass, sentence, label)
+
+
+@finding("speed before", above(44.0, "m/s"), f"{SET_HERE}: 158 km/h; km/h or mph as m/s")
+def suspect_speed(case: Case) -> Iterator[Measured]:
+    for label, vehicle in case.vehicles.items():
+        who, speed = vehicle.who, vehicle.speed
+        sentence = f"{who} goes at {speed:.6g} m/s before; were km/h or mph meant?"
+        if vehicle.speed_found:
+            sentence = f"{who} was found to go at {speed:.6g} m/s before; check what was given"
+        yield Measured(speed, sentence, label)
+
+
+@finding(
+    "yaw rate before",
+    above(20.0, "rad/s"),
+    f"{SET_HERE}: three turns a second, as for a bare number that is read; deg/s as rad/s",
+)
+def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
+    origin = case.answer.reconstruction
+    for label, who, side in case.sides:
+        rate = side.before.yaw_rate
+        sentence = f"{who} turns at {rate:.6g} rad/s before; were degrees/s meant?"
+        if origin is not None and origin.method == "planar":
+            sentence = f"{who} was found to turn at {rate:.6g} rad/s before; check what was given"
+        yield Measured(abs(rate), sentence, label)
+
+
+def _inertias(case: ImpactCase) -> Iterator[tuple[float, str, str]]:
+    """Radius of gyration, sentence and label of every vehicle that has one."""
+    for label, who, side in case.sides:
+        mass, inertia = side.before.mass, side.before.yaw_inertia
+        if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
+            radius = math.sqrt(inertia / mass)
+            sentence = f"{who} has a yaw inertia of {inertia:.6g} kg m2, a radius of gyration of {radius:.3g} m; check its unit"
+            yield radius, sentence, label
+
+
+@finding(
+    "radius of gyration",
+    below(0.3, "m"),
+    f"{SET_HERE}: no vehicle is as compact; tonnes m2 as kg m2",
+)
+def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
+    for radius, sentence, label in _inertias(case):
+        yield Measured(radius, sentence, label)
+
+
+@finding("radius of gyration", above(5.0, "m"), f"{SET_HERE}: that of a rectangle 17 m long; lb ft2 as kg m2")
+def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
+    for radius, sentence, label in _inertias(case):
+        yield Measured(radius, sentence, label)
+
+
+@finding(
+    "distance of the contact point from the centre of mass",
+    above("three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or infinite", "m"),
+    (
+        f"{SET_HERE}: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
+        f"half a road train; feet or cm as m, or two origins mixed"
+    ),
+)
+def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
+    point = case.answer.point
+    for label, who, side in case.sides:
+        vehicle = side.before
+        if point is not None and vehicle.x is not None and vehicle.y is not None and not math.isinf(vehicle.mass):
+            lever = math.hypot(point[0] - vehicle.x, point[1] - vehicle.y)
+            far = case.text(lever, "length")
+            sentence = f"the contact point is {far} from the centre of mass of {who}; check units (feet?) and origin"
+            rounding = off_by(vehicle.x, vehicle.y, *point)
+            yield Measured(lever, sentence, label, limit=_longest_lever(vehicle), rounding=rounding)
+
+
+def _longest_lever(vehicle: Vehicle) -> float:
+    inertia = vehicle.yaw_inertia
+    return _FURTHEST if inertia is None or math.isinf(inertia) else _RADII * math.sqrt(inertia / vehicle.mass)
+
+
+@finding(
+    "without a contact point, distance between both centres of mass",
+    above("both limits of suspect_lever together", "m"),
+    f"{SET_HERE}: as for suspect_lever",
+)
+def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
+    vehicles = [side.before for _, _, side in case.sides]
+    places = [(float(vehicle.x), float(vehicle.y)) for vehicle in vehicles if vehicle.x is not None and vehicle.y is not None]
+    if case.answer.point is None and len(places) == 2 and not any(math.isinf(vehicle.mass) for vehicle in vehicles):
+        distance = math.dist(*places)
+        far = case.text(distance, "length")
+        sentence = f"the centres of mass are {far} apart at the impact; check units (feet?) and origin"
+        longest = sum(_longest_lever(vehicle) for vehicle in vehicles)
+        yield Measured(distance, sentence, limit=longest, rounding=off_by(*places[0], *places[1]))
+
+
+@finding(
+    "heading or course, or normal that was given as a number without a unit",
+    above(math.tau, "rad"),
+    f"{SET_HERE}: a full turn, as for a bare number that is read; degrees as rad",
+)
+def suspect_angle(case: Case) -> Iterator[Measured]:
+    angles: list[tuple[str, str, float | None]] = []
+    if isinstance(case, ImpactCase):
+        angles.append(("", "the normal was given as", case.answer.inputs.bare_normal))
+        angles += [(label, f"{who} has a heading of", side.before.heading) for label, who, side in case.sides]
+    elif isinstance(case, MomentumCase):
+        for label in "ab":
+            courses = {name: getattr(case.answer, name) for name in (f"course_{label}", f"course_{label}_after")}
+            name = max(courses, key=lambda name: abs(courses[name] or 0.0))
+            angles.append((label, f"{name} is", courses[name]))
+    for label, what, angle in angles:
+        if angle is not None:
+            sentence = f"{what} {angle:.6g} rad, {abs(angle) / math.tau:.3g} turns; were degrees meant?"
+            yield Measured(abs(angle), sentence, label, rounding=off_by(math.tau))
+
+
+@finding(
+    "finite friction between the vehicles",
+    above(5.0),
+    f"{SET_HERE}: over twice the highest impulse ratio of the small-overlap tests (2.05); percent as a plain number",
+)
+def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
+    friction = case.answer.friction
+    if friction is not None and not math.isinf(friction):
+        sentence = f"the friction between the vehicles is {friction:.6g}; was percent meant, or a contact that sticks (inf)?"
+        yield Measured(friction, sentence)
+
+
+@finding(
+    "drag of the tyres",
+    above(HIGHEST_DRAG),
+    f"{SET_HERE}: no road tyre holds more, as for a bare number that is read; percent or m/s2 as a fraction of gravity",
+)
+def suspect_drag(case: Case) -> Iterator[Measured]:
+    sentence = f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s2 meant?"
+    yield Measured(case.drag, sentence)
+
+
+@finding(
+    "duration of the contact as a multiple of the one that was published, 0.108 s",
+    above(10.0),
+    f"{SET_HERE}: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
+)
+def suspect_duration(case: Case) -> Iterator[Measured]:
+    times = case.duration / CONTACT_DURATION.high
+    sentence = (
+        f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was published; were milliseconds meant?"
+    )
+    yield Measured(times, sentence)
+
+
+@finding(
+    "number of inputs that are missing to estimate the error of a central model",
+    above(0.0),
+    f"{SET_HERE}: a note",
+)
+def model_unknown(case: ImpactCase) -> Iterator[Measured]:
+    name = case.answer.model
+    if name != "eccentric":
+        choice, _ = case.model_choice
+        missing = choice.missing["eccentric"]
+        if missing and math.isnan(choice.errors[name]):
+            yield Measured(len(missing), f"the error of {name} cannot be estimated; supply {', '.join(missing)}")

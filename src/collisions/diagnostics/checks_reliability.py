@@ -1,0 +1,275 @@
+"""Findings on how firmly an answer stands: its conditioning, its model and law, the direction of the normal, and friction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..impact import Impact
+from ..provenance import how_many
+from ..reference import INTER_VEHICLE_FRICTION
+from ..side import Side
+from .finding import (
+    MESSAGES,
+    METHOD,
+    SET_HERE,
+    Case,
+    ImpactCase,
+    Measured,
+    MomentumCase,
+    above,
+    at_or_below,
+    below,
+    finding,
+    off_by,
+    percent,
+    plain,
+    share,
+)
+
+# In rad/s: a smaller difference of yaw rates shows in no rest position.
+_YAW_RATE_SEEN = 0.1
+
+
+@finding(
+    "in a reconstruction by momentum, angle between the courses of both unknowns, or to the opposite",
+    at_or_below(math.radians(10.0), "rad"),
+    f"collinear impacts, {METHOD}",
+)
+def near_collinear(case: MomentumCase) -> Iterator[Measured]:
+    names = case.answer.unknowns
+    one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
+    # Ten degrees themselves count, also where rounding makes more of them.
+    angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
+    sentence = (
+        f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: across it, momentum tells little "
+        f"of these speeds"
+    )
+    yield Measured(angle, sentence)
+
+
+@finding(
+    "condition of a reconstruction",
+    above(10.0),
+    f"{SET_HERE}: one percent of error may become ten in the speeds",
+)
+def ill_conditioned(case: Case) -> Iterator[Measured]:
+    if isinstance(case, MomentumCase):
+        moves = []
+        for speed, row in case.answer.sensitivity.items():
+            course = max((name for name in row if name.startswith("course")), key=lambda name: abs(row[name]))
+            moves.append(f"{speed} moves by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} per degree of {course}")
+        condition = case.answer.condition
+        yield Measured(condition, f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}")
+    elif isinstance(case, ImpactCase) and (origin := case.answer.reconstruction) is not None:
+        sentence = (
+            f"reconstruct.{origin.method}: one percent in what was given ({', '.join(origin.known)}) may become "
+            f"{plain(origin.condition)} percent of the closing speed in the speeds before"
+        )
+        yield Measured(origin.condition, sentence)
+
+
+@finding(
+    "number of impacts that fit what the reconstruction was given",
+    above(1.0),
+    f"{SET_HERE}: one answer needs no choice",
+)
+def not_unique(case: ImpactCase) -> Iterator[Measured]:
+    origin = case.answer.reconstruction
+    if origin is not None:
+        sentence = (
+            f"reconstruct.{origin.method} found {how_many(origin.answers)} that fit what was given "
+            f"({', '.join(origin.known)}), of which this is one: other evidence must tell which"
+        )
+        yield Measured(origin.answers, sentence)
+
+
+@finding(
+    "speed that momentum found, backwards along its course",
+    above(0.1, "m/s"),
+    f"{SET_HERE}: 0.4 km/h, below what evidence shows",
+)
+def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
+    for name in case.answer.unknowns:
+        speed = getattr(case.answer, name)
+        sentence = f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"
+        yield Measured(-speed, sentence, vehicle=name.split("_")[1])
+
+
+@finding(
+    "the most that the tyres can give in the duration, as a share of delta-V",
+    above(0.25),
+    (
+        f"{SET_HERE}: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor impact; tyre forces are "
+        f"insignificant but in minor impacts, sideswipes and impacts of large trucks, {METHOD}"
+    ),
+)
+def tyre_impulse(case: Case) -> Iterator[Measured]:
+    for label, vehicle in case.vehicles.items():
+        # Of a body that turns about a pivot the tyres are an estimate.
+        pinned = isinstance(case, ImpactCase) and getattr(case.answer, label).before.pivot is not None
+        sentence = (
+            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give "
+            f"{'about' if pinned else 'up to'} {case.text(vehicle.tyre_delta_v, 'speed')}, {percent(vehicle.tyre_share)} of "
+            f"its delta-V of {case.text(vehicle.delta_v, 'speed')}"
+        )
+        yield Measured(vehicle.tyre_share, sentence, label)
+
+
+@finding(
+    "predicted error of a central model as a share of the smaller delta-V (inf if eccentric refuses)",
+    above(0.1),
+    f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
+)
+def model(case: ImpactCase) -> Iterator[Measured]:
+    name = case.answer.model
+    if name == "eccentric":
+        return
+    choice, how = case.model_choice
+    error = choice.errors[name]
+    if not math.isnan(error):
+        delta_v = min((side.delta_v for _, _, side in case.sides if side.delta_v > 0.0), default=math.inf)
+        sentence = (
+            f"{name} is predicted to err by {case.text(error, 'speed')}{how}, against a delta-V of {case.text(delta_v, 'speed')}"
+            f": take eccentric"
+        )
+        yield Measured(error / delta_v, sentence)
+    elif not choice.missing["eccentric"]:
+        yield Measured(math.inf, f"the error of {name} cannot be estimated: the eccentric model has no answer here")
+
+
+class _Change(NamedTuple):
+    """What another answer makes of a vehicle."""
+
+    how: str
+    label: str
+    who: str
+    old: Side
+    new: Side
+
+    @property
+    def delta_v(self) -> float:
+        """Length of the change of delta-V, as a share of it; none for a body that nothing moves."""
+        length = math.hypot(self.new.delta_vx - self.old.delta_vx, self.new.delta_vy - self.old.delta_vy)
+        return share(length, self.old.delta_v) if self.old.delta_v > 0.0 else 0.0
+
+    @property
+    def direction(self) -> float:
+        """Angle between both delta-Vs."""
+        was, now = (math.atan2(side.delta_vy, side.delta_vx) for side in (self.old, self.new))
+        return abs(math.remainder(now - was, math.tau))
+
+    @property
+    def yaw(self) -> float:
+        """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other sign."""
+        was, now = self.old.delta_yaw_rate, self.new.delta_yaw_rate
+        step = abs(now - was)
+        return share(step, max(abs(was), abs(now))) if step > _YAW_RATE_SEEN else 0.0
+
+
+def _changes(case: ImpactCase, answers: list[tuple[str, Impact]]) -> list[_Change]:
+    return [
+        _Change(how, label, who, old, new)
+        for how, answer in answers
+        if not answer.refused
+        for (label, who, old), new in zip(case.sides, (answer.a, answer.b), strict=True)
+    ]
+
+
+def _worst_delta_v(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
+    refused = [how for how, answer in answers if answer.refused]
+    if refused:
+        yield Measured(math.inf, f"{refused[0]} there is no answer")
+    elif answers:
+        change = max(_changes(case, answers), key=lambda change: change.delta_v)
+        sentence = (
+            f"{change.how} delta-V of {change.who} moves by {percent(change.delta_v)} of itself, from "
+            f"{case.text(change.old.delta_v, 'speed')} to {case.text(change.new.delta_v, 'speed')}, and its direction by "
+            f"{case.text(change.direction, 'angle')}"
+        )
+        yield Measured(change.delta_v, sentence, change.label)
+
+
+def _worst_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
+    changes = _changes(case, answers)
+    if changes:
+        change = max(changes, key=lambda change: change.yaw)
+        was, now = change.old.delta_yaw_rate, change.new.delta_yaw_rate
+        both_turn = min(abs(was), abs(now)) > _YAW_RATE_SEEN
+        sentence = (
+            f"{change.how} the impact turns {change.who} by {case.text(now, 'yaw rate')} instead of "
+            f"{case.number(was, 'yaw rate')}{', the other way' if both_turn and was * now < 0.0 else ''}"
+        )
+        yield Measured(change.yaw, sentence, change.label)
+
+
+@finding(
+    "length by which the vector of delta-V moves under the other law, as a share of delta-V",
+    above(0.1),
+    f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
+)
+def law(case: ImpactCase) -> Iterator[Measured]:
+    return _worst_delta_v(case, case.other_laws)
+
+
+@finding(
+    (
+        "change of yaw rate that the other law makes another by more than 6 deg/s, as a share of the larger (above 1 it turns "
+        "the other way)"
+    ),
+    above(0.25),
+    f"{SET_HERE}: a quarter, which a rest position would show",
+)
+def law_yaw(case: ImpactCase) -> Iterator[Measured]:
+    return _worst_yaw(case, case.other_laws)
+
+
+@finding(
+    "length by which the vector of delta-V moves with the normal turned by 10 degrees either way, as a share of delta-V",
+    above(0.2),
+    (
+        f"a delta-V that turns with the normal by 10 degrees moves by 17 percent; with the 10 percent by which its size may "
+        f"differ, {MESSAGES}, that is 20 percent"
+    ),
+)
+def normal(case: ImpactCase) -> Iterator[Measured]:
+    return _worst_delta_v(case, case.turned_normals)
+
+
+@finding(
+    "the same as law_yaw, with the normal turned by 10 degrees either way",
+    above(0.5),
+    f"{SET_HERE}: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
+)
+def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
+    return _worst_yaw(case, case.turned_normals)
+
+
+@finding(
+    "friction, where the contact slides",
+    below(INTER_VEHICLE_FRICTION.low),
+    "reference.INTER_VEHICLE_FRICTION",
+)
+def friction_low(case: ImpactCase) -> Iterator[Measured]:
+    impact, friction = case.answer, case.answer.friction
+    slides = impact.regime in ("sliding", "frictionless") and impact.slip_before != 0.0 and impact.model != "linear_central"
+    if friction is not None and slides:
+        sentence = (
+            f"the contact slides with a friction of {friction:.3g}; 0.3 to 1.0 is recommended between vehicles, 0.55 usual"
+        )
+        yield Measured(friction, sentence)
+
+
+@finding(
+    "magnitude of the impulse ratio, which no Coulomb friction explains",
+    above(INTER_VEHICLE_FRICTION.high),
+    "reference.INTER_VEHICLE_FRICTION",
+)
+def ratio_high(case: ImpactCase) -> Iterator[Measured]:
+    ratio = abs(case.answer.impulse_ratio)
+    sentence = (
+        f"the tangential impulse is {ratio:.2f} times the normal one, beyond friction between vehicles: parts must have "
+        f"snagged, as in small-overlap tests (1.57 to 2.05)"
+    )
+    yield Measured(ratio, sentence)
