@@ -16,7 +16,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct, reference
 from collisions.diagnostics import LIMITS, Finding, diagnose
-from collisions.diagnostics.words import Words
+from collisions.diagnostics.case import MomentumCase, percent, plain
 from collisions.reporting import replay, report
 from scenes import FAMILIES, LAWS, RULES, draw, solved
 
@@ -42,6 +42,11 @@ def central(a=None, b=None, restitution=0.1, **contact):
 def of(code, impact, **options):
     """The findings of one code."""
     return [finding for finding in diagnose(impact, **options) if finding.code == code]
+
+
+def written(units):
+    """A case for how its sentences write numbers."""
+    return MomentumCase(answer=None, damage={}, crush_energy=None, duration=0.1, drag=0.7, units=units)
 
 
 def test_nothing_is_said_of_an_ordinary_impact():
@@ -1113,22 +1118,22 @@ def test_sentences_are_in_the_units_asked_for(code):
 )
 def test_numbers_of_the_sentences_are_those_of_pint(system, said):
     """Converted by pint, and rounded to what is shown."""
-    words, registry = Words(system), pint.get_application_registry()
+    case, registry = written(system), pint.get_application_registry()
     given = (
         (15.0, "m/s", "speed"),
         (1.5, "m", "length"),
         (0.5, "rad", "angle"),
-        (2.0, "rad/s", "yaw_rate"),
+        (2.0, "rad/s", "yaw rate"),
         (123456.0, "J", "energy"),
     )
     for (value, unit, kind), text in zip(given, said, strict=True):
-        assert getattr(words, kind)(value) == text
+        assert case.text(value, kind) == text
         figure, _, shown = text.partition(" ")
         wanted = registry.Quantity(value, unit).m_as(shown.replace("ft lbf", "ft*lbf"))
         # To the last digit that is there.
         assert float(figure) == pytest.approx(wanted, abs=0.5 * 10.0 ** -len(figure.partition(".")[2]), rel=5e-4)
-    assert words.speed(-1e-9).startswith("0.0")
-    assert words.energy(0.0).startswith("0 ")
+    assert case.text(-1e-9, "speed").startswith("0.0")
+    assert case.text(0.0, "energy").startswith("0 ")
 
 
 # Refusals
@@ -1162,7 +1167,7 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         ({"outline_a": [(2, 1), (0, 0.2), (-2, 1), (-2, -1), (2, -1)]}, "bad_outline", "has a dent"),
         ({"outline_a": [(2, 1), (-2, -1), (2, -1), (-2, 1)]}, "bad_outline", "sides that cross"),
         ({"outline_a": [(2, 1), (2, 1), (-2, 1), (-2, -1)]}, "bad_outline", "a corner twice"),
-        ({"impact": balance(), "outline_a": (4.0, 1.8)}, "not_an_impact", "need positions, which a MomentumSolution has not"),
+        ({"impact": balance(), "outline_a": (4.0, 1.8)}, "not_an_impact", "outline_a needs positions, which a MomentumSolution has not"),
         ({"impact": balance(), "duration": -0.1}, "negative_duration", "duration must be >= 0"),
         ({"impact": balance(), "drag": np.array([0.1, 0.2])}, "bad_shape", "diagnose takes one case"),
         ({"impact": balance(heading_a=None), "damage_pdof_a": 0.0}, "missing_heading", "give heading_a='30 deg'"),
@@ -1276,20 +1281,20 @@ def test_an_outline_of_any_size_is_judged_by_its_shape(size):
 
 
 @pytest.mark.parametrize(
-    ("told", "wanted"),
+    ("text", "wanted"),
     [
-        (lambda words: words.speed(math.nan), "not defined"),
-        (lambda words: words.angle(math.inf), "infinite"),
-        (lambda words: words.number(math.nan, "energy"), "not defined"),
-        (lambda words: words.plain(math.inf), "infinite"),
-        (lambda words: words.plain(1.23456), "1.23"),
-        (lambda words: words.percent(math.inf), "a share that is infinite"),
-        (lambda words: words.percent(0.1234, 1), "12.3%"),
+        (written("metric").text(math.nan, "speed"), "not defined"),
+        (written("metric").text(math.inf, "angle"), "infinite"),
+        (written("metric").number(math.nan, "energy"), "not defined"),
+        (plain(math.inf), "infinite"),
+        (plain(1.23456), "1.23"),
+        (percent(math.inf), "a share that is infinite"),
+        (percent(0.1234, 1), "12.3%"),
     ],
 )
-def test_a_sentence_says_in_words_what_is_no_number(told, wanted):
+def test_a_sentence_says_in_words_what_is_no_number(text, wanted):
     """No sentence of a finding prints a bare nan or inf."""
-    assert told(Words("metric")) == wanted
+    assert text == wanted
 
 
 def test_tyres_against_a_delta_v_of_nothing():
@@ -1385,24 +1390,24 @@ def test_tyres_of_a_pinned_body_are_an_estimate():
     assert "give about" in hung.sentence
 
 
-def test_every_other_law_is_asked(monkeypatch):
+def test_every_other_law_is_tried(monkeypatch):
     """Also where more than two are known."""
-    from collisions.diagnostics import robustness
+    from collisions.diagnostics import case
 
     impact, _ = CASES["law"][0]()
-    asked = []
+    tried = []
     again = col.Impact._again
 
     def noted(self, **changes):
         if "law" not in changes:
             return again(self, **changes)
-        asked.append(changes["law"])
+        tried.append(changes["law"])
         return self
 
-    monkeypatch.setattr(robustness, "LAWS", ("one", *LAWS))
+    monkeypatch.setattr(case, "LAWS", ("one", *LAWS))
     monkeypatch.setattr(col.Impact, "_again", noted)
     of("law", impact)
-    assert asked == ["one", *(law for law in LAWS if law != impact.law)]
+    assert tried == ["one", *(law for law in LAWS if law != impact.law)]
 
 
 def test_an_outline_of_dates_is_refused():

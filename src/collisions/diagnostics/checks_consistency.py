@@ -9,22 +9,8 @@ from ..directions import from_radians
 from ..outlines import distance_outside, placed
 from ..reference import restitution_range
 from ..side import Side
-from .finding import (
-    MESSAGES,
-    METHOD,
-    RATIO_ROUNDING,
-    SET_HERE,
-    Case,
-    ImpactCase,
-    Measured,
-    MomentumCase,
-    above,
-    finding,
-    off_by,
-    outline_off_by,
-    percent,
-    share,
-)
+from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, outline_off_by, percent, share
+from .finding import MESSAGES, METHOD, Measured, above, finding
 
 # In metres, of positions and outlines together.
 _POSITION_ERROR = 0.3
@@ -41,8 +27,13 @@ _BACKWARDS = math.radians(135.0)
     f'eq 7 of the paper; "the crash created energy", {MESSAGES}',
 )
 def energy_gain(case: Case) -> Iterator[Measured]:
-    gain = 0.0 if case.answer.ok else -case.energy_loss
+    gain = 0.0 if case.answer.ok else -_energy_loss(case)
     yield Measured(gain, f"the impact ends with {case.text(gain, 'energy')} more than it began with; none can")
+
+
+def _energy_loss(case: Case) -> float:
+    loss: float = case.answer.translational_energy_loss if isinstance(case, MomentumCase) else case.answer.energy_loss
+    return loss
 
 
 @finding(
@@ -51,7 +42,7 @@ def energy_gain(case: Case) -> Iterator[Measured]:
     f"Conservation of Energy Warning, {MESSAGES}: typically 50 percent",
 )
 def momentum_energy(case: Case) -> Iterator[Measured]:
-    crush, lost = case.crush_energy, case.energy_loss
+    crush, lost = case.crush_energy, _energy_loss(case)
     if crush is not None:
         sentence = (
             f"the damage takes {case.text(crush, 'energy')} by the crush energy given, and momentum leaves "
@@ -66,7 +57,7 @@ def momentum_energy(case: Case) -> Iterator[Measured]:
         "work, as a share"
     ),
     above(0.01),
-    f"{SET_HERE}: both are one number but for rounding, and one percent would be seen by whoever checks by hand",
+    "set here: both are one number but for rounding, and one percent would be seen by whoever checks by hand",
 )
 def rounding(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
@@ -74,7 +65,7 @@ def rounding(case: ImpactCase) -> Iterator[Measured]:
     what = f"momentum changes by {off:.2g} of the impulse"
     sides = (impact.a, impact.b)
     if not any(_has_infinite_energy(side) for side in sides):
-        before, after = (sum(_energy(side, which) for side in sides) for which in ("before", "after"))
+        before, after = (sum(_energy(side, after) for side in sides) for after in (False, True))
         lost = impact.energy_loss
         by_speeds = share(abs((before - after) - lost), max(abs(lost), impact.energy_absorbed))
         if by_speeds > off:
@@ -92,9 +83,9 @@ def _has_infinite_energy(side: Side) -> bool:
     return turning or (math.isinf(before.mass) and before.speed > 0.0)
 
 
-def _energy(side: Side, which: str) -> float:
+def _energy(side: Side, after: bool) -> float:
     """Kinetic energy before or after; that of a yaw rate which does not change is left out."""
-    vehicle = getattr(side, which)
+    vehicle = side.after if after else side.before
     energy = 0.0 if math.isinf(vehicle.mass) else 0.5 * vehicle.mass * (vehicle.vx * vehicle.vx + vehicle.vy * vehicle.vy)
     if side.delta_yaw_rate == 0.0 or vehicle.yaw_inertia is None or math.isinf(vehicle.yaw_inertia):
         return energy
@@ -118,7 +109,7 @@ def restitution(case: Case) -> Iterator[Measured]:
 @finding(
     "how far the restitution of momentum is below 0, infinite where the centres do not approach",
     above(0.01),
-    f"{SET_HERE}: what rounded inputs leave of 0; Coefficient of Restitution Warnings, {MESSAGES}, warn of any",
+    f"set here: what rounded inputs leave of 0; Coefficient of Restitution Warnings, {MESSAGES}, warn of any",
 )
 def restitution_negative(case: MomentumCase) -> Iterator[Measured]:
     closing, e = case.answer.closing_speed, case.answer.restitution
@@ -156,7 +147,7 @@ def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "energy that the tangential impulse adds, as a share of the energy absorbed",
     above(0.005),
-    f"{SET_HERE}: friction takes energy; half a percent is less than what any speed is known to",
+    "set here: friction takes energy; half a percent is less than what any speed is known to",
 )
 def friction_gain(case: ImpactCase) -> Iterator[Measured]:
     gain = -case.answer.energy_loss_tangential
@@ -171,7 +162,7 @@ def friction_gain(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "impulse ratio as a share of the one at which the bodies jam",
     above(0.5),
-    f"{SET_HERE}: at one half, the normal impulse is twice that of a frictionless contact",
+    "set here: at one half, the normal impulse is twice that of a frictionless contact",
 )
 def jamming(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
@@ -188,7 +179,7 @@ def jamming(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "speed at which the contact points still approach after the impact",
     above(0.1, "m/s"),
-    f"{SET_HERE}: 0.4 km/h, below what evidence shows; {MESSAGES} warns of any",
+    f"set here: 0.4 km/h, below what evidence shows; {MESSAGES} warns of any",
 )
 def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
@@ -205,7 +196,7 @@ def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "how much further the outlines pass into each other by the end of the duration after separation",
     above(0.2, "m"),
-    f"{SET_HERE}: two positions of 10 cm each; stiff outlines of vehicles that turn apart pass by less",
+    "set here: two positions of 10 cm each; stiff outlines of vehicles that turn apart pass by less",
 )
 def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None:
@@ -221,7 +212,7 @@ def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "how deep the outlines overlap at the impact",
     above("the mutual crush of the impact in the duration and 0.3 m more", "m"),
-    f"{SET_HERE}: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are rounder than drawn",
+    "set here: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are rounder than drawn",
 )
 def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None:
@@ -237,7 +228,7 @@ def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "gap between the outlines at the impact",
     above(0.3, "m"),
-    f"{SET_HERE}: positions to 10 cm each, and 10 cm for outlines that are smaller than drawn",
+    "set here: positions to 10 cm each, and 10 cm for outlines that are smaller than drawn",
 )
 def outlines_gap(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None:
@@ -253,7 +244,7 @@ def outlines_gap(case: ImpactCase) -> Iterator[Measured]:
         "centre of B behind that of A"
     ),
     above(0.1, "m"),
-    f"{SET_HERE}: the normal points from A into B, so that a convex body has its centre behind the contact; 10 cm of reading",
+    "set here: the normal points from A into B, so that a convex body has its centre behind the contact; 10 cm of reading",
 )
 def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
     (nx, ny), point = case.answer.normal, case.answer.point
@@ -286,7 +277,7 @@ def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
         "either way do not turn the lever"
     ),
     above(0.1, "rad/s"),
-    f"{SET_HERE}: 6 deg/s; Rotation Direction Warning, {MESSAGES}, warns of any",
+    f"set here: 6 deg/s; Rotation Direction Warning, {MESSAGES}, warns of any",
 )
 def yaw_against_lever(case: ImpactCase) -> Iterator[Measured]:
     point = case.answer.point
@@ -356,7 +347,7 @@ def impulse_off_normal(case: ImpactCase) -> Iterator[Measured]:
         "that spins may point anywhere)"
     ),
     above(math.radians(45.0), "rad"),
-    f"{SET_HERE}: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays below",
+    "set here: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays below",
 )
 def heading_off_course(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
@@ -375,7 +366,7 @@ def heading_off_course(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "distance of the contact point from the outline, outside of it",
     above(0.1, "m"),
-    f"{SET_HERE}: 10 cm, about what positions are read to",
+    "set here: 10 cm, about what positions are read to",
 )
 def point_outside(case: ImpactCase) -> Iterator[Measured]:
     point = case.answer.point

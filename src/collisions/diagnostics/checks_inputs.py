@@ -8,17 +8,14 @@ from collections.abc import Iterator
 from ..reference import CONTACT_DURATION
 from ..travel.surfaces import HIGHEST_DRAG
 from ..vehicle import Vehicle
-from .finding import SET_HERE, Case, ImpactCase, Measured, MomentumCase, above, below, finding, off_by
+from .case import Case, ImpactCase, MomentumCase, off_by
+from .finding import Measured, above, below, finding
 
 # How far a contact may be from the centre of mass: in radii of gyration, and in metres where there is none.
 _RADII, _FURTHEST = 3.0, 10.0
 
 
-@finding(
-    "mass",
-    below(150.0, "kg"),
-    f"{SET_HERE}: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg",
-)
+@finding("mass", below(150.0, "kg"), "set here: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg")
 def suspect_mass(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
         sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were tonnes or slugs meant?"
@@ -28,7 +25,7 @@ def suspect_mass(case: Case) -> Iterator[Measured]:
 @finding(
     "finite mass",
     above(1e5, "kg"),
-    f"{SET_HERE}: no road vehicle is heavier; grams as kg, or an immovable body that should be inf",
+    "set here: no road vehicle is heavier; grams as kg, or an immovable body that should be inf",
 )
 def suspect_heavy(case: Case) -> Iterator[Measured]:
     immovable = ", or an immovable body (inf)" if isinstance(case, ImpactCase) else ""
@@ -38,20 +35,23 @@ def suspect_heavy(case: Case) -> Iterator[Measured]:
             yield Measured(vehicle.mass, sentence, label)
 
 
-@finding("speed before", above(44.0, "m/s"), f"{SET_HERE}: 158 km/h; km/h or mph as m/s")
+@finding("speed before", above(44.0, "m/s"), "set here: 158 km/h; km/h or mph as m/s")
 def suspect_speed(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        who, speed = vehicle.who, vehicle.speed
+        who, speed = vehicle.who, abs(vehicle.speed)
         sentence = f"{who} goes at {speed:.6g} m/s before; were km/h or mph meant?"
-        if vehicle.speed_found:
+        if isinstance(case, MomentumCase):
+            found = f"speed_{label}" in case.answer.unknowns
+        else:
+            origin = case.answer.reconstruction
+            found = origin is not None and not {f"v{label}", f"speed_{label}"} & set(origin.known)
+        if found:
             sentence = f"{who} was found to go at {speed:.6g} m/s before; check what was given"
         yield Measured(speed, sentence, label)
 
 
 @finding(
-    "yaw rate before",
-    above(20.0, "rad/s"),
-    f"{SET_HERE}: three turns a second, as for a bare number that is read; deg/s as rad/s",
+    "yaw rate before", above(20.0, "rad/s"), "set here: three turns a second, as for a bare number that is read; deg/s as rad/s"
 )
 def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
@@ -63,38 +63,31 @@ def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
         yield Measured(abs(rate), sentence, label)
 
 
-def _inertias(case: ImpactCase) -> Iterator[tuple[float, str, str]]:
-    """Radius of gyration, sentence and label of every vehicle that has one."""
+def _radii_of_gyration(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         mass, inertia = side.before.mass, side.before.yaw_inertia
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)
             sentence = f"{who} has a yaw inertia of {inertia:.6g} kg m2, a radius of gyration of {radius:.3g} m; check its unit"
-            yield radius, sentence, label
+            yield Measured(radius, sentence, label)
 
 
-@finding(
-    "radius of gyration",
-    below(0.3, "m"),
-    f"{SET_HERE}: no vehicle is as compact; tonnes m2 as kg m2",
-)
+@finding("radius of gyration", below(0.3, "m"), "set here: no vehicle is as compact; tonnes m2 as kg m2")
 def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
-    for radius, sentence, label in _inertias(case):
-        yield Measured(radius, sentence, label)
+    return _radii_of_gyration(case)
 
 
-@finding("radius of gyration", above(5.0, "m"), f"{SET_HERE}: that of a rectangle 17 m long; lb ft2 as kg m2")
+@finding("radius of gyration", above(5.0, "m"), "set here: that of a rectangle 17 m long; lb ft2 as kg m2")
 def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
-    for radius, sentence, label in _inertias(case):
-        yield Measured(radius, sentence, label)
+    return _radii_of_gyration(case)
 
 
 @finding(
     "distance of the contact point from the centre of mass",
     above("three radii of gyration of the vehicle, or 10 m where its yaw inertia is not known or infinite", "m"),
     (
-        f"{SET_HERE}: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
-        f"half a road train; feet or cm as m, or two origins mixed"
+        "set here: the corner of a rectangle is 1.7 of its radii away, and a centre of mass may be off the middle; 10 m is "
+        "half a road train; feet or cm as m, or two origins mixed"
     ),
 )
 def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
@@ -117,7 +110,7 @@ def _longest_lever(vehicle: Vehicle) -> float:
 @finding(
     "without a contact point, distance between both centres of mass",
     above("both limits of suspect_lever together", "m"),
-    f"{SET_HERE}: as for suspect_lever",
+    "set here: as for suspect_lever",
 )
 def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
     vehicles = [side.before for _, _, side in case.sides]
@@ -133,14 +126,14 @@ def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "heading or course, or normal that was given as a number without a unit",
     above(math.tau, "rad"),
-    f"{SET_HERE}: a full turn, as for a bare number that is read; degrees as rad",
+    "set here: a full turn, as for a bare number that is read; degrees as rad",
 )
 def suspect_angle(case: Case) -> Iterator[Measured]:
     angles: list[tuple[str, str, float | None]] = []
     if isinstance(case, ImpactCase):
         angles.append(("", "the normal was given as", case.answer.inputs.bare_normal))
         angles += [(label, f"{who} has a heading of", side.before.heading) for label, who, side in case.sides]
-    elif isinstance(case, MomentumCase):
+    else:
         for label in "ab":
             courses = {name: getattr(case.answer, name) for name in (f"course_{label}", f"course_{label}_after")}
             name = max(courses, key=lambda name: abs(courses[name] or 0.0))
@@ -154,7 +147,7 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
 @finding(
     "finite friction between the vehicles",
     above(5.0),
-    f"{SET_HERE}: over twice the highest impulse ratio of the small-overlap tests (2.05); percent as a plain number",
+    "set here: over twice the highest impulse ratio of the small-overlap tests (2.05); percent as a plain number",
 )
 def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
     friction = case.answer.friction
@@ -166,7 +159,7 @@ def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "drag of the tyres",
     above(HIGHEST_DRAG),
-    f"{SET_HERE}: no road tyre holds more, as for a bare number that is read; percent or m/s2 as a fraction of gravity",
+    "set here: no road tyre holds more, as for a bare number that is read; percent or m/s2 as a fraction of gravity",
 )
 def suspect_drag(case: Case) -> Iterator[Measured]:
     sentence = f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s2 meant?"
@@ -176,7 +169,7 @@ def suspect_drag(case: Case) -> Iterator[Measured]:
 @finding(
     "duration of the contact as a multiple of the one that was published, 0.108 s",
     above(10.0),
-    f"{SET_HERE}: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
+    "set here: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
 )
 def suspect_duration(case: Case) -> Iterator[Measured]:
     times = case.duration / CONTACT_DURATION.high
@@ -186,11 +179,7 @@ def suspect_duration(case: Case) -> Iterator[Measured]:
     yield Measured(times, sentence)
 
 
-@finding(
-    "number of inputs that are missing to estimate the error of a central model",
-    above(0.0),
-    f"{SET_HERE}: a note",
-)
+@finding("number of inputs that are missing to estimate the error of a central model", above(0.0), "set here: a note")
 def model_unknown(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
     if name != "eccentric":

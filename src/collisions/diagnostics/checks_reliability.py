@@ -10,23 +10,9 @@ from ..impact import Impact
 from ..provenance import how_many
 from ..reference import INTER_VEHICLE_FRICTION
 from ..side import Side
-from .finding import (
-    MESSAGES,
-    METHOD,
-    SET_HERE,
-    Case,
-    ImpactCase,
-    Measured,
-    MomentumCase,
-    above,
-    at_or_below,
-    below,
-    finding,
-    off_by,
-    percent,
-    plain,
-    share,
-)
+from ..travel.chain import GRAVITY
+from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
+from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
 
 # In rad/s: a smaller difference of yaw rates shows in no rest position.
 _YAW_RATE_SEEN = 0.1
@@ -49,11 +35,7 @@ def near_collinear(case: MomentumCase) -> Iterator[Measured]:
     yield Measured(angle, sentence)
 
 
-@finding(
-    "condition of a reconstruction",
-    above(10.0),
-    f"{SET_HERE}: one percent of error may become ten in the speeds",
-)
+@finding("condition of a reconstruction", above(10.0), "set here: one percent of error may become ten in the speeds")
 def ill_conditioned(case: Case) -> Iterator[Measured]:
     if isinstance(case, MomentumCase):
         moves = []
@@ -62,7 +44,7 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
             moves.append(f"{speed} moves by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} per degree of {course}")
         condition = case.answer.condition
         yield Measured(condition, f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}")
-    elif isinstance(case, ImpactCase) and (origin := case.answer.reconstruction) is not None:
+    elif (origin := case.answer.reconstruction) is not None:
         sentence = (
             f"reconstruct.{origin.method}: one percent in what was given ({', '.join(origin.known)}) may become "
             f"{plain(origin.condition)} percent of the closing speed in the speeds before"
@@ -70,11 +52,7 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
         yield Measured(origin.condition, sentence)
 
 
-@finding(
-    "number of impacts that fit what the reconstruction was given",
-    above(1.0),
-    f"{SET_HERE}: one answer needs no choice",
-)
+@finding("number of impacts that fit what the reconstruction was given", above(1.0), "set here: one answer needs no choice")
 def not_unique(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
     if origin is not None:
@@ -86,9 +64,7 @@ def not_unique(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "speed that momentum found, backwards along its course",
-    above(0.1, "m/s"),
-    f"{SET_HERE}: 0.4 km/h, below what evidence shows",
+    "speed that momentum found, backwards along its course", above(0.1, "m/s"), "set here: 0.4 km/h, below what evidence shows"
 )
 def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     for name in case.answer.unknowns:
@@ -101,20 +77,25 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
     "the most that the tyres can give in the duration, as a share of delta-V",
     above(0.25),
     (
-        f"{SET_HERE}: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor impact; tyre forces are "
+        "set here: with 0.7 g in 0.1 s a delta-V below 2.7 m/s (10 km/h), where it is a minor impact; tyre forces are "
         f"insignificant but in minor impacts, sideswipes and impacts of large trucks, {METHOD}"
     ),
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        # Of a body that turns about a pivot the tyres are an estimate.
-        pinned = isinstance(case, ImpactCase) and getattr(case.answer, label).before.pivot is not None
+        if isinstance(case, ImpactCase):
+            left = getattr(case.left_out, label)
+            most, part = left.tyre_delta_v_bound, left.tyre_share_bound
+            # Of a body that turns about a pivot it is an estimate.
+            how = "up to" if getattr(case.answer, label).before.pivot is None else "about"
+        else:
+            most = case.drag * GRAVITY * case.duration
+            part, how = share(most, vehicle.delta_v), "up to"
         sentence = (
-            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give "
-            f"{'about' if pinned else 'up to'} {case.text(vehicle.tyre_delta_v, 'speed')}, {percent(vehicle.tyre_share)} of "
-            f"its delta-V of {case.text(vehicle.delta_v, 'speed')}"
+            f"tyres of {vehicle.who} that slide for {case.duration:.3g} s with a drag of {case.drag:.2g} give {how} "
+            f"{case.text(most, 'speed')}, {percent(part)} of its delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
-        yield Measured(vehicle.tyre_share, sentence, label)
+        yield Measured(part, sentence, label)
 
 
 @finding(
@@ -131,8 +112,8 @@ def model(case: ImpactCase) -> Iterator[Measured]:
     if not math.isnan(error):
         delta_v = min((side.delta_v for _, _, side in case.sides if side.delta_v > 0.0), default=math.inf)
         sentence = (
-            f"{name} is predicted to err by {case.text(error, 'speed')}{how}, against a delta-V of {case.text(delta_v, 'speed')}"
-            f": take eccentric"
+            f"{name} is predicted to err by {case.text(error, 'speed')}{how}, against a delta-V of "
+            f"{case.text(delta_v, 'speed')}: take eccentric"
         )
         yield Measured(error / delta_v, sentence)
     elif not choice.missing["eccentric"]:
@@ -219,7 +200,7 @@ def law(case: ImpactCase) -> Iterator[Measured]:
         "the other way)"
     ),
     above(0.25),
-    f"{SET_HERE}: a quarter, which a rest position would show",
+    "set here: a quarter, which a rest position would show",
 )
 def law_yaw(case: ImpactCase) -> Iterator[Measured]:
     return _worst_yaw(case, case.other_laws)
@@ -240,17 +221,13 @@ def normal(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "the same as law_yaw, with the normal turned by 10 degrees either way",
     above(0.5),
-    f"{SET_HERE}: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
+    "set here: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
 )
 def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
     return _worst_yaw(case, case.turned_normals)
 
 
-@finding(
-    "friction, where the contact slides",
-    below(INTER_VEHICLE_FRICTION.low),
-    "reference.INTER_VEHICLE_FRICTION",
-)
+@finding("friction, where the contact slides", below(INTER_VEHICLE_FRICTION.low), "reference.INTER_VEHICLE_FRICTION")
 def friction_low(case: ImpactCase) -> Iterator[Measured]:
     impact, friction = case.answer, case.answer.friction
     slides = impact.regime in ("sliding", "frictionless") and impact.slip_before != 0.0 and impact.model != "linear_central"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..amounts import amount
-from ..contact_effects import LeftOut, left_out, read_duration
+from ..contact_effects import left_out, read_duration
 from ..errors import InputError, MissingInputError, ShapeError
 from ..impact import Impact
 from ..kernels.elementwise import UNCHECKED
@@ -16,13 +16,13 @@ from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
-from ..travel.chain import GRAVITY
 from ..travel.surfaces import read_drag
 from ..unit_systems import UnitSystem, bad_system
 from ..units import Input, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
-from .finding import Case, Check, Damage, Findings, ImpactCase, Limit, MomentumCase, VehicleResult, share
+from .case import Case, Damage, ImpactCase, MomentumCase
+from .finding import Check, Findings, Limit
 
 _MODULES = (checks_consistency, checks_reliability, checks_inputs)
 _CHECKS = [check for module in _MODULES for check in vars(module).values() if isinstance(check, Check)]
@@ -142,12 +142,12 @@ def diagnose(
         left = left_out(impact, duration=duration, drag=drag)
         time, pull = _single(reader, left.duration, "duration"), _single(reader, left.drag, "drag")
         reader.close()
-        case = _impact_case(impact, outlines, left, duration=time, drag=pull, **known)
+        case = ImpactCase(answer=impact, duration=time, drag=pull, outlines=outlines, left_out=left, **known)
     else:
         time = _single(reader, read_duration(reader, duration), "duration")
         pull = _single(reader, read_drag(reader, drag, "drag"), "drag")
         reader.close()
-        case = _momentum_case(impact, duration=time, drag=pull, **known)
+        case = MomentumCase(answer=impact, duration=time, drag=pull, **known)
     findings, measured = [], []
     for check in _CHECKS:
         if isinstance(case, check.kind) and allowed[check.code] != check.off:
@@ -225,42 +225,3 @@ def _need(reader: ArgumentReader, impact: Impact, fields: tuple[str, ...], purpo
     lacking = [field for field in fields if getattr(vehicle, field) is None]
     if lacking:
         reader.refuse(missing(vehicle, lacking[0], purpose, label))
-
-
-def _impact_case(impact: Impact, outlines: dict[str, Any], left: LeftOut, **known: Any) -> ImpactCase:
-    origin = impact.reconstruction
-    vehicles = {}
-    for label, side, tyres in (("a", impact.a, left.a), ("b", impact.b, left.b)):
-        before = side.before
-        vehicles[label] = VehicleResult(
-            who=f"vehicle {label.upper()} ({before.name})" if before.name else f"vehicle {label.upper()}",
-            mass=before.mass,
-            speed=before.speed,
-            speed_found=origin is not None and not {f"v{label}", f"speed_{label}"} & set(origin.known),
-            delta_v=side.delta_v,
-            pdof=side.pdof,
-            tyre_delta_v=tyres.tyre_delta_v_bound,
-            tyre_share=tyres.tyre_share_bound,
-        )
-    return ImpactCase(
-        answer=impact, vehicles=vehicles, energy_loss=impact.energy_loss, outlines=outlines, left_out=left, **known
-    )
-
-
-def _momentum_case(solution: MomentumSolution, duration: float, drag: float, **known: Any) -> MomentumCase:
-    tyres = drag * GRAVITY * duration
-    vehicles = {}
-    for label in "ab":
-        mass, speed, delta_v, pdof = (getattr(solution, f"{name}_{label}") for name in ("mass", "speed", "delta_v", "pdof"))
-        vehicles[label] = VehicleResult(
-            who=f"vehicle {label.upper()}",
-            mass=mass,
-            speed=abs(speed),
-            speed_found=f"speed_{label}" in solution.unknowns,
-            delta_v=delta_v,
-            pdof=pdof,
-            tyre_delta_v=tyres,
-            tyre_share=share(tyres, delta_v),
-        )
-    loss = solution.translational_energy_loss
-    return MomentumCase(answer=solution, vehicles=vehicles, energy_loss=loss, duration=duration, drag=drag, **known)

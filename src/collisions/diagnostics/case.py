@@ -1,0 +1,197 @@
+"""A case to diagnose: an answer, what was given about it, other answers to compare it with, and how sentences write numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from ..contact_effects import LeftOut
+from ..directions import from_degrees
+from ..impact import Impact
+from ..kernels.contact_laws import BRACH, LAWS
+from ..kernels.status import EPS
+from ..model_choice import ModelChoice
+from ..outlines import overlap, placed
+from ..quantities import in_words
+from ..reconstruct import MomentumSolution
+from ..side import Side
+from ..solvers import required_model
+from ..unit_systems import decimals_of, scale_of, unit_of
+from ..vehicle import Vehicle
+
+# A ratio that comes out of an answer and rounds to its limit has not passed it.
+RATIO_ROUNDING = 1e-9
+# How far the normal is turned, in degrees, to see what depends on it.
+_TURN = 10.0
+_ENERGY_FIGURES = 4
+
+
+class Damage(NamedTuple):
+    """What the damage of a vehicle shows, apart from the answer."""
+
+    pdof: float | None
+    delta_v: float | None
+
+
+class VehicleResult(NamedTuple):
+    """What every answer has of a vehicle, with its name in a sentence; mass and speed are those before."""
+
+    who: str
+    mass: float
+    speed: float
+    delta_v: float
+    pdof: float | None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Case:
+    """One answer that is examined, with what was given about it; sentences are in ``units``."""
+
+    damage: dict[str, Damage]
+    crush_energy: float | None
+    duration: float
+    drag: float
+    units: str
+
+    def number(self, value: float, kind: str) -> str:
+        """A number in these units, to the decimals of its kind; an energy to four figures."""
+        scale, decimals, _ = _format(kind, self.units)
+        scaled = value * scale
+        if not math.isfinite(scaled):
+            return in_words(scaled)
+        text = f"{float(f'{scaled:.{_ENERGY_FIGURES}g}'):.12g}" if decimals is None else f"{scaled:.{decimals}f}"
+        return text.lstrip("-") if float(text) == 0.0 else text
+
+    def text(self, value: float, kind: str) -> str:
+        """The number with its unit."""
+        return f"{self.number(value, kind)} {_format(kind, self.units)[2]}" if math.isfinite(value) else in_words(value)
+
+
+@cache
+def _format(kind: str, units: str) -> tuple[float, int | None, str]:
+    """Scale, decimals and unit of a kind; of an angle one decimal more than an answer has, as it stands beside a limit."""
+    decimals = decimals_of(kind, units)
+    more = int(kind == "angle")
+    unit = unit_of(kind, units).replace("deg", "degrees").replace("*", " ")
+    return scale_of(kind, units), None if decimals is None else decimals + more, unit
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MomentumCase(_Case):
+    """A reconstruction by planar momentum, which knows courses and speeds but no contact."""
+
+    answer: MomentumSolution
+
+    @cached_property
+    def vehicles(self) -> dict[str, VehicleResult]:
+        """Both vehicles by label."""
+        names = ("mass", "speed", "delta_v", "pdof")
+        return {
+            label: VehicleResult(f"vehicle {label.upper()}", *(getattr(self.answer, f"{name}_{label}") for name in names))
+            for label in "ab"
+        }
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ImpactCase(_Case):
+    """An impact with outlines by vehicle label and what the impulse leaves out, and what several findings compare it with."""
+
+    answer: Impact
+    outlines: dict[str, Any]
+    left_out: LeftOut
+
+    @cached_property
+    def vehicles(self) -> dict[str, VehicleResult]:
+        """Both vehicles by label."""
+        return {
+            label: VehicleResult(who, side.before.mass, side.before.speed, side.delta_v, side.pdof)
+            for label, who, side in self.sides
+        }
+
+    @cached_property
+    def sides(self) -> list[tuple[str, str, Side]]:
+        """Label, name in a sentence, and side of both vehicles."""
+        sides = (("a", "vehicle A", self.answer.a), ("b", "vehicle B", self.answer.b))
+        return [(label, f"{who} ({side.before.name})" if side.before.name else who, side) for label, who, side in sides]
+
+    @cached_property
+    def overlaps(self) -> tuple[float, float, float] | None:
+        """How deep the outlines overlap at the impact and the duration after it (below 0: a gap), and what both are off by."""
+        if len(self.outlines) < 2:
+            return None
+        now, later = (
+            overlap(*(placed(self.outlines[label], side.after, label, time) for label, _, side in self.sides))
+            for time in (0.0, self.duration)
+        )
+        return now, later, sum(outline_off_by(self.outlines[label], side.after, self.duration) for label, _, side in self.sides)
+
+    @cached_property
+    def model_choice(self) -> tuple[ModelChoice, str]:
+        """What the central models err by, and which contact point was taken where there is none."""
+        impact, inputs, a, b = self.answer, self.answer.inputs, self.answer.a.before, self.answer.b.before
+        point: Any = impact.point
+        how = ""
+        places: Any = (a.x, a.y, b.x, b.y)
+        if point is None and None not in places:
+            point = 0.5 * (places[0] + places[2]), 0.5 * (places[1] + places[3])
+            how = ", with the contact point taken half-way between the centres"
+        options: dict[str, Any] = {inputs.rule: inputs.rule_value, "law": inputs.law or BRACH}
+        return required_model(a, b, impact.restitution, normal=impact.normal, point=point, **options), how
+
+    @cached_property
+    def other_laws(self) -> list[tuple[str, Impact]]:
+        """The answers under every other law, each with how it came about."""
+        impact = self.answer
+        if impact.law is None or impact.model == "linear_central":
+            return []
+        others = [name for name in LAWS if name != impact.law]
+        return [(f"under the law {name!r} instead of {impact.law!r}", impact._again(law=name)) for name in others]
+
+    @cached_property
+    def turned_normals(self) -> list[tuple[str, Impact]]:
+        """The answers with the normal turned either way, each with how it came about."""
+        if self.answer.inputs.model == "linear_central":
+            return []
+        nx, ny = self.answer.normal
+        answers = []
+        for angle in (-_TURN, _TURN):
+            c, s = from_degrees(angle)
+            how = f"with the normal turned by {'+' if angle > 0.0 else ''}{self.text(math.radians(angle), 'angle')}"
+            answers.append((how, self.answer._again(normal=(c * nx - s * ny, s * nx + c * ny))))
+        return answers
+
+
+Case: TypeAlias = ImpactCase | MomentumCase
+
+
+def percent(share: float, decimals: int = 0) -> str:
+    """A share; of nothing everything is an infinite one."""
+    return f"{share:.{decimals}%}" if math.isfinite(share) else f"a share that is {in_words(share)}"
+
+
+def plain(value: float) -> str:
+    """A number without a unit, to three figures."""
+    return f"{value:.3g}" if math.isfinite(value) else in_words(value)
+
+
+def share(part: float, whole: float) -> float:
+    """The quotient; infinite where there is nothing to compare with, or no number to compare."""
+    if part == 0.0:
+        return 0.0
+    return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
+
+
+def off_by(*sizes: float) -> float:
+    """What a few sums and differences of numbers of these sizes may be off by: 16 eps of all of them together."""
+    return 16.0 * EPS * sum(map(abs, sizes))
+
+
+def outline_off_by(outline: Any, vehicle: Vehicle, after: float = 0.0) -> float:
+    """What the corners may be off by where they were placed; a heading is known to eps of itself."""
+    x, y, heading = (getattr(vehicle, name) for name in ("x", "y", "heading"))
+    turned = float(np.max(np.abs(outline))) * (1.0 + abs(heading) + abs(vehicle.yaw_rate * after))
+    return off_by(x, y, vehicle.speed * after, turned)
