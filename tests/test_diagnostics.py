@@ -1133,7 +1133,7 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         # To the last digit that is there.
         assert float(figure) == pytest.approx(wanted, abs=0.5 * 10.0 ** -len(figure.partition(".")[2]), rel=5e-4)
     assert case.text(-1e-9, "speed").startswith("0.0")
-    assert case.text(0.0, "energy").startswith("0 ")
+    assert case.text(0.0, "energy").startswith("0.000 ")
 
 
 # Refusals
@@ -1167,7 +1167,11 @@ def test_numbers_of_the_sentences_are_those_of_pint(system, said):
         ({"outline_a": [(2, 1), (0, 0.2), (-2, 1), (-2, -1), (2, -1)]}, "bad_outline", "has a dent"),
         ({"outline_a": [(2, 1), (-2, -1), (2, -1), (-2, 1)]}, "bad_outline", "sides that cross"),
         ({"outline_a": [(2, 1), (2, 1), (-2, 1), (-2, -1)]}, "bad_outline", "a corner twice"),
-        ({"impact": balance(), "outline_a": (4.0, 1.8)}, "not_an_impact", "outline_a needs positions, which a MomentumSolution has not"),
+        (
+            {"impact": balance(), "outline_a": (4.0, 1.8)},
+            "not_an_impact",
+            "outline_a needs positions, which a MomentumSolution has not",
+        ),
         ({"impact": balance(), "duration": -0.1}, "negative_duration", "duration must be >= 0"),
         ({"impact": balance(), "drag": np.array([0.1, 0.2])}, "bad_shape", "diagnose takes one case"),
         ({"impact": balance(heading_a=None), "damage_pdof_a": 0.0}, "missing_heading", "give heading_a='30 deg'"),
@@ -1289,7 +1293,7 @@ def test_an_outline_of_any_size_is_judged_by_its_shape(size):
         (plain(math.inf), "infinite"),
         (plain(1.23456), "1.23"),
         (percent(math.inf), "a share that is infinite"),
-        (percent(0.1234, 1), "12.3%"),
+        (percent(0.1234, 1), "12.3 percent"),
     ],
 )
 def test_a_sentence_says_in_words_what_is_no_number(text, wanted):

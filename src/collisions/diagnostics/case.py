@@ -11,12 +11,13 @@ import numpy as np
 
 from ..contact_effects import LeftOut
 from ..directions import from_degrees
+from ..formatting import in_words, places, with_decimals
+from ..formatting import percent as in_percent
 from ..impact import Impact
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS
 from ..model_choice import ModelChoice
 from ..outlines import overlap, placed
-from ..quantities import in_words
 from ..reconstruct import MomentumSolution
 from ..side import Side
 from ..solvers import required_model
@@ -63,8 +64,7 @@ class _Case:
         scaled = value * scale
         if not math.isfinite(scaled):
             return in_words(scaled)
-        text = f"{float(f'{scaled:.{_ENERGY_FIGURES}g}'):.12g}" if decimals is None else f"{scaled:.{decimals}f}"
-        return text.lstrip("-") if float(text) == 0.0 else text
+        return with_decimals(scaled, places(scaled, _ENERGY_FIGURES) if decimals is None else decimals)
 
     def text(self, value: float, kind: str) -> str:
         """The number with its unit."""
@@ -170,7 +170,7 @@ Case: TypeAlias = ImpactCase | MomentumCase
 
 def percent(share: float, decimals: int = 0) -> str:
     """A share; of nothing everything is an infinite one."""
-    return f"{share:.{decimals}%}" if math.isfinite(share) else f"a share that is {in_words(share)}"
+    return in_percent(share, decimals) if math.isfinite(share) else f"a share that is {in_words(share)}"
 
 
 def plain(value: float) -> str:

@@ -10,7 +10,7 @@ from ..impact import Impact
 from ..provenance import how_many
 from ..reference import INTER_VEHICLE_FRICTION
 from ..side import Side
-from ..travel.chain import GRAVITY
+from ..travel.surfaces import GRAVITY
 from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
 from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
 
