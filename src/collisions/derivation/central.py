@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
-from .expressions import HALF, Expression
+from .expressions import HALF, ZERO, Expression
 from .page import Page
 from .symbols import AFTER, BEFORE, COMPRESSED, Symbol, Symbols
 
@@ -47,6 +47,7 @@ def _against_fixed(page: Page, s: Symbols) -> None:
     """Impulse and velocity after of the body that hits one of infinite mass."""
     wall, hit = (s.a, s.b) if s.a.fixed else (s.b, s.a)
     v, wall_v = hit.straight(), wall.straight()
+    at_rest = wall_v if wall_v.value else ZERO
     page.say(
         f"{wall.label} has an infinite mass: it keeps its velocity ({page.shown(wall.straight(AFTER))}), so both share "
         f"{page.symbol(wall_v)} at the end of compression (3), and the mass that the contact feels is {page.symbol(hit.mass)}."
@@ -60,7 +61,7 @@ def _against_fixed(page: Page, s: Symbols) -> None:
     page.equation(
         f"Velocity of {hit.label} after, {'(5)' if hit is s.a else '(6)'} against a fixed body (Example 1)",
         hit.straight(AFTER),
-        -(s.e * v) if wall_v.value == 0.0 else wall_v - s.e * (v - wall_v),
+        at_rest - s.e * (v - at_rest),
     )
 
 

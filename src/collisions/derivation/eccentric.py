@@ -9,7 +9,7 @@ from ..impact import Impact
 from ..kernels.eccentric import response
 from ..models import body_numbers
 from .contact import Mobility, energy, impulses, velocity_after, velocity_before
-from .expressions import Expression, total
+from .expressions import ZERO, Expression, total
 from .page import Page
 from .symbols import AFTER, BEFORE, COMPRESSED, Body, Symbol, Symbols
 
@@ -53,18 +53,15 @@ class Lever(Body):
         spin = self.spin(when if self.turns else BEFORE)
         for direction in directions:
             name, lever, sign = ("normal", self.t, -1.0) if direction == "n" else ("tangent", self.n, 1.0)
-            found: Expression = self.along(direction, BEFORE if self.fixed else when)
-            if self.pinned:
-                found = spin * lever if sign > 0.0 else -(spin * lever)
-            elif self.matters and spin.value != 0.0:
-                found = found.plus(sign, spin * lever)
+            center = ZERO if self.pinned else self.along(direction, BEFORE if self.fixed else when)
+            turning = spin * lever if self.pinned or (self.matters and spin.value != 0.0) else ZERO
+            found = center.plus(sign, turning)
             page.equation(f"{caption}, along the {name}", self.along(direction, when, contact=True), found)
 
     def torque(self, s: Symbols) -> Expression:
         """The moment of the impulse on this body."""
-        by_normal, by_tangential = self.t * s.normal, self.n * s.tangential
-        if s.tangential.value == 0.0:
-            return by_normal if self.label == "A" else -by_normal
+        by_normal = self.t * s.normal
+        by_tangential = self.n * s.tangential if s.tangential.value != 0.0 else ZERO
         return by_normal - by_tangential if self.label == "A" else by_tangential - by_normal
 
 

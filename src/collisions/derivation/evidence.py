@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ..reconstruct import Fit, MomentumSolution
 from ..unit_systems import KIND_OF
 from .contact import delta_v, impulse_direction, seen_from
-from .expressions import Direction, Expression, Function, magnitude, signed_total, total
+from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
 from .page import HEAD, Page
 from .symbols import Symbol
 
@@ -41,12 +41,11 @@ class _Momenta:
         outside = {axis: getattr(solution, f"outside_impulse_{axis}") for axis in "xy"}
         self.outside = {axis: Symbol(f"J_{axis}", j, "impulse") for axis, j in outside.items() if j is not None}
 
-    def along(self, name: str, function: str, axis: Symbol | None = None) -> Expression | None:
-        """The component of a velocity along x or an axis at another angle; None of what rests."""
+    def along(self, name: str, function: str, axis: Expression = ZERO) -> Expression:
+        """The component of a velocity along x, or along an axis at another angle."""
         if name not in self.course:
-            return None
-        course = self.course[name] if axis is None else self.course[name] - axis
-        return self.speed[name] * Function(function, course)
+            return ZERO
+        return self.speed[name] * Function(function, self.course[name] - axis)
 
 
 def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str, float, str]]:
@@ -113,12 +112,12 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
 
 def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
     """The balance of momentum along an axis."""
-    sides: list[Expression] = []
-    for when in ("before", "after"):
-        moving = [name for name in m.course if _when(name) == when]
-        terms = [m.mass[name[6]] * m.speed[name] * Function(function, m.course[name]) for name in moving]
-        sides.append(total(*terms) if terms else Symbol("0", 0.0, "impulse"))
-    left, right = sides
+    left, right = (
+        total(
+            *(m.mass[name[6]] * m.speed[name] * Function(function, m.course[name]) for name in m.course if _when(name) == when)
+        )
+        for when in ("before", "after")
+    )
     if axis in m.outside:
         page.say(f"An impulse from outside was stated; along {axis} it is {page.shown(m.outside[axis])}.")
         left = left + m.outside[axis]
@@ -137,17 +136,17 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
         for other, course in m.course.items()
         if other not in own and course.value != across.value and m.speed[other].value
     ]
-    terms.sort(key=lambda term: -term[0])
+    found = signed_total(sorted(terms, key=lambda term: -term[0]))
     if m.outside:
         moment = m.outside["y"] * Function("cos", across) - m.outside["x"] * Function("sin", across)
-        terms.append((1.0 if when == "after" else -1.0, moment))
-    if not terms:
+        found = found.plus(1.0 if when == "after" else -1.0, moment)
+    if found is ZERO:
         page.say(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.")
         return
     page.equation(
         f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}",
         m.speed[name],
-        signed_total(terms) / (mass * Function("sin", m.course[name] - across)),
+        found / (mass * Function("sin", m.course[name] - across)),
     )
 
 
@@ -165,7 +164,7 @@ def _delta_v(page: Page, m: _Momenta, label: str) -> None:
     name = label.upper()
     parts = []
     for axis, function in (("x", "cos"), ("y", "sin")):
-        change = _difference(m.along(f"speed_{label}_after", function), m.along(f"speed_{label}", function))
+        change = m.along(f"speed_{label}_after", function) - m.along(f"speed_{label}", function)
         parts.append(delta_v(name, axis, change.value))
         page.equation(f"Delta-V of {name} along {axis} (definition)", parts[-1], change)
     x, y = parts
@@ -179,26 +178,18 @@ def _delta_v(page: Page, m: _Momenta, label: str) -> None:
     seen_from(page, name, heading, alpha, pdof)
 
 
-def _difference(end: Expression | None, start: Expression | None) -> Expression:
-    """One less the other, of which one that is None does not move."""
-    if end is None:
-        return Symbol("0", 0.0, "speed") if start is None else -start
-    return end if start is None else end - start
-
-
 def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
     """Closing speed and restitution of the centres of mass."""
     phi = Symbol(r"\varphi", normal_angle, "angle")
     before_a, before_b, after_a, after_b = (m.along(name, "cos", phi) for name in _SPEEDS)
-    departure = _difference(after_b, after_a)
     closing = Symbol("g", m.solution.closing_speed, "speed")
-    parting = Symbol("r", departure.value, "speed")
+    parting = Symbol("r", (after_b - after_a).value, "speed")
     page.equation(
         f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)",
         closing,
-        _difference(before_a, before_b),
+        before_a - before_b,
     )
-    page.equation("Separation speed (definition)", parting, departure)
+    page.equation("Separation speed (definition)", parting, after_b - after_a)
     if _is_known(m.solution.restitution):
         page.equation("Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing)
 

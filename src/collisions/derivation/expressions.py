@@ -144,7 +144,10 @@ class Written(NamedTuple):
 
 
 class Expression:
-    """A formula: its ``value`` in SI, how large its terms are (``size``), and how a pen writes it."""
+    """A formula: its ``value`` in SI, how large its terms are (``size``), and how a pen writes it.
+
+    A term of 0 and a factor of 1 are not written, and one over the reciprocal of a quantity is the product with that quantity.
+    """
 
     def __init__(self, value: float, size: float) -> None:
         self.value, self.size = value, size
@@ -153,43 +156,51 @@ class Expression:
         """The formula as the pen has it."""
         raise NotImplementedError
 
-    def __add__(self, other: Expression | float) -> Expression:
-        return Sum(self, _expression(other), 1.0)
-
-    def __radd__(self, other: float) -> Expression:
-        return Sum(Literal(other), self, 1.0)
-
-    def __sub__(self, other: Expression | float) -> Expression:
-        return Sum(self, _expression(other), -1.0)
-
-    def __rsub__(self, other: float) -> Expression:
-        return Sum(Literal(other), self, -1.0)
-
-    # A factor of 1 is not written, and over the reciprocal of a quantity stands the product with that quantity.
-    def __mul__(self, other: Expression | float) -> Expression:
-        return self if _is_one(other) else Product(self, _expression(other))
-
-    def __rmul__(self, other: float) -> Expression:
-        return self if _is_one(other) else Product(Literal(other), self)
-
-    def __truediv__(self, other: Expression | float) -> Expression:
-        if isinstance(other, Quotient) and _is_one(other.over):
-            return other.under * self
-        return self if _is_one(other) else Quotient(self, _expression(other))
-
-    def __rtruediv__(self, other: float) -> Expression:
-        return Quotient(Literal(other), self)
-
-    def __neg__(self) -> Expression:
-        return Negative(self)
-
     def plus(self, sign: float, other: Expression) -> Expression:
         """The sum with another, or the difference where the sign is negative."""
+        if other.is_literal(0.0):
+            return self
+        if self.is_literal(0.0):
+            return other if sign > 0.0 else Negative(other)
         return Sum(self, other, 1.0 if sign > 0.0 else -1.0)
+
+    def is_literal(self, value: float) -> bool:
+        """Whether this is a number of the formula itself, and this one."""
+        return isinstance(self, Literal) and self.value == value
 
     def squared(self) -> Expression:
         """Its square."""
         return Square(self)
+
+    def __add__(self, other: Expression) -> Expression:
+        return self.plus(1.0, other)
+
+    def __radd__(self, other: float) -> Expression:
+        return Literal(other).plus(1.0, self)
+
+    def __sub__(self, other: Expression) -> Expression:
+        return self.plus(-1.0, other)
+
+    def __rsub__(self, other: float) -> Expression:
+        return Literal(other).plus(-1.0, self)
+
+    def __neg__(self) -> Expression:
+        return Negative(self)
+
+    def __mul__(self, other: Expression) -> Expression:
+        return self if other.is_literal(1.0) else other if self.is_literal(1.0) else Product(self, other)
+
+    def __rmul__(self, other: float) -> Expression:
+        return Literal(other) * self
+
+    def __truediv__(self, other: Expression | float) -> Expression:
+        under = other if isinstance(other, Expression) else Literal(other)
+        if isinstance(under, Quotient) and under.over.is_literal(1.0):
+            return under.under * self
+        return self if under.is_literal(1.0) else Quotient(self, under)
+
+    def __rtruediv__(self, other: float) -> Expression:
+        return Quotient(Literal(other), self)
 
 
 class Literal(Expression):
@@ -327,30 +338,21 @@ class Direction(Expression):
         return Written(text, _POWER, math.atan2(y.worth + 0.0, x.worth) * unit.scale, unit)
 
 
-ONE = Literal(1.0)
+ZERO, ONE = Literal(0.0), Literal(1.0)
 HALF = Quotient(ONE, Literal(2.0))
-
-
-def _expression(value: Expression | float) -> Expression:
-    return value if isinstance(value, Expression) else Literal(value)
-
-
-def _is_one(value: Expression | float) -> bool:
-    return value == 1.0 or (isinstance(value, Literal) and value.value == 1.0)
 
 
 def signed_total(terms: Iterable[tuple[float, Expression]]) -> Expression:
     """The sum of terms, each with the sign before it."""
-    (sign, first), *others = terms
-    found = first if sign > 0.0 else -first
-    for sign, term in others:
+    found: Expression = ZERO
+    for sign, term in terms:
         found = found.plus(sign, term)
     return found
 
 
 def total(*terms: Expression) -> Expression:
     """The sum of terms."""
-    return signed_total((1.0, term) for term in terms)
+    return sum(terms, start=ZERO)
 
 
 def root(inner: Expression) -> Expression:

@@ -9,7 +9,7 @@ from ..kernels.central import shares
 from ..provenance import Reconstruction, how_many
 from .contact import delta_v
 from .eccentric import impulse_in_scene_axes, levers_of
-from .expressions import HALF, ONE, Expression, root
+from .expressions import HALF, ONE, ZERO, Expression, root
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
@@ -173,10 +173,8 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
         page.say(f"{'The closing speed was known:' if kind == 'closing_speed' else by_energy} {page.shown(g)}.")
         page.equation("Restitution (11)", e, r / g)
     if kind == "energy_loss":
-        loss = HALF * (g - r) * s.normal
-        if s.tangential.value != 0.0:
-            loss = loss - HALF * (s.tangential * (s.slip + s.slip_after))
-        page.equation("The energy that these lose", s.loss, loss)
+        by_tangential = HALF * (s.tangential * (s.slip + s.slip_after)) if s.tangential.value != 0.0 else ZERO
+        page.equation("The energy that these lose", s.loss, HALF * (g - r) * s.normal - by_tangential)
     page.say(
         f"The regime is {s.impact.regime}, with the impulse {page.shown(s.normal)} and {page.shown(s.tangential)} on "
         "B: of all that the law allows it is the one that leads to these motions after."
