@@ -105,14 +105,10 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
         page.balance("Along the normal", k.normal * normal + k.coupling * tangential, change, "speed")
         page.balance("Along the tangent", k.coupling * normal + k.tangential * tangential, -stopped, "speed")
         determinant = k.normal * k.tangential - k.coupling.squared()
-        page.equation(
-            "Solved for the normal component (Cramer's rule)",
-            normal,
-            (k.tangential * change + k.coupling * stopped) / determinant,
-        )
-        page.equation(
-            "Solved for the tangential component", tangential, -((k.normal * stopped + k.coupling * change) / determinant)
-        )
+        cramer_n = (k.tangential * change + k.coupling * stopped) / determinant
+        cramer_t = -((k.normal * stopped + k.coupling * change) / determinant)
+        page.equation("Solved for the normal component (Cramer's rule)", normal, cramer_n)
+        page.equation("Solved for the tangential component", tangential, cramer_t)
     if normal.value > 0.0:
         page.equation("The critical impulse ratio", s.critical, tangential / normal)
 
@@ -220,13 +216,10 @@ def motions(page: Page, s: Symbols) -> None:
 def seen_from(page: Page, label: str, heading: float, alpha: Symbol, pdof: float) -> None:
     """The PDOF, from the heading and the direction of the impulse."""
     psi = Symbol(rf"\psi_{label}", heading, "angle")
-    pi = Symbol(r"\pi", math.pi, "angle")
     turns = round((pdof - (psi.value - alpha.value)) / math.pi)
-    page.equation(
-        f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)",
-        Symbol(rf"\mathrm{{PDOF}}_{label}", pdof, "angle"),
-        (psi - alpha).plus(turns, abs(turns) * pi),
-    )
+    caption = f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)"
+    symbol = Symbol(rf"\mathrm{{PDOF}}_{label}", pdof, "angle")
+    page.equation(caption, symbol, (psi - alpha).plus(turns, abs(turns) * Symbol(r"\pi", math.pi, "angle")))
 
 
 def delta_v(label: str, axis: str, value: float) -> Symbol:

@@ -93,11 +93,9 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     for name, across in ((first, second), (second, first)):
         _solved(page, m, name, m.course[across])
     angle = m.course[first] - m.course[second]
-    page.equation(
-        "Condition, from the angle between both courses (1 at right angles)",
-        Symbol(r"\kappa", solution.condition, "number"),
-        (1.0 + Function("abs", Function("cos", angle))) / Function("abs", Function("sin", angle)),
-    )
+    cosine, sine = (Function("abs", Function(function, angle)) for function in ("cos", "sin"))
+    condition = Symbol(r"\kappa", solution.condition, "number")
+    page.equation("Condition, from the angle between both courses (1 at right angles)", condition, (1.0 + cosine) / sine)
     page.heading("Changes of velocity and energy")
     for label in "ab":
         _delta_v(page, m, label)
@@ -143,11 +141,8 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     if found is ZERO:
         page.say(f"Nothing else has momentum across it: {page.shown(m.speed[name])}.")
         return
-    page.equation(
-        f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}",
-        m.speed[name],
-        found / (mass * Function("sin", m.course[name] - across)),
-    )
+    caption = f"Speed of {name[6].upper()} {when}, by the momentum across {page.symbol(across)}"
+    page.equation(caption, m.speed[name], found / (mass * Function("sin", m.course[name] - across)))
 
 
 def _when(name: str) -> str:
@@ -182,14 +177,11 @@ def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
     """Closing speed and restitution of the centres of mass."""
     phi = Symbol(r"\varphi", normal_angle, "angle")
     before_a, before_b, after_a, after_b = (m.along(name, "cos", phi) for name in _SPEEDS)
+    approach, departure = before_a - before_b, after_b - after_a
     closing = Symbol("g", m.solution.closing_speed, "speed")
-    parting = Symbol("r", (after_b - after_a).value, "speed")
-    page.equation(
-        f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)",
-        closing,
-        before_a - before_b,
-    )
-    page.equation("Separation speed (definition)", parting, after_b - after_a)
+    parting = Symbol("r", departure.value, "speed")
+    page.equation(f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)", closing, approach)
+    page.equation("Separation speed (definition)", parting, departure)
     if _is_known(m.solution.restitution):
         page.equation("Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing)
 

@@ -19,11 +19,10 @@ from ..uncertainty.result import Propagation
 from ..unit_systems import SI_UNITS, UnitSystem, bad_system
 from ..units import shown
 from ..vehicle import Vehicle
-from .central import linear, oblique
 from .contact import motions
-from .eccentric import eccentric
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import Function, System
+from .models import eccentric, linear, oblique
 from .page import HEAD, Page
 from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols

@@ -8,8 +8,8 @@ from ..impact import Impact
 from ..kernels.central import shares
 from ..provenance import Reconstruction, how_many
 from .contact import delta_v
-from .eccentric import impulse_in_scene_axes, levers_of
 from .expressions import HALF, ONE, ZERO, Expression, root
+from .models import impulse_in_scene_axes, levers_of
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
@@ -132,12 +132,8 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
     own, other = (a, b) if missing[1] == "a" else (b, a)
     here, there = ("_after", "") if missing.endswith("after") else ("", "_after")
     of_other = f"v{other.label.lower()}"
-    change = v[of_other + there] - v[of_other + here]
-    page.equation(
-        f"Velocity of {own.label} {'after' if here else 'before'}, from it",
-        v[missing],
-        v[missing[:2] + there] + other.mass / own.mass * change,
-    )
+    found = v[missing[:2] + there] + other.mass / own.mass * (v[of_other + there] - v[of_other + here])
+    page.equation(f"Velocity of {own.label} {'after' if here else 'before'}, from it", v[missing], found)
 
 
 def _relation(

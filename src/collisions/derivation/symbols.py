@@ -111,9 +111,8 @@ class Body:
 
     def spin(self, when: str = BEFORE) -> Symbol:
         """Yaw rate."""
-        return Symbol(
-            rf"\omega_{self.label}{'^0' if when == COMPRESSED else _PRIME[when]}", self.state(when).yaw_rate, "yaw rate"
-        )
+        mark = "^0" if when == COMPRESSED else _PRIME[when]
+        return Symbol(rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate")
 
 
 class Symbols:
