@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import NamedTuple
 
 from ..formatting import Numbers, places, with_decimals
@@ -29,6 +30,8 @@ class Unit(NamedTuple):
 
     def times(self, other: Unit, power: float) -> Unit:
         """The unit of a product with a power of a number."""
+        if not other.powers:
+            return self
         powers = dict(self.powers)
         for label, exponent in other.powers:
             powers[label] = powers.get(label, 0.0) + power * exponent
@@ -53,9 +56,7 @@ class System(Numbers):
 
     def unit_of(self, kind: str) -> Unit:
         """The unit of a kind by itself."""
-        label = self.label(kind)
-        powers = ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),)
-        return Unit(self.scale(kind), powers if label else ())
+        return _unit(self.label(kind), self.scale(kind))
 
     def working(self, value: float, kind: str, more: int = 0) -> str:
         """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
@@ -85,6 +86,13 @@ class System(Numbers):
         return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
 
 
+@cache
+def _unit(label: str, scale: float) -> Unit:
+    if not label:
+        return NO_UNIT
+    return Unit(scale, ((label[2:], -1.0),) if label.startswith("1/") else ((label, 1.0),))
+
+
 def _is_zero(value: float, kind: str) -> bool:
     return abs(value) <= _ZERO.get(kind, _ZERO_OF_OTHERS)
 
@@ -93,6 +101,9 @@ def _decimals(number: float, least: int | None) -> int:
     """Decimals of a number in the working."""
     figures = places(number, _FIGURES)
     return max(figures if least is None else max(least, min(figures, least + 2)), 0)
+
+
+NO_UNIT = Unit()
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +127,7 @@ class Written(NamedTuple):
     text: str
     rank: int
     worth: float = math.nan
-    unit: Unit = Unit()
+    unit: Unit = NO_UNIT
 
     def within(self, rank: int, pen: Pen) -> str:
         """The text, in brackets where it is looser than that."""
@@ -126,8 +137,10 @@ class Written(NamedTuple):
 
     def converted(self, unit: Unit, pen: Pen) -> Written:
         """The same times what turns it into another unit."""
+        if self.unit is unit:
+            return self
         factor = unit.scale / self.unit.scale
-        if pen.system is None or abs(factor - 1.0) < 1e-9 or self.text == "0":
+        if abs(factor - 1.0) < 1e-9 or self.text == "0":
             return self._replace(unit=unit)
         # A number to divide by is easier to recognize than its reciprocal below 1.
         divides = factor < 1.0
@@ -288,7 +301,7 @@ class Square(Expression):
         if pen.latex and pen.system is None and "'" in base and inner.rank == ATOM:
             base = f"{{{base}}}"
         text = base + ("^2" if pen.latex else "**2")
-        return Written(text, _POWER, inner.worth * inner.worth, Unit().times(inner.unit, 2))
+        return Written(text, _POWER, inner.worth * inner.worth, NO_UNIT.times(inner.unit, 2))
 
 
 class Function(Expression):
@@ -307,7 +320,7 @@ class Function(Expression):
         text = latex if pen.latex else f"{self.name}({inner.text})"
         if self.name == "abs":
             return inner._replace(text=text, rank=ATOM, worth=abs(inner.worth))
-        return Written(text, ATOM, math.sqrt(max(inner.worth, 0.0)), Unit().times(inner.unit, 0.5))
+        return Written(text, ATOM, math.sqrt(max(inner.worth, 0.0)), NO_UNIT.times(inner.unit, 0.5))
 
     def _of_angle(self, pen: Pen) -> Written:
         degrees = pen.system is not None and pen.system.label("angle") == "deg"
@@ -334,7 +347,7 @@ class Direction(Expression):
         y, x = self.y.write(pen), self.x.write(pen)
         name, left, right = (r"\operatorname{atan2}", r"\left(", r"\right)") if pen.latex else ("atan2", "(", ")")
         text = f"{name}{left}{y.text}, {x.text}{right}"
-        unit = Unit() if pen.system is None else pen.system.unit_of("angle")
+        unit = NO_UNIT if pen.system is None else pen.system.unit_of("angle")
         return Written(text, _POWER, math.atan2(y.worth + 0.0, x.worth) * unit.scale, unit)
 
 
