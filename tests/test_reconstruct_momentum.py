@@ -856,7 +856,7 @@ def test_warnings_of_a_batch_count_their_cases():
     negatives = int((found.speed_a < 0).any()) + int((found.speed_b < 0).any())
     assert by_code.keys() - {"energy_gain"} == {"nearly_collinear", "negative_speed"}
     assert len(caught) == len(by_code) - 1 + negatives
-    assert str(by_code["nearly_collinear"]).startswith("2 cases: ")
+    assert str(by_code["nearly_collinear"]).startswith("2 of 4 cases: ")
     assert by_code["nearly_collinear"].fields["condition"] == found.condition[1]
     assert by_code["negative_speed"].fields["value"] == min(found.speed_a.min(), found.speed_b.min())
 

@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..impact import Impact
 from ..inputs import Inputs, OnFailure
 from ..kernels.central import shares
 from ..kernels.contact_laws import FRICTION
-from ..kernels.elementwise import POSITIVE, RESTITUTION
+from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
 from ..provenance import Reconstruction
@@ -22,7 +21,7 @@ from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle
-from .common import Cases, exactly, finish, input_faults, refusal_alone, run_forward
+from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, refusal_alone, run_forward
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
@@ -113,58 +112,46 @@ def central(
         "central",
     )
     reader = ArgumentReader()
-    numbers = {
-        "mass_a": reader.number(mass_a, "kg", "mass_a", POSITIVE),
-        "mass_b": reader.number(mass_b, "kg", "mass_b", POSITIVE),
-    }
+    numbers = read_masses(reader, mass_a, mass_b)
     for name, value in given.items():
         if name == "energy_loss":
-            numbers[name] = amount(reader, value, "J", name)
+            numbers |= read_amounts(reader, {name: value})
         elif name == "restitution":
             numbers[name] = reader.number(value, "", name, RESTITUTION)
         else:
             numbers[name] = reader.number(value, "m/s", name)
     reader.close()
-    texts = reader.texts
-    of_bodies = [
-        {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts} for label in "ab"
-    ]
-    others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
-    cases = Cases.of(numbers)
-    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
     with np.errstate(all="ignore"):
-        candidates = _candidates(arrays, cases.eps)
-        one, other = candidates[0], candidates[-1]
-        which = np.where(one.fits | (~other.fits & (one.closing > 0.0)), 0, len(candidates) - 1)
-        found = Candidate(*(np.choose(which, parts) for parts in zip(*candidates, strict=True)))
-        condition = _condition(arrays, found, which, cases.eps)
-        apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
-        ambiguous = one.fits & other.fits & apart
-        status = cases.first_status(
-            (*input_faults(arrays), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
-        )
+        return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure)
 
-    def provenance(found: Candidate, condition: Any, answers: Any, where: Any = True) -> Reconstruction:
-        condition, closing, slip = (
-            cases.values(np.where(where, v, np.nan)) for v in (condition, found.closing, 0.0 * found.closing)
-        )
-        return Reconstruction(
-            method="central",
-            known=tuple(given),
-            condition=condition,
-            answers=answers,
-            contact_velocity=(closing, slip),
-        )
+
+def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts: dict[str, str], on_failure: Any) -> Impact:
+    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
+    candidates = _candidates(arrays, cases.eps)
+    one, other = candidates[0], candidates[-1]
+    which = np.where(one.fits | (~other.fits & (one.closing > 0.0)), 0, len(candidates) - 1)
+    found = Candidate(*(np.choose(which, parts) for parts in zip(*candidates, strict=True)))
+    apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
+    ambiguous = one.fits & other.fits & apart
+    status = cases.first_status(
+        (*input_faults(arrays), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
+    )
+
+    def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
+        condition = _condition(arrays, found, which, cases.eps)
+        return cases.provenance("central", known, condition, count, (found.closing, 0.0 * found.closing), where)
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
-        va, vb, e = (cases.values(np.where(keep, value, np.nan)) for value in found[:3])
         # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
         still: Any = 0.0 if np.all(keep) else cases.values(np.where(keep, 0.0, np.nan))
-        a, b = (
-            Vehicle(mass=numbers[f"mass_{label}"])._moved(speed, still, still)._told(given_as)
-            for label, speed, given_as in zip("ab", (va, vb), of_bodies, strict=True)
-        )
-        return Inputs("linear_central", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
+        bodies = []
+        for label, speed in (("a", found.va), ("b", found.vb)):
+            given = {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts}
+            speed = cases.values(np.where(keep, speed, np.nan))
+            bodies.append(Vehicle(mass=numbers[f"mass_{label}"])._moved(speed, still, still)._told(given))
+        e = cases.values(np.where(keep, found.restitution, np.nan))
+        others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
+        return Inputs("linear_central", bodies[0], bodies[1], e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
 
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is not None:
@@ -172,23 +159,18 @@ def central(
             return refusal_alone(partial(central, **of_case), status[index])
         if status != Status.AMBIGUOUS:
             return _refusal(status, found, arrays)
-        solutions = tuple(map(solution, range(len(candidates))))
+        solutions = tuple(
+            run_forward(partial(inputs_of, one), Status.OK, origin_of(one, np.intp(i), len(candidates)))
+            for i, one in enumerate(candidates)
+        )
         both = " or ".join(f"va = {s.a.before.vx:.6g} m/s with e = {s.restitution:.4g}" for s in solutions)
         return AmbiguousSolutionError(
-            f"two impacts fit {', '.join(given)}: {both}; both are in .solutions, and a velocity of the other kind decides",
+            f"two impacts fit {', '.join(known)}: {both}; both are in .solutions, and a velocity of the other kind decides",
             code="ambiguous",
             solutions=solutions,
         )
 
-    def solution(i: int) -> Impact:
-        with np.errstate(all="ignore"):
-            condition = _condition(arrays, candidates[i], np.intp(i), cases.eps)
-            origin = provenance(candidates[i], condition, len(candidates))
-        return run_forward(partial(inputs_of, candidates[i]), Status.OK, origin)
-
-    with np.errstate(all="ignore"):
-        count = cases.counts(np.where(ambiguous, len(candidates), 1))
-        origin = provenance(found, condition, count, np.equal(status, Status.OK))
+    origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
     return finish(partial(inputs_of, found), status, origin, on_failure, error)
 
 
@@ -208,14 +190,10 @@ def _candidate(
     total = closing + separation
     va, vb = known.get("va"), known.get("vb")
     if va is None and vb is None:
-        if "va_after" in known:
-            va = known["va_after"] + share_a * total
-        if "vb_after" in known:
-            vb = known["vb_after"] - share_b * total
-    if va is None:
-        va = vb + closing
-    if vb is None:
-        vb = va - closing
+        va = known["va_after"] + share_a * total if "va_after" in known else None
+        vb = known["vb_after"] - share_b * total if "vb_after" in known else None
+    va = vb + closing if va is None else va
+    vb = va - closing if vb is None else vb
     # What rounding leaves of an e of exactly 0 or 1; the change of velocity of a heavy body says little of the impact.
     scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
@@ -320,9 +298,8 @@ def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[
 
 def _allowed_losses(numbers: dict[str, Any]) -> str:
     """What energy the masses and two velocities allow, where an energy was given and they say."""
-    with np.errstate(all="ignore"):
-        share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
-        least, most = allowed_losses(numbers, share_a, share_b, reduced)
+    share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
+    least, most = allowed_losses(numbers, share_a, share_b, reduced)
     if "energy_loss" not in numbers or np.isnan(least):
         return ""
     return f"; they allow at least {least:.6g} J" + ("" if np.isinf(most) else f" and at most {most:.6g} J")

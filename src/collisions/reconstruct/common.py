@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..amounts import amount
 from ..errors import CollisionsError, InputError, Status
 from ..impact import Impact, found_by
 from ..inputs import Inputs
@@ -17,7 +19,7 @@ from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
 from ..models import body_numbers
 from ..provenance import Reconstruction
 from ..quantities import lock
-from ..reading import broadcast
+from ..reading import ArgumentReader, broadcast
 from ..solving import check_options, error_of, first_refused, warn_of_refusals
 from ..vehicle import Vehicle
 from ..warning import quietly
@@ -32,29 +34,36 @@ ASK_ALONE = "asked alone, each says why"
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
-    """The values that were given, if they are as many as the solver needs."""
+    """The values that were given, if they are as many as the solver needs; the two EES go together and count as one."""
     given = {name: value for name, value in known.items() if value is not None}
-    if len(given) == count:
-        return given
-    missing = [name for name in known if name not in given]
-    named, missed = ", ".join(known), ", ".join(missing)
-    if "ees_a" in known:
-        named, missed = (text.replace("ees_a", "ees_a with ees_b") for text in (named, missed))
-    advice = f"leave out {len(given) - count}" if len(given) > count else f"give {count - len(given)} of {missed}"
-    raise InputError(
-        f"{what} takes exactly {count} of {named}; got {len(given)} ({', '.join(given) or 'none'}): {advice}",
-        code="too_many_knowns" if len(given) > count else "too_few_knowns",
-        argument=", ".join(given),
-        given=tuple(given),
-    )
-
-
-def check_both_ees(ees_a: Any, ees_b: Any) -> None:
-    """Refuses the EES of one vehicle without that of the other."""
-    if (ees_a is None) != (ees_b is None):
+    if ("ees_a" in given) != ("ees_b" in given):
         raise InputError(
             "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
         )
+    counted = [name for name in given if name != "ees_b"]
+    if len(counted) == count:
+        return given
+    words = {name: "ees_a with ees_b" if name == "ees_a" else name for name in known if name != "ees_b"}
+    missing = ", ".join(word for name, word in words.items() if name not in given)
+    more = len(counted) > count
+    advice = f"leave out {len(counted) - count}" if more else f"give {count - len(counted)} of {missing}"
+    raise InputError(
+        f"{what} takes exactly {count} of {', '.join(words.values())}; got {len(counted)} ({', '.join(counted) or 'none'}): "
+        f"{advice}",
+        code="too_many_knowns" if more else "too_few_knowns",
+        argument=", ".join(counted),
+        given=tuple(counted),
+    )
+
+
+def read_masses(reader: ArgumentReader, mass_a: Any, mass_b: Any) -> dict[str, Any]:
+    """Both masses by name."""
+    return {name: reader.number(mass, "kg", name, POSITIVE) for name, mass in (("mass_a", mass_a), ("mass_b", mass_b))}
+
+
+def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Known energies and speeds by name."""
+    return {name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name) for name, value in given.items()}
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
@@ -105,8 +114,10 @@ class Cases(NamedTuple):
             return ~np.isfinite(np.asarray(found).astype(self.dtype))
 
     def counts(self, found: Any) -> Any:
-        """An int for a single case, a locked array of them for a batch."""
-        return int(found) if self.shape is None else lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
+        """An int, or infinity, for a single case, a locked array of ints for a batch."""
+        if self.shape is None:
+            return found if found == math.inf else int(found)
+        return lock(np.array(np.broadcast_to(found, self.shape), dtype=np.int64))
 
     def first_status(self, findings: Sequence[tuple[Any, int]]) -> Any:
         """Code of the first finding that holds, 0 without one: an int, or an array for a batch."""
@@ -114,6 +125,25 @@ class Cases(NamedTuple):
         for condition, code in reversed(findings):
             status = np.where(condition, np.uint8(code), status)
         return int(status) if self.shape is None else status
+
+    def how_many(self, where: Any) -> str:
+        """The number of these cases, as a message begins; nothing for a single case."""
+        if self.shape is None:
+            return ""
+        return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "
+
+    def provenance(
+        self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
+    ) -> Reconstruction:
+        """How it was found, with closing speed and slip if they are known; the numbers are NaN but ``where`` they hold."""
+        condition, *found = (self.values(np.where(where, value, np.nan)) for value in (condition, *velocity))
+        return Reconstruction(
+            method=method,
+            known=tuple(known),
+            condition=condition,
+            answers=self.counts(answers),
+            contact_velocity=(found[0], found[1]) if found else None,
+        )
 
     def one(self, found: Any, index: tuple[int, ...]) -> float:
         """The value of the case at an index."""

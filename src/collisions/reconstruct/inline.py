@@ -8,16 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
 from ..kernels.central import shares
-from ..kernels.elementwise import POSITIVE, RESTITUTION
+from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
 from ..kernels.status import Status
 from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input, Value
-from .common import ASK_ALONE, Cases, check_both_ees, exactly, input_faults, raise_or_warn
+from .common import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn, read_amounts, read_masses
 from .crossings import RestitutionOf, crossings
 
 
@@ -77,20 +76,11 @@ def inline_closing_speed(
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, low_speed, delta_v_a="5 km/h"), 1)
     7.2
     """
-    check_both_ees(ees_a, ees_b)
-    given = exactly(
-        {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a},
-        1,
-        "inline_closing_speed",
-    )
-    (kind,) = given
+    known = {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a, "ees_b": ees_b}
+    given = exactly(known, 1, "inline_closing_speed")
+    kind = next(iter(given))
     reader = ArgumentReader()
-    numbers = {
-        "mass_a": reader.number(mass_a, "kg", "mass_a", POSITIVE),
-        "mass_b": reader.number(mass_b, "kg", "mass_b", POSITIVE),
-    }
-    for name, value in (given | ({"ees_b": ees_b} if kind == "ees_a" else {})).items():
-        numbers[name] = amount(reader, value, "J" if kind == "energy_loss" else "m/s", name)
+    numbers = read_masses(reader, mass_a, mass_b) | read_amounts(reader, given)
     if not callable(restitution):
         numbers["restitution"] = reader.number(restitution, "", "restitution", RESTITUTION)
     reader.close()

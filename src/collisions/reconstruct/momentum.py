@@ -12,6 +12,7 @@ from ..amounts import amount
 from ..directions import Angle, angle_of, between, course, direction
 from ..errors import (
     CollisionsError,
+    CollisionsWarning,
     EnergyGainWarning,
     IllConditionedWarning,
     InputError,
@@ -20,7 +21,6 @@ from ..errors import (
     OutOfRangeWarning,
 )
 from ..inputs import OnFailure
-from ..kernels.elementwise import POSITIVE
 from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
 from ..kernels.status import EPS, Status
 from ..quantities import hypot, show
@@ -28,7 +28,7 @@ from ..reading import ArgumentReader
 from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
 from ..warning import warn, warn_of_cases
-from .common import Cases, exactly, raise_or_warn
+from .common import Cases, exactly, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
@@ -125,40 +125,35 @@ def momentum(
     courses = dict(zip(_COURSES, (course_a, course_b, course_a_after, course_b_after), strict=True))
     courses |= {"heading_a": heading_a, "heading_b": heading_b}
     reader = ArgumentReader()
-    numbers = {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    numbers = read_masses(reader, mass_a, mass_b)
     for name, value in speeds.items():
         if value is not None:
             numbers[name] = amount(reader, value, "m/s", name, "turn its course by 180 deg")
     angles = {name: course(reader, value, name) for name, value in courses.items() if value is not None}
     numbers |= {name: angle.value for name, angle in angles.items()}
-    single_values = list(numbers)
     if outside_impulse is not None:
-        numbers |= _parts("outside_impulse", reader.pair(outside_impulse, "N*s", "outside_impulse"))
+        x, y = reader.pair(outside_impulse, "N*s", "outside_impulse")
+        numbers |= {"outside_impulse[0]": x, "outside_impulse[1]": y}
     if normal is not None:
-        numbers |= _parts("normal", direction(reader, normal, "normal", numbers.values()))
+        x, y = direction(reader, normal, "normal", numbers.values())
+        numbers |= {"normal[0]": x, "normal[1]": y}
     reader.close()
     cases = Cases.of(numbers)
     numbers = {name: value.astype(cases.dtype) if isinstance(value, np.ndarray) else value for name, value in numbers.items()}
     angles = {name: angle._replace(value=numbers[name]) for name, angle in angles.items()}
-    given: dict[str, Any] | None = None
-    if cases.shape is None:
-        given = {name: reader.texts.get(name, numbers[name]) for name in single_values} | (
-            {"together": True} if together else {}
-        )
-        if outside_impulse is not None:
-            given["outside_impulse"] = [reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")]
-        if normal is not None:
-            given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
+    given: dict[str, Any] = {name: reader.texts.get(name, value) for name, value in numbers.items() if "[" not in name}
+    if together:
+        given["together"] = True
+    if outside_impulse is not None:
+        given["outside_impulse"] = [reader.texts.get(name, numbers[name]) for name in numbers if name.startswith("outside")]
+    if normal is not None and cases.shape is None:
+        given["normal"] = [*map(_as_given, normal)] if isinstance(normal, tuple) else _as_given(normal)
     with np.errstate(all="ignore"):
         unlike = np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
         terms = _terms(numbers, angles, together)
         exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
-        return _solve(_Known(cases, numbers, angles, terms, unlike), given, on_failure)
-
-
-def _parts(name: str, pair: tuple[Any, Any]) -> dict[str, Any]:
-    return {f"{name}[{i}]": part for i, part in enumerate(pair)}
+        return _solve(_Known(cases, numbers, angles, terms, unlike), given if cases.shape is None else None, on_failure)
 
 
 def _as_given(value: Any) -> str | float:
@@ -287,8 +282,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
         status=Status(status) if isinstance(status, int) else status,
         _given=given,
     )
-    _warn_of_speeds(cases, sure, found, solution, abs(sine), rounding)
-    _warn_of_physics(cases, np.equal(status, Status.ENERGY_GAIN), found, rounding)
+    _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding)
     return solution
 
 
@@ -387,62 +381,49 @@ def _sensitivity(
     return found
 
 
-def _warn_of_speeds(
-    cases: Cases, sure: Any, found: dict[str, Any], solution: MomentumSolution, sine: Any, rounding: Any
-) -> None:
-    """Says how little the answers may be worth."""
+def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
+    """Says how little the answers may be worth, and where they are no impact."""
+
+    def say(where: Any, kind: type[CollisionsWarning], code: str, text: str, pick: Any = np.min, **field: Any) -> None:
+        if np.any(where):
+            ((name, values),) = field.items()
+            where, values = np.broadcast_arrays(where, values)
+            worst = float(pick(values[where]))
+            give = warn_of_cases if kind is EnergyGainWarning else warn
+            give(kind(known.cases.how_many(where) + text.format(worst), code=code, **{name: worst}))
+
+    one, other = (known.terms[name].course for name in solution.unknowns)
+    sine = abs(between(one, other)[1])
     near = sure & (sine < math.sin(_NEARLY_COLLINEAR))
     if np.any(near):
-        worst = float(np.max(np.where(near, found["condition"], 0.0)))
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
         numbers = "; ".join(_largest_by_degree(answer, row, near) for answer, row in solution.sensitivity.items())
         text = (
-            f"{_count(near, cases)}the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line "
-            f"(condition {worst:.3g}): {numbers}; an in-line method may tell more"
+            f"the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line (condition {{:.3g}}): "
+            f"{numbers}; an in-line method may tell more"
         )
-        warn(IllConditionedWarning(text, code="nearly_collinear", condition=worst))
+        say(near, IllConditionedWarning, "nearly_collinear", text, np.max, condition=found["condition"])
     for name in solution.unknowns:
+        text = f"{name} = {{:.6g}} m/s: backwards along its course; check the courses, or turn this one by 180 deg"
         # What rounding leaves of 0 is no motion backwards.
-        backward = sure & (found[name] < -rounding)
-        if np.any(backward):
-            least = float(np.min(np.where(backward, found[name], 0.0)))
-            text = (
-                f"{_count(backward, cases)}{name} = {least:.6g} m/s: backwards along its course; check the courses, or turn "
-                f"this one by 180 deg"
-            )
-            warn(OutOfRangeWarning(text, code="negative_speed", value=least))
-
-
-def _warn_of_physics(cases: Cases, gains: Any, found: dict[str, Any], rounding: Any) -> None:
-    """Says where the answers are no impact."""
-    if np.any(gains):
-        most = -float(np.min(np.where(gains, found["translational_energy_loss"], 0.0)))
-        text = (
-            f"{_count(gains, cases)}the vehicles leave with {most:.6g} J more than they came with, which no impact gives; "
-            f"check courses and speeds"
-        )
-        warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=most))
+        say(sure & (found[name] < -rounding), OutOfRangeWarning, "negative_speed", text, value=found[name])
+    text = "the vehicles leave with {:.6g} J more than they came with, which no impact gives; check courses and speeds"
+    say(gains, EnergyGainWarning, "energy_gain", text, np.max, gain=-found["translational_energy_loss"])
     closing, e = found["closing_speed"], found["restitution"]
     if closing is None:
         return
-    apart = closing <= 0.0
-    if np.any(apart):
-        least = float(np.min(np.where(apart, closing, 0.0)))
-        text = (
-            f"{_count(apart, cases)}the centres do not approach along the normal, which must point from A into B: closing "
-            f"speed {least:.6g} m/s, so there is no restitution"
-        )
-        warn(OutOfRangeWarning(text, code="separating", closing_speed=least))
+    text = (
+        "the centres do not approach along the normal, which must point from A into B: closing speed {:.6g} m/s, so there is "
+        "no restitution"
+    )
+    say(closing <= 0.0, OutOfRangeWarning, "separating", text, closing_speed=closing)
     slack = rounding / closing
-    outside = (e < -slack) | (e > 1.0 + slack)
-    if np.any(outside):
-        worst = float(np.min(np.where(outside, e, np.inf)))
-        worst = worst if worst < 0.0 else float(np.max(np.where(outside, e, 0.0)))
-        text = (
-            f"{_count(outside, cases)}the restitution of the centres along the normal is {worst:.4g}, outside 0 to 1: check "
-            f"the normal, courses and speeds, or ask reconstruct.restitution with the contact point"
-        )
-        warn(OutOfRangeWarning(text, code="observed_restitution", value=worst))
+    text = (
+        "the restitution of the centres along the normal is {:.4g}, outside 0 to 1: check the normal, courses and speeds, or "
+        "ask reconstruct.restitution with the contact point"
+    )
+    worst = np.min if np.any(e < -slack) else np.max
+    say((e < -slack) | (e > 1.0 + slack), OutOfRangeWarning, "observed_restitution", text, worst, value=e)
 
 
 def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
@@ -450,7 +431,3 @@ def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
     moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
     name = max(moves, key=moves.__getitem__)
     return f"{answer} moves by {moves[name] * math.pi / 180.0:.3g} m/s per degree of {name}"
-
-
-def _count(where: Any, cases: Cases) -> str:
-    return "" if cases.shape is None else f"{int(np.count_nonzero(np.broadcast_to(where, cases.shape)))} cases: "

@@ -14,7 +14,6 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from ..amounts import amount
 from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, InputError, OutOfRangeWarning
 from ..impact import Impact
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
@@ -27,7 +26,7 @@ from ..solving import error_of
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
 from ..warning import warn
-from .common import Cases, exactly, finish, input_faults, numbers_by_name, refusal_alone, run_forward, split_texts
+from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, refusal_alone, run_forward, split_texts
 from .origins import End, Origin
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
@@ -125,7 +124,7 @@ def planar(
     ((kind, known),) = given.items()
     reader = ArgumentReader()
     if kind != "restitution":
-        known = amount(reader, known, "m/s" if kind == "closing_speed" else "J", kind)
+        known = read_amounts(reader, given)[kind]
         if kind == "closing_speed" and isinstance(known, float) and known == 0.0:
             reader.refuse(
                 InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
@@ -203,13 +202,8 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failu
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
     condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
 
-    def provenance(origin: Origin, condition: Any, answers: Any, where: Any = True) -> Reconstruction:
-        numbers = (condition, *origin.contact_velocity)
-        condition, closing, slip = (cases.values(np.where(where, number, np.nan)) for number in numbers)
-        known = (end.kind, end.rule)
-        return Reconstruction(
-            method="planar", known=known, condition=condition, answers=answers, contact_velocity=(closing, slip)
-        )
+    def origin_of(origin: Origin, condition: Any, count: Any, where: Any = True) -> Reconstruction:
+        return cases.provenance("planar", (end.kind, end.rule), condition, count, origin.contact_velocity, where)
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         a, b = (
@@ -219,21 +213,22 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failu
         e = inputs.restitution if end.kind == "restitution" else cases.values(np.where(keep, origin.restitution, np.nan))
         return replace(inputs, a=a, b=b, restitution=e)
 
-    def solution(origin: Origin, answers: float) -> Impact:
-        return run_forward(partial(inputs_of, origin), Status.OK, provenance(origin, origin.condition, answers))
-
     def error(index: tuple[int, ...]) -> CollisionsError:
         if cases.shape is not None:
             return refusal_alone(partial(_solve_case, cases, end, inputs, index, regime), int(status[index]))
         stuck = status == Status.STICK_INVERSE
         # Those of a range are its ends, whichever regime was given.
         fitting = [one for one in end.origins(None if stuck else regime) if one.fits]
-        answers = math.inf if stuck else len(fitting)
-        solutions = tuple(solution(one, answers) for one in fitting) if stuck or len(fitting) > 1 else ()
+        count = math.inf if stuck else len(fitting)
+        solutions = tuple(
+            run_forward(partial(inputs_of, one), Status.OK, origin_of(one, one.condition, count))
+            for one in fitting
+            if count > 1
+        )
         return _refusal(status, end, regime, [one.regime for one in fitting], solutions)
 
     _warn(cases, end, sure & end.pressed, nearly)
-    return finish(partial(inputs_of, found), status, provenance(found, condition, cases.counts(count), sure), on_failure, error)
+    return finish(partial(inputs_of, found), status, origin_of(found, condition, count, sure), on_failure, error)
 
 
 def _first_that_fits(origins: Sequence[Origin]) -> Origin:
@@ -263,15 +258,11 @@ def _solve_case(cases: Cases, end: End, inputs: Inputs, index: tuple[int, ...], 
 
 def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
     """Says where the last digits of what was measured decide."""
-
-    def count(where: Any) -> str:
-        return "" if cases.shape is None else f"in {np.count_nonzero(where)} of {int(np.prod(cases.shape))} cases "
-
     if np.any(pressed):
         most = float(np.max(np.where(pressed, end.approach, 0.0)))
         text = (
-            f"{count(pressed)}the contact points still approach after the impact, by up to {most:.3g} m/s: taken as 0, a "
-            f"plastic impact, and the motions after changed by as much"
+            f"{cases.how_many(pressed)}the contact points still approach after the impact, by up to {most:.3g} m/s: taken "
+            f"as 0, a plastic impact, and the motions after changed by as much"
         )
         warn(OutOfRangeWarning(text, code="nearly_plastic", approach=most))
     if np.any(nearly):
@@ -281,8 +272,8 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         which = "is that end of the range" if single and np.isinf(high - low) else "follows the sign of that slip"
         least = float(np.min(np.where(nearly, abs(end.slip), np.inf)))
         text = (
-            f"{count(nearly)}the slip after the impact, {least:.3g} m/s, is so small that it may be none: then the contact "
-            f"stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
+            f"{cases.how_many(nearly)}the slip after the impact, {least:.3g} m/s, is so small that it may be none: then the "
+            f"contact stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
             f"impulse_ratio= of either sign"
         )
         warn(IllConditionedWarning(text, code="nearly_sticking", slip_after=least))

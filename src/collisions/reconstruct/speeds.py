@@ -9,22 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from ..amounts import amount
 from ..directions import Angle, course
-from ..errors import InputError, MissingInputError, NoSolutionError, OutOfRangeWarning
+from ..errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
 from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
 from ..kernels.contact_laws import BRACH
 from ..kernels.status import EPS, Status
 from ..models import missing_numbers
-from ..provenance import Reconstruction
 from ..quantities import show
 from ..reading import ArgumentReader
-from ..solving import warn_of_refusals
+from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle
 from ..warning import warn
-from .common import ASK_ALONE, Cases, check_both_ees, exactly, input_faults, numbers_by_name, run_forward, split_texts
+from .common import ASK_ALONE, Cases, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .crossings import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
 
@@ -118,7 +116,6 @@ def speeds(
     >>> round(found.a.before.vx, 2), round(found.a.delta_v, 12)
     (11.96, 6.0)
     """
-    check_both_ees(ees_a, ees_b)
     given = exactly(
         {
             "speed_a": speed_a,
@@ -127,14 +124,13 @@ def speeds(
             "delta_v_b": delta_v_b,
             "energy_loss": energy_loss,
             "ees_a": ees_a,
+            "ees_b": ees_b,
         },
         2,
         "speeds",
     )
     reader = ArgumentReader()
-    known = {name: amount(reader, value, "J" if name == "energy_loss" else "m/s", name) for name, value in given.items()}
-    if "ees_a" in known:
-        known["ees_b"] = amount(reader, ees_b, "m/s", "ees_b")
+    known = read_amounts(reader, given)
     courses = {}
     for label, angle, body in (("a", course_a, a), ("b", course_b, b)):
         if angle is not None:
@@ -180,7 +176,7 @@ def speeds(
         _refuse_pairs(known, a, b)
         function = RestitutionOf(restitution, cases) if callable(restitution) else None
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, tuple(given))
+        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, tuple(name for name in given if name != "ees_b"))
         found = _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function)
@@ -296,9 +292,7 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function)
-        origin = Reconstruction(
-            method="speeds", known=scene.kinds, condition=cases.values(root.condition), answers=cases.counts(count)
-        )
+        origin = cases.provenance("speeds", scene.kinds, root.condition, count)
         impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
         for speed in root[:2]:
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
@@ -318,42 +312,37 @@ def _answers(
     return tuple(impacts)
 
 
-def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> NoSolutionError:
+def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> CollisionsError:
     """The error of a single case that has no answer."""
     names = " and ".join(known)
     values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
-    if status == Status.INFINITE_MASS:
-        kind = next(kind for kind in known if kind.startswith("delta_v"))
-        return NoSolutionError(
-            f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give "
-            f"delta_v_{'b' if kind[-1] == 'a' else 'a'}",
-            code="infinite_mass",
-        )
     speed_is_known = scene.kinds[0].startswith("speed")
     (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
-    if not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
-        return NoSolutionError(
-            f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds",
-            code="parallel_headings",
+    if status == Status.INFINITE_MASS:
+        kind = next(kind for kind in known if kind.startswith("delta_v"))
+        other = "delta_v_b" if kind == "delta_v_a" else "delta_v_a"
+        text = f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give {other}"
+    elif not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
+        status = Status.PARALLEL_HEADINGS
+        text = f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds"
+    elif status == Status.UNDETERMINED and "energy_loss" in known and scene.e > _ELASTIC:
+        text = (
+            f"many speeds along these courses lead to {values['energy_loss']} as far as rounding lets it tell, so it does not "
+            f"say which of them; give another of the knowns"
         )
-    if status == Status.UNDETERMINED:
-        if "energy_loss" in known and scene.e > _ELASTIC:
-            text = (
-                f"many speeds along these courses lead to {values['energy_loss']} as far as rounding lets it tell, so it does "
-                f"not say which of them; give another of the knowns"
-            )
-        elif speed_is_known:
-            text = f"{names} leave the other speed open, for many lead to the same; give another of the knowns"
-        else:
-            text = (
-                f"where the contact slides, {names} tell of the closing speed alone and leave the slip open; give one of the "
-                f"speeds"
-            )
-        return NoSolutionError(text, code="undetermined")
-    if function is not None:
-        function.complain()
-    return NoSolutionError(
-        f"no speeds along these courses fit {' and '.join(values.values())} with this restitution, {scene.rule} and geometry; "
-        f"check the courses, and the normal, which must point from A into B, or give another known in place of one of these",
-        code="contradictory",
-    )
+    elif status == Status.UNDETERMINED and speed_is_known:
+        text = f"{names} leave the other speed open, for many lead to the same; give another of the knowns"
+    elif status == Status.UNDETERMINED:
+        text = (
+            f"where the contact slides, {names} tell of the closing speed alone and leave the slip open; give one of the speeds"
+        )
+    else:
+        if function is not None:
+            function.complain()
+        status = Status.CONTRADICTORY
+        text = (
+            f"no speeds along these courses fit {' and '.join(values.values())} with this restitution, {scene.rule} and "
+            f"geometry; check the courses, and the normal, which must point from A into B, or give another known in place of "
+            f"one of these"
+        )
+    return error_of(status, text)
