@@ -52,10 +52,7 @@ def momentum_energy(case: Case) -> Iterator[Measured]:
 
 
 @finding(
-    (
-        "what momentum, or the loss of energy worked out from the speeds before and after, differs by from the impulse and its "
-        "work, as a share"
-    ),
+    "share by which momentum or energy, by the speeds before and after, differs from the impulse or its work",
     above(0.01),
     "set here: both are one number but for rounding, and one percent would be seen by whoever checks by hand",
 )
@@ -239,10 +236,7 @@ def outlines_gap(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    (
-        "how far, along the normal, the contact point lies behind the centre of A or B before its own, or without a point the "
-        "centre of B behind that of A"
-    ),
+    "along the normal, how far A's centre is past the contact point or B's before it; without a point, A's past B's",
     above(0.1, "m"),
     "set here: the normal points from A into B, so that a convex body has its centre behind the contact; 10 cm of reading",
 )
@@ -272,10 +266,7 @@ def normal_against_positions(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    (
-        "change of yaw rate against the lever of the principal force, in the damage_pdof that was given, where 10 degrees "
-        "either way do not turn the lever"
-    ),
+    "change of yaw rate against the lever of a force from the damage_pdof given, which 10 degrees would not turn round",
     above(0.1, "rad/s"),
     f"set here: 6 deg/s; Rotation Direction Warning, {MESSAGES}, warns of any",
 )
@@ -342,10 +333,7 @@ def impulse_off_normal(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    (
-        "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by less than 0.5 rad/s (one "
-        "that spins may point anywhere)"
-    ),
+    "angle between heading and course before, of a vehicle that goes 1 m/s or more and turns by less than 0.5 rad/s",
     above(math.radians(45.0), "rad"),
     "set here: beyond, it goes more sideways or backwards than ahead; a vehicle that slides with its rear out stays below",
 )

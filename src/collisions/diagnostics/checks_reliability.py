@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from ..impact import Impact
 from ..provenance import how_many
@@ -120,69 +120,55 @@ def model(case: ImpactCase) -> Iterator[Measured]:
         yield Measured(math.inf, f"the error of {name} cannot be estimated: the eccentric model has no answer here")
 
 
-class _Change(NamedTuple):
-    """What another answer makes of a vehicle."""
-
-    how: str
-    label: str
-    who: str
-    old: Side
-    new: Side
-
-    @property
-    def delta_v(self) -> float:
-        """Length of the change of delta-V, as a share of it; none for a body that nothing moves."""
-        length = math.hypot(self.new.delta_vx - self.old.delta_vx, self.new.delta_vy - self.old.delta_vy)
-        return share(length, self.old.delta_v) if self.old.delta_v > 0.0 else 0.0
-
-    @property
-    def direction(self) -> float:
-        """Angle between both delta-Vs."""
-        was, now = (math.atan2(side.delta_vy, side.delta_vx) for side in (self.old, self.new))
-        return abs(math.remainder(now - was, math.tau))
-
-    @property
-    def yaw(self) -> float:
-        """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other sign."""
-        was, now = self.old.delta_yaw_rate, self.new.delta_yaw_rate
-        step = abs(now - was)
-        return share(step, max(abs(was), abs(now))) if step > _YAW_RATE_SEEN else 0.0
-
-
-def _changes(case: ImpactCase, answers: list[tuple[str, Impact]]) -> list[_Change]:
-    return [
-        _Change(how, label, who, old, new)
+def _worst(case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[Side, Side], float]) -> Any:
+    """How another answer came about, label and name of the vehicle for which it differs most, and both its sides."""
+    changes = [
+        (how, label, who, old, new)
         for how, answer in answers
         if not answer.refused
         for (label, who, old), new in zip(case.sides, (answer.a, answer.b), strict=True)
     ]
+    return max(changes, key=lambda change: size(*change[3:]), default=None)
 
 
-def _worst_delta_v(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
+def _delta_v_change(old: Side, new: Side) -> float:
+    """Length of the change of delta-V, as a share of it; none for a body that nothing moves."""
+    length = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
+    return share(length, old.delta_v) if old.delta_v > 0.0 else 0.0
+
+
+def _yaw_change(old: Side, new: Side) -> float:
+    """Difference of both changes of yaw rate, as a share of the larger; above 1 with the other sign."""
+    was, now = old.delta_yaw_rate, new.delta_yaw_rate
+    step = abs(now - was)
+    return share(step, max(abs(was), abs(now))) if step > _YAW_RATE_SEEN else 0.0
+
+
+def _compare_delta_v(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
     refused = [how for how, answer in answers if answer.refused]
     if refused:
         yield Measured(math.inf, f"{refused[0]} there is no answer")
     elif answers:
-        change = max(_changes(case, answers), key=lambda change: change.delta_v)
+        how, label, who, old, new = _worst(case, answers, _delta_v_change)
+        change = _delta_v_change(old, new)
+        turn = abs(math.remainder(math.atan2(new.delta_vy, new.delta_vx) - math.atan2(old.delta_vy, old.delta_vx), math.tau))
         sentence = (
-            f"{change.how} delta-V of {change.who} moves by {percent(change.delta_v)} of itself, from "
-            f"{case.text(change.old.delta_v, 'speed')} to {case.text(change.new.delta_v, 'speed')}, and its direction by "
-            f"{case.text(change.direction, 'angle')}"
+            f"{how} delta-V of {who} moves by {percent(change)} of itself, from {case.text(old.delta_v, 'speed')} to "
+            f"{case.text(new.delta_v, 'speed')}, and its direction by {case.text(turn, 'angle')}"
         )
-        yield Measured(change.delta_v, sentence, change.label)
+        yield Measured(change, sentence, label)
 
 
-def _worst_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
-    changes = _changes(case, answers)
-    if changes:
-        change = max(changes, key=lambda change: change.yaw)
-        was, now = change.old.delta_yaw_rate, change.new.delta_yaw_rate
-        both_turn = min(abs(was), abs(now)) > _YAW_RATE_SEEN
+def _compare_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
+    worst = _worst(case, answers, _yaw_change)
+    if worst is not None:
+        how, label, who, old, new = worst
+        was, now = old.delta_yaw_rate, new.delta_yaw_rate
+        other_way = ", the other way" if min(abs(was), abs(now)) > _YAW_RATE_SEEN and was * now < 0.0 else ""
         sentence = (
-            f"{change.how} the impact turns {change.who} by {case.text(now, 'yaw rate')} instead of "
-            f"{case.number(was, 'yaw rate')}{', the other way' if both_turn and was * now < 0.0 else ''}"
+            f"{how} the impact turns {who} by {case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
         )
-        yield Measured(change.yaw, sentence, change.label)
+        yield Measured(_yaw_change(old, new), sentence, label)
 
 
 @finding(
@@ -191,19 +177,16 @@ def _worst_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[
     f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
 )
 def law(case: ImpactCase) -> Iterator[Measured]:
-    return _worst_delta_v(case, case.other_laws)
+    return _compare_delta_v(case, case.other_laws)
 
 
 @finding(
-    (
-        "change of yaw rate that the other law makes another by more than 6 deg/s, as a share of the larger (above 1 it turns "
-        "the other way)"
-    ),
+    "difference in change of yaw rate under the other law, if over 6 deg/s, as a share of the larger (above 1: other way)",
     above(0.25),
     "set here: a quarter, which a rest position would show",
 )
 def law_yaw(case: ImpactCase) -> Iterator[Measured]:
-    return _worst_yaw(case, case.other_laws)
+    return _compare_yaw(case, case.other_laws)
 
 
 @finding(
@@ -215,7 +198,7 @@ def law_yaw(case: ImpactCase) -> Iterator[Measured]:
     ),
 )
 def normal(case: ImpactCase) -> Iterator[Measured]:
-    return _worst_delta_v(case, case.turned_normals)
+    return _compare_delta_v(case, case.turned_normals)
 
 
 @finding(
@@ -224,7 +207,7 @@ def normal(case: ImpactCase) -> Iterator[Measured]:
     "set here: half or double; levers are short, so that a quarter is passed by four in ten ordinary side impacts",
 )
 def normal_yaw(case: ImpactCase) -> Iterator[Measured]:
-    return _worst_yaw(case, case.turned_normals)
+    return _compare_yaw(case, case.turned_normals)
 
 
 @finding("friction, where the contact slides", below(INTER_VEHICLE_FRICTION.low), "reference.INTER_VEHICLE_FRICTION")
