@@ -376,12 +376,12 @@ def parts(effort: Effort) -> dict[str, Any]:
     }
     single = timed(works, effort.rounds, effort.seconds)
     scene = batch_speed.states(batch_speed.scenes(effort.cases))
-    *asked, friction = scene.values()
+    *inputs, friction = scene.values()
     batch = timed(
         {
             "whole": Work("", lambda: batch_speed.library(**scene)),
             "solved": Work("", lambda: col.eccentric(**scene, on_failure="nan")),
-            "arguments": Work("", lambda: models.read("eccentric", *asked, (friction, None, None), "brach")),
+            "arguments": Work("", lambda: models.read("eccentric", *inputs, (friction, None, None), "brach")),
         },
         effort.batch_rounds,
         0.0,
@@ -421,12 +421,12 @@ def _imports(count: int, modules: tuple[str, ...], environment: dict[str, str]) 
     loaded = {}
     for turn in range(count + 1):
         for name in names[:: -1 if turn % 2 else 1]:
-            told = subprocess.run(
+            printed = subprocess.run(
                 [sys.executable, "-c", TIMED.format(name)], env=environment, capture_output=True, text=True, check=True
             ).stdout.split()
             if turn:  # the first one may have to compile
-                found[name].append(float(told[0]))
-            loaded[name] = told[1] == "True"
+                found[name].append(float(printed[0]))
+            loaded[name] = printed[1] == "True"
     rows = {}
     for name in MODULES:
         rows[name] = None
@@ -583,8 +583,8 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
 
 def _in_imports(seconds: float) -> float:
     """A time as so many imports of numpy, each in a process of its own; the best of three."""
-    told = [subprocess.run([sys.executable, "-c", TIMED.format("numpy")], capture_output=True, text=True) for _ in range(3)]
-    return speed_errors.rounded(seconds / min(float(one.stdout.split()[0]) for one in told))
+    printed = [subprocess.run([sys.executable, "-c", TIMED.format("numpy")], capture_output=True, text=True) for _ in range(3)]
+    return speed_errors.rounded(seconds / min(float(one.stdout.split()[0]) for one in printed))
 
 
 def main() -> None:
@@ -592,15 +592,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="measure less, to see that everything runs")
     parser.add_argument("--json", type=Path, help="where to write the numbers; no figures are written then")
-    asked = parser.parse_args()
-    found, contacts = measure(QUICK if asked.quick else FULL)
-    data = asked.json or DATA
+    options = parser.parse_args()
+    found, contacts = measure(QUICK if options.quick else FULL)
+    data = options.json or DATA
     for path, numbers in ((data, found), (data.with_name("time_resolved.json"), contacts)):
         path.write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
     import speed_tables
 
     print(speed_tables.summary(found))
-    if asked.json is None:
+    if options.json is None:
         speed_tables.draw_all(found, contacts, FIGURES)
 
 

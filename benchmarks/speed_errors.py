@@ -226,15 +226,15 @@ def of_rounding(scene: dict[str, Any], full: col.Impact) -> dict[str, Any]:
     ours = tuple(getattr(getattr(full, label).after, name) for label in "ab" for name in ("vx", "vy", "yaw_rate"))
     count = full.status.size
     found: dict[str, list[float]] = {"float64": [], "textbook": []}
-    for lane in np.linspace(0, count - 1, min(EVALUATED, count), dtype=int):
-        answer = evaluated(scene, lane)
+    for case in np.linspace(0, count - 1, min(EVALUATED, count), dtype=int):
+        answer = evaluated(scene, case)
         for key, values in (("float64", ours), ("textbook", textbook)):
             shares = []
             for half, label, at in ((answer.a, "a", 0), (answer.b, "b", 3)):
                 body = scene[label]
-                gyration = math.sqrt(body["yaw_inertia"][lane] / body["mass"][lane])
+                gyration = math.sqrt(body["yaw_inertia"][case] / body["mass"][case])
                 vx, vy, yaw_rate = (
-                    exact - float(value[lane])
+                    exact - float(value[case])
                     for exact, value in zip((half.vx, half.vy, half.w), values[at : at + 3], strict=True)
                 )
                 away = math.hypot(float(vx), float(vy), gyration * float(yaw_rate))
@@ -243,23 +243,23 @@ def of_rounding(scene: dict[str, Any], full: col.Impact) -> dict[str, Any]:
     return {key: _summary(np.array(shares)) for key, shares in found.items()}
 
 
-def evaluated(scene: dict[str, Any], lane: int) -> Any:
+def evaluated(scene: dict[str, Any], case: int) -> Any:
     """A scene of many in 60 digits."""
     names = {"mass": "mass", "yaw_inertia": "inertia", "yaw_rate": "spin", "vx": "vx", "vy": "vy", "x": "x", "y": "y"}
-    a, b = (reference.Body(**{to: float(scene[label][name][lane]) for name, to in names.items()}) for label in "ab")
-    e, normal, friction = (float(scene[name][lane]) for name in ("restitution", "normal", "friction"))
-    point = float(scene["point"][0][lane]), float(scene["point"][1][lane])
+    a, b = (reference.Body(**{to: float(scene[label][name][case]) for name, to in names.items()}) for label in "ab")
+    e, normal, friction = (float(scene[name][case]) for name in ("restitution", "normal", "friction"))
+    point = float(scene["point"][0][case]), float(scene["point"][1][case])
     return reference.evaluate(reference.Scene(a, b, e, normal, point, "friction", friction, "brach"), DIGITS)
 
 
-def _away(full: col.Impact, found: dict[str, Any], lanes: Any) -> Any:
+def _away(full: col.Impact, found: dict[str, Any], chosen: Any) -> Any:
     """The share for the worse vehicle, of velocities and yaw rates after."""
     shares = []
     for label, (vx, vy, yaw_rate) in found.items():
         side = getattr(full, label)
-        gyration = np.sqrt(side.before.yaw_inertia / side.before.mass)[lanes]
-        away = np.hypot(vx - side.after.vx[lanes], vy - side.after.vy[lanes])
-        shares.append(np.hypot(away, gyration * (yaw_rate - side.after.yaw_rate[lanes])) / side.delta_v[lanes])
+        gyration = np.sqrt(side.before.yaw_inertia / side.before.mass)[chosen]
+        away = np.hypot(vx - side.after.vx[chosen], vy - side.after.vy[chosen])
+        shares.append(np.hypot(away, gyration * (yaw_rate - side.after.yaw_rate[chosen])) / side.delta_v[chosen])
     return np.maximum(*shares)
 
 
@@ -287,9 +287,9 @@ def of_contacts(contacts: dict[str, Any]) -> dict[str, Any]:
 def of_pymunk(pymunk: ModuleType, scene: dict[str, Any], full: col.Impact) -> dict[str, Any]:
     """How far the answers of a game engine are from ours, with its ten iterations; the same friction and restitution."""
     cases = np.array(speed_rivals.numbers(scene)).T
-    lanes = np.linspace(0, len(cases) - 1, 300, dtype=int)
-    found = np.array([speed_rivals.stepped(pymunk, tuple(map(float, cases[lane]))) for lane in lanes])
-    return _summary(_away(full, {"a": found[:, :3].T, "b": found[:, 3:].T}, lanes))
+    chosen = np.linspace(0, len(cases) - 1, 300, dtype=int)
+    found = np.array([speed_rivals.stepped(pymunk, tuple(map(float, cases[case]))) for case in chosen])
+    return _summary(_away(full, {"a": found[:, :3].T, "b": found[:, 3:].T}, chosen))
 
 
 # --- Memory ----------------------------------------------------------------------------------------------------------------

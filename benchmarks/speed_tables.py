@@ -110,14 +110,14 @@ def why(found: dict[str, Any], key: str) -> str:
     if shares is None or key not in ("eccentric", "linear", "batch"):
         return WHY[key]
     if key == "batch":
-        told = ", ".join(
+        parts = ", ".join(
             f"{100.0 * shares[name]:.0f} % {what}"
             for name, what in (
                 ("arguments", "copies of the arguments and the sines and cosines of the normals"),
                 ("attributes", "the six velocities and yaw rates after"),
             )
         )
-        return f"{WHY[key]} Of its time {told}."
+        return f"{WHY[key]} Of its time {parts}."
     return f"{WHY[key]} The formulas alone are {100.0 * shares[key]:.0f} % of its time."
 
 
@@ -136,7 +136,7 @@ def solving(found: dict[str, Any]) -> str:
     thirds = sum(known[f"solve_all_{model}"] for model in ("linear_central", "oblique_central", "eccentric")) / 3.0
     return (
         f"In a batch `solve` costs {number(known['solve'] / known['eccentric'])} times `eccentric`. Each case is worked out by "
-        "its own model. Where a stretch of cases takes one model it costs just that; where models are mixed the cases of "
+        "its own model. Where a block of cases takes one model it costs just that; where models are mixed the cases of "
         "each are gathered and put back in their places: a third for each model, shuffled and without the prediction, cost "
         f"{number(known['solve_known'] / thirds)} times the mean of the three, each for all of the same cases. The prediction "
         "costs every case the same, because an error to 10 percent for any lever needs the impulse by all three models; the "
@@ -169,7 +169,7 @@ def quantities(found: dict[str, Any]) -> str:
 
 
 def laws(found: dict[str, Any]) -> str:
-    """Of how many cases the row of the other law tells."""
+    """To how many cases the row of the other law applies."""
     share = 100.0 * found["errors"]["choices"]["law"]["sticking"]
     return (
         f"The row of the other law is over the {share:.0f} % of cases that stick under one of the laws; elsewhere both agree."
@@ -180,18 +180,18 @@ def drawn(found: dict[str, Any]) -> str:
     """How good the estimates of ``left_out`` are over random impacts."""
     sentences = []
     for drawn_as, frictions in found["frictions"].items():
-        spread, told = found[drawn_as], []
+        spread, ranges = found[drawn_as], []
         for key, name in (("tyres", "tyres"), ("moving", "changing geometry")):
             row = spread[key]
             least, low, *_, high, most = row["quantiles"]
-            told.append(
+            ranges.append(
                 f"of {name}, for {row['vehicles']} vehicles: {low:.2f} to {high:.2f} of the integrated change in 9 of 10, "
                 f"{least:.2f} to {most:.2f} in all, and outside a factor of 1.5 in {100.0 * row['outside_1.5']:.1f} %"
             )
         sentences.append(
             f"Over {spread['impacts']} random impacts of two cars without spin before, with a friction of {frictions[0]:g} to "
             f"{frictions[-1]:g} and a restitution of 0 to 0.4, where the change is more than {100.0 * spread['matters']:.0f} % "
-            f"of delta-V, the estimate was, {'; '.join(told)}."
+            f"of delta-V, the estimate was, {'; '.join(ranges)}."
         )
     return "\n\n".join(sentences)
 
@@ -202,19 +202,19 @@ def budgets(found: dict[str, Any]) -> str:
     for row in found["budgets"]:
         if row["held"]:
             aim = row["aim"]
-            verdict = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
+            outcome = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
         else:
-            verdict = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {why(found, row['key'])}"
+            outcome = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {why(found, row['key'])}"
         aim = "–" if row["aim"] is None else f"{row['aim']:g}"
         measured = f"{row['median']:.2g}" if row["median"] < 0.1 else f"{row['median']:.3g}"
         if row["low"] != row["high"]:
             measured += f" ({row['low']:.3g} to {row['high']:.3g})"
-        lines.append([row["name"], f"{row['budget']:g}", aim, measured, verdict])
+        lines.append([row["name"], f"{row['budget']:g}", aim, measured, outcome])
     text = table(["what", "budget", "aim", "measured (half of the rounds)", ""], lines)
     return text.replace("| --- | ---: | ---: | ---: | ---: |", "| --- | ---: | ---: | ---: | --- |")
 
 
-def verdict(found: dict[str, Any]) -> str:
+def budgets_held(found: dict[str, Any]) -> str:
     """How many budgets hold."""
     held = sum(row["held"] for row in found["budgets"])
     return f"{held} of {len(found['budgets'])} hold in this run."
@@ -229,8 +229,8 @@ def choices(found: dict[str, Any]) -> str:
         cells = []
         for group, key in (("single", choice.single), ("batch", choice.batch)):
             cells.append("–" if key is None else number(cost(known[group], choice, key)))
-        told = [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
-        lines.append([f"{at}. {choice.name}", *cells, *told])
+        shown = [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
+        lines.append([f"{at}. {choice.name}", *cells, *shown])
     return table(["choice", "cost of one case", "cost in a batch", "mean error", "19 of 20 err by less"], lines)
 
 
@@ -254,9 +254,9 @@ def chosen(found: dict[str, Any]) -> str:
 def at(found: dict[str, Any], group: str, key: str, x: float) -> dict[str, float]:
     """The point of a curve nearest to x."""
     curve = next(curve for curve in found["errors"][group] if curve["key"] == key)
-    lane = min(range(len(curve["x"])), key=lambda i: abs(curve["x"][i] - x))
+    nearest = min(range(len(curve["x"])), key=lambda i: abs(curve["x"][i] - x))
     return {
-        name: curve[name][lane] for name in ("x", "error", "share", "delta_v_share", "predicted") if curve[name] is not None
+        name: curve[name][nearest] for name in ("x", "error", "share", "delta_v_share", "predicted") if curve[name] is not None
     }
 
 
@@ -295,15 +295,15 @@ def contacts(found: dict[str, Any]) -> str:
     """The impulse against the contact that takes time, and what ``left_out`` said of it."""
     lines = []
     for row in found["rows"]:
-        told = row["left_out"]
+        estimate = row["left_out"]
         lines.append(
             [
                 f"{row['name']}, {row['side'].upper()}",
                 number(row["delta_v"]),
                 number(row["tyres"]["delta_v"]),
-                number(told["tyre_delta_v"]),
+                number(estimate["tyre_delta_v"]),
                 number(row["moving"]["delta_v"]),
-                number(told["geometry_delta_v"]),
+                number(estimate["geometry_delta_v"]),
                 percent(row["all"]["share"]),
             ]
         )
@@ -354,10 +354,10 @@ def break_even(found: dict[str, Any]) -> str:
 
 def first_call(found: dict[str, Any]) -> str:
     """What numba takes to compile."""
-    told = found["rivals"]["numba_first_call"]
-    if told is None:
+    imports = found["rivals"]["numba_first_call"]
+    if imports is None:
         return "numba: not measured."
-    return f"The first call of the loop in numba, which compiles it, takes as long as {told:.0f} imports of numpy."
+    return f"The first call of the loop in numba, which compiles it, takes as long as {imports:.0f} imports of numpy."
 
 
 def summary(found: dict[str, Any]) -> str:
@@ -366,7 +366,7 @@ def summary(found: dict[str, Any]) -> str:
     for row in found["budgets"]:
         name = re.sub("`", "", row["name"])
         lines.append(f"  {name:80s}{row['median']:8.3g} of {row['budget']:g}{'' if row['held'] else '   missed'}")
-    return "\n".join([*lines, verdict(found)])
+    return "\n".join([*lines, budgets_held(found)])
 
 
 # --- Figures ---------------------------------------------------------------------------------------------------------------

@@ -180,13 +180,13 @@ def force_shape(pulse: str, share: float, e: Any) -> Any:
 
 
 class Contact:
-    """Many scenes integrated side by side, each a lane of the arrays."""
+    """Many scenes integrated side by side, each a case of the arrays."""
 
     def __init__(self, scenes: tuple[Scene, ...], physics: Physics, duration: float, drag: float) -> None:
         self.physics = physics
         self.duration = duration
         self.pull = drag * GRAVITY
-        # (8, 2, lanes): numbers, body A or B, scene.
+        # (8, 2, scenes): numbers, body A or B, scene.
         bodies = np.array([[scene.a, scene.b] for scene in scenes]).transpose(2, 1, 0)
         mass, inertia, vx, vy, yaw, x, y, self.heading = bodies
         self.fixed = np.isinf(mass)
@@ -303,14 +303,14 @@ def engaged(scenes: tuple[Scene, ...], steps: int = STEPS) -> tuple[Scene, ...]:
     contact.solve(steps)
     rx, ry, nx, ny = contact.geometry(contact.engaged)
     found = []
-    for lane, scene in enumerate(scenes):
+    for case, scene in enumerate(scenes):
         bodies = []
         for side, body in enumerate((scene.a, scene.b)):
-            dx, dy, turn = (float(part) for part in contact.engaged[3:, side, lane])
+            dx, dy, turn = (float(part) for part in contact.engaged[3:, side, case])
             bodies.append((*body[:5], body[5] + dx, body[6] + dy, body[7] + turn))
         # A place of its own for each body would do; a wall does not move, so that the lever of A is where the point is.
-        point = (bodies[0][5] + float(rx[0, lane]), bodies[0][6] + float(ry[0, lane]))
-        normal = math.atan2(ny[lane], nx[lane])
+        point = (bodies[0][5] + float(rx[0, case]), bodies[0][6] + float(ry[0, case]))
+        normal = math.atan2(ny[case], nx[case])
         found.append(replace(scene, a=bodies[0], b=bodies[1], point=point, normal=normal))
     return tuple(found)
 
@@ -341,26 +341,26 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
     found["engaged"] = of_impacts(engaged(scenes, steps))
     estimates = [left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
     rows = []
-    for lane, scene in enumerate(scenes):
+    for case, scene in enumerate(scenes):
         for side, label in enumerate("ab"):
-            size = float(np.hypot(*impulse[:2, side, lane]))
+            size = float(np.hypot(*impulse[:2, side, case]))
             if size == 0.0:
                 continue
             row: dict[str, Any] = {"scene": scene.key, "name": scene.name, "side": label, "delta_v": _rounded(size)}
             # The engaged geometry is to be near to what it stands for, the integration with moving geometry.
             for name, values in found.items():
                 reference = found["moving"] if name == "engaged" else impulse
-                dx, dy, turn = (values - reference)[:, side, lane]
+                dx, dy, turn = (values - reference)[:, side, case]
                 row[name] = {
                     "delta_v": _rounded(math.hypot(dx, dy)),
                     "share": _rounded(math.hypot(dx, dy) / size),
-                    "magnitude": _rounded(float(np.hypot(*values[:2, side, lane])) / size - 1.0),
+                    "magnitude": _rounded(float(np.hypot(*values[:2, side, case])) / size - 1.0),
                     "delta_yaw_rate": _rounded(float(turn)),
                 }
-            estimate = getattr(estimates[lane], label)
+            estimate = getattr(estimates[case], label)
             names = ("tyre_delta_v_bound", "tyre_delta_v", "geometry_delta_v", "rotation")
             row["left_out"] = {name: _rounded(getattr(estimate, name)) for name in names}
-            row["left_out"]["mutual_crush"] = _rounded(estimates[lane].mutual_crush)
+            row["left_out"]["mutual_crush"] = _rounded(estimates[case].mutual_crush)
             rows.append(row)
     return {
         "duration": DURATION,
@@ -384,11 +384,11 @@ def estimates_of_drawn(count: int = DRAWN, steps: int = 200, frictions: tuple[fl
     scenes = drawn(count, frictions)
     impulse = of_impacts(scenes)
     size = np.hypot(*impulse[:2])
-    told = [left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
+    estimates = [left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
     found: dict[str, Any] = {"impacts": count, "matters": MATTERS}
     for name, field in (("tyres", "tyre_delta_v"), ("moving", "geometry_delta_v")):
         moved = np.hypot(*(delta_v(VARIANTS[name], scenes, steps) - impulse)[:2])
-        estimate = np.array([[getattr(getattr(one, side), field) for one in told] for side in "ab"])
+        estimate = np.array([[getattr(getattr(one, side), field) for one in estimates] for side in "ab"])
         there = (moved > MATTERS * size) & (moved > AT_LEAST) & np.isfinite(estimate)
         ratio = estimate[there] / moved[there]
         found[name] = {
@@ -463,11 +463,11 @@ def main() -> None:
     """Measure, print, and write the numbers where a file is named."""
     parser = argparse.ArgumentParser(description=str(__doc__).partition("\n")[0])
     parser.add_argument("file", nargs="?", type=Path, help="where to write the numbers as JSON")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     found = measure()
     print(table(found))
-    if asked.file is not None:
-        asked.file.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    if options.file is not None:
+        options.file.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

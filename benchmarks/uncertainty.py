@@ -70,7 +70,7 @@ def reference(scene: Scene, blocks: int) -> dict[str, Any]:
             values = np.asarray(values)
             values = values[~np.isnan(values)]
             parts.append(values)
-            each.append(told(values))
+            each.append(figures_of(values))
     whole = np.concatenate(parts)
     low, high = np.quantile(whole, (0.0005, 0.9995))
     shares, edges = np.histogram(whole, 80, (float(low), float(high)))
@@ -78,27 +78,27 @@ def reference(scene: Scene, blocks: int) -> dict[str, Any]:
         "inputs": {name: repr(known) for name, known in scene.inputs.items()},
         "cases": blocks * BLOCK,
         "failed": blocks * BLOCK - whole.size,
-        "figures": [rounded(value, 8) for value in told(whole)],
+        "figures": [rounded(value, 8) for value in figures_of(whole)],
         "standard_errors": [rounded(value) for value in np.std(each, axis=0, ddof=1) / math.sqrt(blocks)],
         "edges": [rounded(edge, 6) for edge in edges.tolist()],
         "shares": [rounded(share / whole.size) for share in shares.tolist()],
     }
 
 
-def told(values: Any) -> list[float]:
+def figures_of(values: Any) -> list[float]:
     """Mean, standard deviation, and both ends of the 95 percent interval."""
     return [float(np.mean(values)), float(np.std(values, ddof=1)), *np.quantile(values, ENDS).tolist()]
 
 
-def references(effort: Effort, kept: Mapping[str, Any] | None) -> dict[str, Any]:
+def references(effort: Effort, old: Mapping[str, Any] | None) -> dict[str, Any]:
     """Those of all scenes, anew or from a file."""
     found = {}
     for scene in SCENES:
         say(f"reference: {scene.name}")
-        old = (kept or {}).get(scene.key)
+        before = (old or {}).get(scene.key)
         stated = {name: repr(known) for name, known in scene.inputs.items()}
-        same = old is not None and old["inputs"] == stated and old["cases"] == effort.blocks * BLOCK
-        found[scene.key] = old if same else reference(scene, effort.blocks)
+        same = before is not None and before["inputs"] == stated and before["cases"] == effort.blocks * BLOCK
+        found[scene.key] = before if same else reference(scene, effort.blocks)
     return found
 
 
@@ -241,7 +241,7 @@ def sweeps(effort: Effort) -> list[dict[str, Any]]:
                 try:
                     said, codes = run(scene, method, stated)
                 except NoSolutionError:
-                    # A bend or a jump at the mean: the local method refuses.
+                    # A kink or a jump at the mean: the local method refuses.
                     for part in row.values():
                         part.append(None)
                     continue
@@ -260,9 +260,9 @@ def sweeps(effort: Effort) -> list[dict[str, Any]]:
 SIMULATED = (("near_linear", 1.0), ("truncated", 1.0), ("stick_slip", 1.0), ("near_linear", 2.0))
 
 
-def measure(effort: Effort = FULL, kept: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def measure(effort: Effort = FULL, old: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """All of it."""
-    against = references(effort, kept)
+    against = references(effort, old)
     local, sampled = trade(effort, against)
     swept = sweeps(effort)
     covered = []
@@ -291,15 +291,15 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="measure less, to see that everything runs")
     parser.add_argument("--json", type=Path, help="where to write the numbers; no figures are written then")
     parser.add_argument("--keep-reference", action="store_true", help="take the reference that the file holds")
-    asked = parser.parse_args()
-    data = asked.json or DATA
-    kept = json.loads(data.read_text(encoding="utf-8"))["references"] if asked.keep_reference and data.exists() else None
-    found = measure(QUICK if asked.quick else FULL, kept)
+    options = parser.parse_args()
+    data = options.json or DATA
+    old = json.loads(data.read_text(encoding="utf-8"))["references"] if options.keep_reference and data.exists() else None
+    found = measure(QUICK if options.quick else FULL, old)
     data.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     import uncertainty_tables
 
     print(uncertainty_tables.summary(found))
-    if asked.json is None:
+    if options.json is None:
         uncertainty_tables.draw_all(found, FOLDER)
 
 

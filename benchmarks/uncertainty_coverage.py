@@ -93,7 +93,7 @@ def counted(key: str, count: int, off: float = 1.0) -> dict[str, Any]:
 FITTED = {"speed_a": (14.0, 20.0), "speed_b": (3.0, 6.0)}
 PRIOR = Normal(0.2, 0.05, truncate=(0.0, 1.0))
 SIGMA = {"delta_v_a": 0.4, "delta_v_b": 0.4, "course_a": math.radians(3.0), "course_b": math.radians(3.0), "yaw_b": 0.25}
-# The restitution is known from the literature, or the evidence has to tell it.
+# The restitution is known from the literature, or has to follow from the evidence.
 CASES = {"prior": PRIOR, "open": Interval(0.0, 1.0)}
 
 
@@ -116,7 +116,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
     restitutions = drawn({"restitution": PRIOR}, generator, count)["restitution"]
     held = dict.fromkeys(unknowns, 0)
     errors: dict[str, list[float]] = {name: [] for name in unknowns}
-    answered = bent = contradicted = 0
+    answered = nonlinear = contradicted = 0
     for turn in range(count):
         truth = {name: float(generator.uniform(*ends)) for name, ends in FITTED.items()}
         truth["restitution"] = float(restitutions[turn])
@@ -131,7 +131,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
                 continue
         answered += 1
         contradicted += "contradictory" in codes
-        bent += "not_linear" in codes
+        nonlinear += "not_linear" in codes
         for name, true in truth.items():
             low, high = found[name].interval(0.95)
             held[name] += low <= true <= high
@@ -140,7 +140,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
         "key": case,
         "scenes": count,
         "answered": answered,
-        "not_linear": bent,
+        "not_linear": nonlinear,
         "contradictory": contradicted,
         "held": held,
         "standard_error": {name: rounded(float(np.median(each))) for name, each in errors.items()},

@@ -154,10 +154,10 @@ def local(plt: Any, found: dict[str, Any]) -> Any:
     """What the outputs look like, and the intervals of the local methods beside the true ones."""
     figure, axes = plt.subplots(2, 2, figsize=(11.5, 7.4))
     for axis, scene in zip(axes.flat, found["scenes"], strict=True):
-        told = found["references"][scene["key"]]
-        mean, std, low, high = told["figures"]
-        edges = told["edges"]
-        heights = [share / (b - a) * std for share, a, b in zip(told["shares"], edges, edges[1:], strict=False)]
+        reference = found["references"][scene["key"]]
+        mean, std, low, high = reference["figures"]
+        edges = reference["edges"]
+        heights = [share / (b - a) * std for share, a, b in zip(reference["shares"], edges, edges[1:], strict=False)]
         top = max(heights)
         axis.stairs(heights, edges, fill=True, color="#c3d4e8", ec=OURS, lw=0.8)
         (first,) = rows(found, scene["key"], "first_order")

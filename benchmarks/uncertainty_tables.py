@@ -67,8 +67,8 @@ def scenes(found: dict[str, Any]) -> str:
     """The four scenes by the reference."""
     lines = []
     for scene in found["scenes"]:
-        told = found["references"][scene["key"]]
-        mean, std, low, high = told["figures"]
+        reference = found["references"][scene["key"]]
+        mean, std, low, high = reference["figures"]
         lines.append(
             [
                 scene["name"],
@@ -76,7 +76,7 @@ def scenes(found: dict[str, Any]) -> str:
                 f"{mean:.4g}",
                 f"{std:.3g}",
                 f"{low:.4g} to {high:.4g}",
-                percent(told["failed"] / told["cases"]),
+                percent(reference["failed"] / reference["cases"]),
             ]
         )
     return table(["scene", "output", "mean", "standard deviation", "95 percent interval", "without an answer"], lines)
@@ -94,7 +94,7 @@ def choices(found: dict[str, Any]) -> str:
                     name,
                     METHOD_NAMES[row["method"]] + (", warned" if row.get("warned") else ""),
                     count(row["samples"]),
-                    *(percent(error) for error in told(found, row)),
+                    *(percent(error) for error in error_sizes(found, row)),
                     count(float(f"{row['cost']:.2g}")),
                 ]
             )
@@ -102,7 +102,7 @@ def choices(found: dict[str, Any]) -> str:
     return table(head, lines).replace("| --- | ---: | ---: |", "| --- | --- | ---: |", 1)
 
 
-def told(found: dict[str, Any], row: dict[str, Any]) -> list[float]:
+def error_sizes(found: dict[str, Any], row: dict[str, Any]) -> list[float]:
     """The sizes of the errors of a row: of a local method not below what the reference itself leaves open."""
     if "seeds" in row:
         return row["error"]
@@ -112,7 +112,7 @@ def told(found: dict[str, Any], row: dict[str, Any]) -> list[float]:
 
 
 def local_cost(found: dict[str, Any]) -> str:
-    """What a local method asks of the model, and what a run of it costs of one of the default size."""
+    """How often a local method runs the model, and what a run of it costs of one of the default size."""
     cases = [row["samples"] for row in found["local"]]
     shares = [row["cost"] / of(found, row["scene"], "quasi_random", chosen(found))["cost"] for row in found["local"]]
     return (
@@ -211,7 +211,7 @@ def judged(found: dict[str, Any]) -> Iterator[tuple[str, str, float, bool]]:
 
 
 def refused(found: dict[str, Any]) -> int:
-    """At how many places a local method refused, because the model bends or jumps at the mean."""
+    """At how many places a local method refused, because the model has a kink or a jump at the mean."""
     return sum(row["error"].count(None) for sweep in found["sweeps"] for row in sweep["methods"].values())
 
 
@@ -232,7 +232,7 @@ def silence(found: dict[str, Any]) -> str:
     most = max((place[2] for place in places if not place[3]), default=0.0)
     return text + (
         f". The largest error without a warning is {most:.2g} standard deviations. It warned in {len(needless)} places where "
-        f"the error is smaller than that limit. In {refused(found)} more places it refused: the mean stood on a bend."
+        f"the error is smaller than that limit. In {refused(found)} more places it refused: the model has a kink at the mean."
     )
 
 
@@ -298,7 +298,7 @@ def fit(found: dict[str, Any]) -> str:
                     f"{100.0 * row['not_linear'] / row['answered']:.0f} %",
                 ]
             )
-    head = ["evidence", "unknown", "answered", "held the truth", "median standard error", "warned that it bends"]
+    head = ["evidence", "unknown", "answered", "held the truth", "median standard error", "warned that it is not linear"]
     return table(head, lines).replace("| --- | ---: |", "| --- | --- |", 1)
 
 

@@ -9,7 +9,7 @@ add.
 What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a quarter to importing numpy, a half with
 ``uncertainty``, one and a half with ``report``; pint alone costs two more, and a first unit, for which pint builds its
 registry, four. Decided: pint when a unit first appears; the upper half of the package, ``kernels/batch.py``, ``records.py``
-and the thread pool when they are first asked for.
+and the thread pool when they are first used.
 """
 
 import subprocess

@@ -22,7 +22,7 @@ TEXTS = (
 )
 
 
-def told(call):
+def result(call):
     """What a call gives, or the first line of its refusal."""
     try:
         return str(call())
@@ -34,5 +34,7 @@ if __name__ == "__main__":
     ureg = pint.get_application_registry()
     for text, field in TEXTS:
         print(f"{text!r}")
-        print(f"  pint:    {told(lambda text=text: ureg.Quantity(text))}")
-        print(f"  Vehicle: {told(lambda text=text, field=field: getattr(col.Vehicle(**{'mass': 1500.0, field: text}), field))}")
+        print(f"  pint:    {result(lambda text=text: ureg.Quantity(text))}")
+        print(
+            f"  Vehicle: {result(lambda text=text, field=field: getattr(col.Vehicle(**{'mass': 1500.0, field: text}), field))}"
+        )

@@ -2,12 +2,12 @@
 
     python design/one_result_object.py
 
-An answer has some forty numbers, and a caller reads a few. ``Impact`` keeps the question and the kernel's tuple, and works out
-the rest when it is asked. The other way is a record for the impact with two for the sides and six for the states, all filled
+An answer has some forty numbers, and a caller reads a few. ``Impact`` keeps the inputs and the kernel's tuple, and works out
+the rest when it is read. The other way is a record for the impact with two for the sides and six for the states, all filled
 at once, as one would write it with dataclasses. Nothing is checked or derived in them here: only made.
 
 What it showed (2 cores, Python 3.11): with an Impact around it 1.14 times the kernel, with the tree 5.1 times. So the tree
-costs four times the physics. Decided: one object, ``Derived`` attributes, a cache for what was asked.
+costs four times the physics. Decided: one object, ``Derived`` attributes, a cache for what was read.
 """
 
 from dataclasses import dataclass
@@ -72,7 +72,7 @@ def body(numbers: dict[str, float]) -> tuple[float, ...]:
 
 INPUTS = (*NUMBERS, *body(speed.BODIES[0]), *body(speed.BODIES[1]), *SETTINGS)
 A, B = (col.Vehicle(**numbers) for numbers in speed.BODIES)
-QUESTION = Inputs("eccentric", A, B, 0.1, (1.0, 0.0), "friction", 0.5, "brach", (0.0, 0.0))
+CASE = Inputs("eccentric", A, B, 0.1, (1.0, 0.0), "friction", 0.5, "brach", (0.0, 0.0))
 
 
 def kernel() -> tuple[Any, ...]:
@@ -81,8 +81,8 @@ def kernel() -> tuple[Any, ...]:
 
 
 def one_object() -> Any:
-    """With the question kept beside it."""
-    return build(QUESTION, eccentric(*INPUTS))
+    """With the inputs beside it."""
+    return build(CASE, eccentric(*INPUTS))
 
 
 def half(numbers: dict[str, float], ix: float, iy: float, dvx: float, dvy: float, turn: float) -> Half:

@@ -146,8 +146,8 @@ print(
 
 # %%
 for answer, row in momentum.sensitivity.q.items():
-    told = ", ".join(f"{value.m_as('km/h/deg'):+.2f} for {name}" for name, value in row.items() if name.startswith("course"))
-    print(f"{answer}: km/h per degree {told}")
+    slopes = ", ".join(f"{value.m_as('km/h/deg'):+.2f} for {name}" for name, value in row.items() if name.startswith("course"))
+    print(f"{answer}: km/h per degree {slopes}")
 
 # %% [markdown]
 # ## Step 3: forward again

@@ -110,11 +110,11 @@ def answers(**inputs):
     return {"delta_v": crash(**inputs, on_failure="nan").b.q.delta_v}
 
 
-with warnings.catch_warnings(record=True) as told:
+with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     started = time.perf_counter()
     result = propagate(answers, known, method="quasi_random", seed=8)
-    print(f"{result.samples} cases in {time.perf_counter() - started:.2f} s, and {told[0].message}")
+    print(f"{result.samples} cases in {time.perf_counter() - started:.2f} s, and {caught[0].message}")
 found = result["delta_v"]
 ends = " to ".join(f"{end.m_as('km/h'):.1f}" for end in found.q.interval(0.95))
 print(f"delta-V of B: median {found.q.quantile(0.5).m_as('km/h'):.1f} km/h, 95 percent from {ends} km/h")

@@ -40,7 +40,7 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
 
 # %% [markdown]
 # None of these ranges is of a sideswipe between two cars. Panels that slide have a friction up to about 1. Where wheels or
-# corners snag the ratio is above 1, as in the small-overlap tests, and is no friction of surfaces. The damage must tell
+# corners snag the ratio is above 1, as in the small-overlap tests, and is no friction of surfaces. The damage must show
 # which it was.
 #
 # ## What the ratio costs
@@ -50,10 +50,10 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
 # %%
 print(f"{'':<20}{'ratio':>7}{'regime':>10}{'delta-V A':>11}{'yaw rate A':>12}{'slip after':>12}{'energy lost':>13}")
 print(f"{'':<20}{'':>7}{'':>10}{'km/h':>11}{'deg/s':>12}{'km/h':>12}{'kJ':>13}")
-asked = [{"friction": 0.5}, *({"impulse_ratio": against * size} for size in (0.5, 1.0, 1.5, 2.0)), {"friction": math.inf}]
+contacts = [{"friction": 0.5}, *({"impulse_ratio": against * size} for size in (0.5, 1.0, 1.5, 2.0)), {"friction": math.inf}]
 found = []
-for tangential in asked:
-    with warnings.catch_warnings(record=True) as told:
+for tangential in contacts:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         found.append(col.eccentric(A, B, **tangential, **CONTACT))
     ((name, value),) = tangential.items()
@@ -61,7 +61,7 @@ for tangential in asked:
     print(
         f"{f'{name}={value:g}':<20}{impact.impulse_ratio:>7.2f}{impact.regime:>10}{side.delta_v.m_as('km/h'):>11.1f}"
         f"{side.delta_yaw_rate.m_as('deg/s'):>12.0f}{impact.q.slip_after.m_as('km/h'):>12.1f}"
-        f"{impact.q.energy_loss.m_as('kJ'):>13.0f}  {''.join(warning.message.code for warning in told)}"
+        f"{impact.q.energy_loss.m_as('kJ'):>13.0f}  {''.join(warning.message.code for warning in caught)}"
     )
 
 # %%

@@ -59,8 +59,8 @@ text = col.explain(impact, units="us", form="text")
 print(text[text.index("Closing speed:") : text.index("Slip, of B")])
 
 page = col.report(impact, units="us", form="markdown", title="NHTSA 4474")
-told = [line for line in page.splitlines() if "yaw inertia" in line or "| delta-V |" in line or "energy lost" in line]
-print("\n".join(told))
+lines = [line for line in page.splitlines() if "yaw inertia" in line or "| delta-V |" in line or "energy lost" in line]
+print("\n".join(lines))
 
 # %% [markdown]
 # `form="html"`, which is the default, makes one file with the figures.
@@ -68,7 +68,7 @@ print("\n".join(told))
 # ## Pounds that go wrong
 #
 # A force for a mass is refused, and says what to write. An inertia in lb·ft² is an inertia: only its size gives away that
-# slug·ft² was meant. It is `diagnose` that tells.
+# slug·ft² was meant. It is `diagnose` that says so.
 
 # %%
 refusal = None

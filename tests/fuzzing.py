@@ -141,11 +141,11 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
             except Exception as error:
                 where = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename.startswith(_PACKAGE)]
                 place = f"{Path(where[-1].filename).relative_to(_PACKAGE)}:{where[-1].lineno}" if where else "the check"
-                told = f"{type(error).__name__}: {str(error)[:400]} at {place}, in {case.last}"
-                failures.setdefault((type(error), place, case.last_name), [seed, told, 0])[2] += 1
+                line = f"{type(error).__name__}: {str(error)[:400]} at {place}, in {case.last}"
+                failures.setdefault((type(error), place, case.last_name), [seed, line, 0])[2] += 1
                 if len(failures) == _MOST_FAILURES:
                     break
-    listed = [f"{body.__name__}, seed {seed} ({count} like it): {told}" for seed, told, count in failures.values()]
+    listed = [f"{body.__name__}, seed {seed} ({count} like it): {line}" for seed, line, count in failures.values()]
     _failed.extend(listed)
     _write_counts()
     if failures:

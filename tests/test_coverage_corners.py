@@ -61,14 +61,14 @@ def test_a_pivot_needs_the_whole_model(speed):
 
 def test_a_record_of_solve_is_read_before_solve_was_ever_used():
     """In a fresh interpreter, where the record is all there is."""
-    asked = {**CONTACT, "tolerance": 1.0}
-    record = json.dumps(col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **asked).to_dict())
+    inputs = {**CONTACT, "tolerance": 1.0}
+    record = json.dumps(col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).to_dict())
     code = (
         f"import sys, json; sys.path.insert(0, {str(Path(col.__file__).parents[1])!r}); import collisions;"
         "print(repr(collisions.Impact.from_dict(json.load(sys.stdin)).a.delta_v))"
     )
     done = subprocess.run([sys.executable, "-c", code], input=record, capture_output=True, text=True, check=True)
-    assert float(done.stdout) == col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **asked).a.delta_v
+    assert float(done.stdout) == col.solve(col.Vehicle(**A), col.Vehicle(**B), 0.1, **inputs).a.delta_v
 
 
 def test_an_impact_equals_nothing_else():
@@ -78,7 +78,7 @@ def test_an_impact_equals_nothing_else():
 
 
 def test_quantities_of_a_result_say_whose_they_are():
-    """They can be copied, which asks for special names they do not have."""
+    """They can be copied, which looks for special names they do not have."""
     impact = crash()
     assert repr(impact.q) == f"<Quantities of {impact!r}>"
     assert copy.copy(impact.q).closing_speed == impact.q.closing_speed

@@ -126,7 +126,7 @@ def modest(*objects: Any) -> bool:
 FIELDS = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading", "pivot", "name")
 # In an answered case these may be no finite number: no direction at rest or without an impulse, no slip that needs a pull.
 OPEN = {"impulse_direction", "pdof", "pdof_clock", "impulse_ratio", "critical_impulse_ratio"}
-# These tell what was asked and not what came of it.
+# These are inputs and not results.
 INPUTS = {
     "restitution",
     "friction",
@@ -148,7 +148,7 @@ CERTAIN = {"closing_speed", "slip_before", "slip_after", "normal_impulse", "tang
 
 
 def look_at_vehicle(vehicle: col.Vehicle, *, made_by_hand: bool = True) -> None:
-    """Everything a Vehicle can tell of itself."""
+    """Every output of a Vehicle."""
     for name in FIELDS:
         value = getattr(vehicle, name)
         for part in value if isinstance(value, tuple) else (value,):
@@ -503,7 +503,7 @@ plain_json = st.recursive(
 @examples(2)
 @given(st.sampled_from(sorted(RECORDS)), st.one_of(plain_json, plain_json, garbage()), st.integers(0, 10**6), st.booleans())
 def test_a_record_of_anything(which: tuple[str, bool], new: Any, at: int, drop: bool) -> None:
-    """A record with one part changed or taken out is asked again or refused, and so is what never was a record."""
+    """A record with one part changed or taken out is solved again or refused, and so is what never was a record."""
     record = copy.deepcopy(RECORDS[which])
     places = [(record, key) for key in record]
     for holder, key in places:
@@ -593,7 +593,7 @@ MOVED = ("delta_vx", "delta_vy", "delta_yaw_rate", "impulse_x", "impulse_y")
 
 
 @st.composite
-def lanes(draw: Any, model: str, count: int = 4, worth: Any = plausible) -> dict[str, np.ndarray]:
+def batches(draw: Any, model: str, count: int = 4, worth: Any = plausible) -> dict[str, np.ndarray]:
     """Every number of a batch, by the name of the argument and the side."""
     found = {}
     for side in "ab":
@@ -610,7 +610,7 @@ def lanes(draw: Any, model: str, count: int = 4, worth: Any = plausible) -> dict
 
 
 def solve(model: str, columns: Any, **options: Any) -> Any:
-    """The impact of one lane or of all."""
+    """The impact of one case or of all."""
     a, b = (
         col.Vehicle(**{name.partition(".")[2]: value for name, value in columns.items() if name.startswith(f"{side}.")})
         for side in "ab"
@@ -628,7 +628,7 @@ def solve(model: str, columns: Any, **options: Any) -> Any:
 @given(data=st.data())
 def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
     """Each ordinary case of a batch has the status and, to rounding, the numbers it has alone."""
-    columns = data.draw(lanes(model))
+    columns = data.draw(batches(model))
     many = must_answer("batch", lambda: solve(model, columns, on_failure="nan"))
     for i in range(4):
         alone = attempt("alone", lambda i=i: solve(model, {name: float(value[i]) for name, value in columns.items()}))
@@ -662,7 +662,7 @@ def test_a_case_of_a_batch_is_the_case_alone(model: str, data: Any) -> None:
 @given(data=st.data())
 def test_a_spoiled_case_leaves_its_neighbours_alone(model: str, data: Any) -> None:
     """Whatever numbers one case holds, the others keep every bit of every attribute."""
-    columns = data.draw(lanes(model, worth=data.draw(st.sampled_from((plausible, numbers)))))
+    columns = data.draw(batches(model, worth=data.draw(st.sampled_from((plausible, numbers)))))
     where = data.draw(st.integers(0, 3))
     changed = data.draw(st.lists(st.sampled_from(sorted(columns)), min_size=1, max_size=4, unique=True))
     spoiled = {name: value.copy() for name, value in columns.items()}

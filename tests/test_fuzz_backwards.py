@@ -103,7 +103,7 @@ def look_at(found: Any) -> None:
         assert math.isfinite(found)
 
 
-def asked(label: str, call: Any) -> Any:
+def answer_of(label: str, call: Any) -> Any:
     """The answer or the refusal, looked at."""
     found = attempt(label, lambda: called_wrongly(call))
     must_answer(f"what {label} gave", lambda: look_at(found))
@@ -115,7 +115,7 @@ def asked(label: str, call: Any) -> Any:
 def test_central_of_anything(data: Any, oddity: float) -> None:
     """Any three of the six, or more, or fewer."""
     given_to = data.draw(keywords(MASSES, 3, CENTRAL, oddity, on_failure=on_failure))
-    asked("central", lambda: reconstruct.central(**given_to))
+    answer_of("central", lambda: reconstruct.central(**given_to))
 
 
 @examples(2)
@@ -138,7 +138,7 @@ def test_momentum_of_anything(data: Any, oddity: float) -> None:
     for name in sorted(COURSES):
         if data.draw(st.integers(0, 9)) == 0:
             given_to.pop(name, None)
-    found = asked("momentum", lambda: reconstruct.momentum(**given_to))
+    found = answer_of("momentum", lambda: reconstruct.momentum(**given_to))
     if isinstance(found, reconstruct.MomentumSolution):
         status = np.asarray(found.status)
         refused = status > col.Status.ENERGY_GAIN
@@ -167,7 +167,7 @@ def test_the_in_line_shortcut_of_anything(data: Any, oddity: float) -> None:
     given_to = data.draw(keywords({**MASSES, "restitution": "restitution"}, 1, IN_LINE, oddity))
     if data.draw(st.integers(0, 3)) == 0:
         given_to["restitution"] = some_function(data.draw(st.sampled_from(FUNCTIONS)))
-    asked("inline_closing_speed", lambda: reconstruct.inline_closing_speed(**given_to))
+    answer_of("inline_closing_speed", lambda: reconstruct.inline_closing_speed(**given_to))
 
 
 @examples(2)
@@ -177,7 +177,7 @@ def test_planar_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: f
     choice = {"restitution": "restitution", "closing_speed": "speed", "energy_loss": "energy_loss"}
     regime = st.sampled_from((None, None, "sliding", "sticking", "given", "frictionless", "bad"))
     given_to = data.draw(keywords({}, 1, choice, oddity, on_failure=on_failure, regime=regime)) | data.draw(contacts(oddity))
-    asked("planar", lambda: reconstruct.planar(a, b, **given_to))
+    answer_of("planar", lambda: reconstruct.planar(a, b, **given_to))
 
 
 @examples()
@@ -193,7 +193,7 @@ def test_speeds_of_anything(data: Any, a: col.Vehicle, b: col.Vehicle, oddity: f
         given_to |= {"ees_a": data.draw(numbers("speed")), "ees_b": data.draw(numbers("speed"))}
         for name in sorted(given_to.keys() & KNOWN.keys())[1:]:
             del given_to[name]
-    asked("speeds", lambda: reconstruct.speeds(a, b, **given_to))
+    answer_of("speeds", lambda: reconstruct.speeds(a, b, **given_to))
 
 
 @examples()
@@ -206,7 +206,7 @@ def test_what_motions_show_of_anything(data: Any, a: Any, b: Any, c: Any, d: Any
     if data.draw(st.integers(0, 9)) == 0:
         motions[data.draw(st.integers(0, 3))] = data.draw(garbage())
     for function in (reconstruct.restitution, reconstruct.friction):
-        asked(function.__name__, lambda function=function: function(*motions, **where))
+        answer_of(function.__name__, lambda function=function: function(*motions, **where))
 
 
 @examples()
@@ -225,7 +225,7 @@ def test_crush_energy_of_anything(data: Any, oddity: float) -> None:
             given_to[name] = one_of(data.draw, "width", oddity, shapes)
     stiffness = [one_of(data.draw, name, oddity, shapes) for name in ("stiffness_a", "stiffness_b")]
     angle = one_of(data.draw, "angle", oddity, shapes)
-    found = asked("crush_energy", lambda: reconstruct.crush_energy(*given_to.values(), *stiffness, force_angle=angle))
+    found = answer_of("crush_energy", lambda: reconstruct.crush_energy(*given_to.values(), *stiffness, force_angle=angle))
     assert isinstance(found, col.CollisionsError) or (np.asarray(found) >= 0.0).all() or np.isnan(found).any()
 
 
@@ -248,7 +248,7 @@ def test_straight_travel_of_anything(data: Any, oddity: float) -> None:
     length = data.draw(segments("distance", count, oddity))
     start = one_of(data.draw, "speed", oddity, ((3,),))
     for name, first in (("speed", length), ("time", length), ("distance", start)):
-        found = asked(name, lambda name=name, first=first: getattr(travel, name)(first, **ground))
+        found = answer_of(name, lambda name=name, first=first: getattr(travel, name)(first, **ground))
         if not isinstance(found, col.CollisionsError) and found is not None:
             assert (np.asarray(found)[~np.isnan(found)] >= 0.0).all()
 
@@ -265,7 +265,7 @@ def test_paths_of_anything(data: Any, oddity: float) -> None:
     headings = data.draw(segments("heading", count, oddity))
     ground = {name: data.draw(segments(name, max(1, count - 1), oddity)) for name in ("friction", "lock", "grade")}
     ground["end_speed"] = one_of(data.draw, "speed", oddity, ((3,),))
-    found = asked("path", lambda: travel.path(points, headings, **ground))
+    found = answer_of("path", lambda: travel.path(points, headings, **ground))
     if isinstance(found, travel.RunOut):
         refused = np.isnan(found.speed)
         for name in ("speed", "course", "yaw_rate", "time", "distance"):
@@ -279,7 +279,7 @@ def test_paths_of_anything(data: Any, oddity: float) -> None:
     st.sampled_from(("va", "mass_a", "energy_loss", "speed_a", "course_a", "drag", "distance", "lock", "depths")),
 )
 def test_what_is_never_a_number_backwards(value: Any, name: str) -> None:
-    """Refused wherever a number is asked for."""
+    """Refused wherever a number is wanted."""
     calls = {
         "central": (reconstruct.central, {"mass_a": 1.0, "mass_b": 1.0, "va": 2.0, "energy_loss": 0.1, "vb": 0.0}),
         "momentum": (

@@ -232,7 +232,7 @@ def later(body, side, time, e=0.1):
 
 
 def test_geometry_between_two_vehicles_is_their_mean():
-    """The solver asked by hand with positions, point (first at the origin) and normal of later in the contact."""
+    """The solver called by hand with positions, point (first at the origin) and normal of later in the contact."""
     impact = t_bone(b=col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vy=10.0, yaw_rate=0.3, x=0.8, y=-1.0))
     turn_a, a, on_a = later(impact.a.before, impact.a, 0.08)
     turn_b, b, on_b = later(impact.b.before, impact.b, 0.08)
@@ -378,10 +378,10 @@ def test_one_impact_of_many_drags():
 
 
 @pytest.mark.parametrize("tolerance", [None, 0.5])
-def test_a_large_batch_is_worked_out_in_stretches(tolerance):
+def test_a_large_batch_is_worked_out_in_blocks(tolerance):
     """What its cases give alone, and beyond inputs and answers no more memory than 20 MiB, which is no array of all cases.
 
-    For a stretch of 16384 cases 150 numbers of 8 bytes are 19 MiB; for all cases at once they would be 229 MiB.
+    For a block of 16384 cases 150 numbers of 8 bytes are 19 MiB; for all cases at once they would be 229 MiB.
     """
     size = 200_000
     speeds = np.linspace(2.0, 20.0, size).reshape(2, -1)
@@ -481,7 +481,7 @@ def test_a_geometry_that_is_no_impact_later_on_is_nan():
 
 
 def test_an_impact_that_gains_energy_says_so_once():
-    """The solver did when it was asked, and not again for what is left out."""
+    """The solver did when it was called, and not again for what is left out."""
     with pytest.warns(col.EnergyGainWarning):
         impact = t_bone(friction=None, impulse_ratio=-0.9)
     with warnings.catch_warnings():
@@ -490,7 +490,7 @@ def test_an_impact_that_gains_energy_says_so_once():
 
 
 def test_a_large_batch_that_gains_energy_says_so_once():
-    """Also where it is worked out in stretches."""
+    """Also where it is worked out in blocks."""
     with pytest.warns(col.EnergyGainWarning):
         impact = t_bone(restitution=np.full(16_385, 1.0), friction=None, impulse_ratio=-0.9)
     with warnings.catch_warnings():
@@ -527,15 +527,15 @@ def test_an_impact_of_solve_without_yaw_inertias():
     """What the linear model leaves out, alone and in a batch, without a point too."""
     wanted = numbers(col.left_out(col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.2)))
 
-    def told(impact):
+    def moved(impact):
         """Without what a central model leaves None."""
         return {name: value for name, value in numbers(col.left_out(impact)).items() if value is not None}
 
     there = {name: value for name, value in wanted.items() if value is not None}
     assert set(wanted) - set(there) == {f"{side}.geometry_{kind}" for side in "ab" for kind in ("delta_v", "share")}
-    assert told(least()) == pytest.approx(there, rel=1e-12, abs=1e-12)
+    assert moved(least()) == pytest.approx(there, rel=1e-12, abs=1e-12)
     stiff = {"x": None, "y": None, "yaw_inertia": math.inf}
-    assert told(least(stiff, stiff, point=None)) == pytest.approx(there, rel=1e-12, abs=1e-12)
+    assert moved(least(stiff, stiff, point=None)) == pytest.approx(there, rel=1e-12, abs=1e-12)
     many = numbers(col.left_out(least({"vx": np.array([10.0, -1.0])}, on_failure="nan")))
     for name, value in many.items():
         assert math.isnan(value[1])
@@ -546,7 +546,7 @@ def test_an_impact_of_solve_without_yaw_inertias():
 
 
 def test_an_impact_of_solve_at_the_edge_of_its_tolerance():
-    """The model that answered is asked again, and not the one that the kicked question would require."""
+    """The model that answered is run again, and not the one that the kicked inputs would require."""
     body = {"yaw_inertia": 2000.0}
     a, b = {**body, "y": 0.05}, {**body, "vx": -12.0}
     full = least(a, b, tolerance=0.0, friction=0.0)

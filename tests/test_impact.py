@@ -115,12 +115,12 @@ def test_refused_cases_survive_a_record():
 def test_a_batch_is_freed_with_its_last_reference():
     """No cycle keeps the arrays until the collector happens to run."""
     impact = col.linear_central(col.Vehicle(mass=1.0, vx=np.array([1.0, 2.0])), col.Vehicle(mass=1.0), 0.5)
-    kept = weakref.ref(impact.a.after.vx)
+    reference = weakref.ref(impact.a.after.vx)
     assert impact.b.delta_v.shape == (2,)
     gc.disable()
     try:
         del impact
-        assert kept() is None
+        assert reference() is None
     finally:
         gc.enable()
 
@@ -290,7 +290,7 @@ def test_the_impulse_plane_says_what_is_not_defined():
 
 
 def test_answers_of_batches_compare_by_value():
-    """Equal to one that was asked again and to its pickle, and not to one with another number in one case."""
+    """Equal to one that was solved again and to its pickle, and not to one with another number in one case."""
     vx = np.array([20.0, 21.0])
 
     def found(vx):
@@ -402,11 +402,11 @@ def test_a_case_that_was_refused_says_why():
 )
 def test_of_two_faults_a_batch_and_its_case_name_the_same(wrong, code):
     """What is wrong with a vehicle comes before a restitution below 0, as a vehicle is made before it meets another."""
-    lanes = {
+    columns = {
         name: tuple(map(np.array, ([part] for part in value))) if name == "pivot" else np.array([value])
         for name, value in wrong.items()
     }
-    a = A.replace(name="Golf", **({"vx": 0.0, "vy": 0.0} if "pivot" in wrong else {}), **lanes)
+    a = A.replace(name="Golf", **({"vx": 0.0, "vy": 0.0} if "pivot" in wrong else {}), **columns)
     many = col.eccentric(a, B, np.array([-0.1]), normal=0.1, point=(1.7, 0.3), friction=0.2, on_failure="nan")
     assert col.Status(many.status[0]).label == code
     with pytest.raises(col.InputError, match=r"^a \(Golf\): ") as caught:
@@ -415,7 +415,7 @@ def test_of_two_faults_a_batch_and_its_case_name_the_same(wrong, code):
 
 
 def test_a_case_of_a_reverse_solver_keeps_how_it_was_found():
-    """With its own condition; a refused one names the solver that tells more."""
+    """With its own condition; a refused one names the solver that says more."""
     ends = np.array([0.1, 0.0])
     place = {"normal": 0.1, "point": (1.7, 0.3)}
     impact = col.eccentric(A, B, ends, friction=0.05, **place)
@@ -461,7 +461,7 @@ def test_only_what_moves_across_is_named():
 
 
 def test_inputs_are_what_was_asked():
-    """The question in SI numbers and the texts it was given as, frozen, and equal whatever the texts were."""
+    """The inputs in SI numbers and the texts it was given as, frozen, and equal whatever the texts were."""
     a, b = A.replace(x=-1.0), B.replace(x=2.0)
     contact = {"normal": "10 deg", "point": (1.0, "30 cm"), "friction": 0.2}
     impact = col.eccentric(a, b, "10 %", **contact)

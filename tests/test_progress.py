@@ -25,7 +25,7 @@ def impatient(monkeypatch):
 
 
 def test_a_short_run_shows_nothing(capsys):
-    """Not even when asked."""
+    """Not even when it is wanted."""
     solve(True)
     assert capsys.readouterr() == ("", "")
 
@@ -50,7 +50,7 @@ def test_a_line_where_tqdm_is_not_installed(capsys, monkeypatch):
 
 @pytest.mark.usefixtures("impatient")
 def test_a_bar_where_tqdm_is_installed(monkeypatch):
-    """Told of every block, and closed at the end."""
+    """Called for every block, and closed at the end."""
     seen = []
 
     class Bar:
@@ -80,11 +80,11 @@ def test_solve_counts_all_cases_once_whatever_their_models(threads):
     b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.1, y=-y)
     seen = []
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "tolerance": 0.1}
-    impact = col.solve(a, b, 0.2, **contact, threads=threads, progress=lambda *told: seen.append(told))
+    impact = col.solve(a, b, 0.2, **contact, threads=threads, progress=lambda *done: seen.append(done))
     assert len(set(impact.model)) == 3
     done = [one for one, _ in seen]
     assert {total for _, total in seen} == {size}
     assert done == sorted(set(done))
-    # The prediction, which takes half of it, is told too.
+    # The prediction, which takes half of it, is counted too.
     assert done[0] < size / 4
     assert done.index(size) == len(done) - 1

@@ -75,7 +75,7 @@ def flat(scene: Scene) -> Scene:
 
 
 @st.composite
-def questions(draw: Any, model: str, constraint: str, law: str) -> tuple[Scene, Answer]:
+def scenes(draw: Any, model: str, constraint: str, law: str) -> tuple[Scene, Answer]:
     """A scene that the model can answer, with the reference answer for its scales."""
     if model == "linear_central":
         scene = draw(impacts(constraint, law, "friction", 0.0, turning=False))
@@ -187,7 +187,7 @@ def test_an_infinite_promise_is_no_promise() -> None:
 @given(data=st.data())
 def test_linear_momentum_of_two_free_bodies_is_conserved(model: str, law: str, data: Any) -> None:
     """Momentum before equals momentum after (eqs 1 and 2)."""
-    scene, _ = data.draw(questions(model, "free", law))
+    scene, _ = data.draw(scenes(model, "free", law))
     impact = solved(model, scene)
     for i in (0, 1):
         before = impact.a.before.momentum[i] + impact.b.before.momentum[i]
@@ -207,7 +207,7 @@ def test_linear_momentum_of_two_free_bodies_is_conserved(model: str, law: str, d
 @given(data=st.data())
 def test_the_contact_impulse_has_no_moment_about_the_contact(constraint: str, law: str, data: Any) -> None:
     """About the contact point the angular momentum of each body changes only by the moment of its pivot, if it has one."""
-    scene, answer = data.draw(questions("eccentric", constraint, law))
+    scene, answer = data.draw(scenes("eccentric", constraint, law))
     impact = solved("eccentric", scene)
     for name in "ab":
         body, side, half = getattr(scene, name), getattr(impact, name), getattr(answer, name)
@@ -240,7 +240,7 @@ def test_the_contact_impulse_has_no_moment_about_the_contact(constraint: str, la
 @given(data=st.data())
 def test_energy_is_accounted_for(model: str, constraint: str, law: str, data: Any) -> None:
     """Kinetic energy before less kinetic energy after is the energy loss (eq 7)."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     left, allowed = 0.0, loss_error(answer)
     for name in "ab":
@@ -262,7 +262,7 @@ def test_energy_is_accounted_for(model: str, constraint: str, law: str, data: An
 @given(data=st.data())
 def test_the_work_on_the_two_bodies_sums_to_the_loss(model: str, constraint: str, law: str, data: Any) -> None:
     """kinetic_energy_change of A and B sum to minus the energy loss, and each is its body's change of kinetic energy."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     # Each is F.(u + du/2): F to its promise times the velocity, and the velocity to its own times F.
     speeds = sum(
@@ -288,7 +288,7 @@ def test_the_work_on_the_two_bodies_sums_to_the_loss(model: str, constraint: str
 @given(data=st.data())
 def test_restitution_holds_between_the_contact_points(model: str, constraint: str, law: str, data: Any) -> None:
     """The contact points, found again from the vehicles after, part at e times the speed at which they closed (eqs 9 and 11)."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     parting, slipping = contact_velocity(impact, "after", scene)
     allowed = contact_error(scene, answer)
@@ -304,7 +304,7 @@ def test_restitution_holds_between_the_contact_points(model: str, constraint: st
 @given(data=st.data())
 def test_at_the_end_of_compression_the_contact_does_not_close(model: str, constraint: str, law: str, data: Any) -> None:
     """After P/(1+e) the contact points share their normal velocity, and under "kudlich-slibar" a sticking contact does not slip."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     closing, slipping = contact_velocity(impact, "at_compression", scene)
     allowed = contact_error(scene, answer) + 4 * EPS * float(answer.s_u)
@@ -321,7 +321,7 @@ def test_at_the_end_of_compression_the_contact_does_not_close(model: str, constr
 @given(data=st.data())
 def test_the_impulse_stays_in_the_friction_cone(model: str, constraint: str, law: str, data: Any) -> None:
     """Bodies push and never pull, and friction carries no more than its bound; it opposes the slip that no bound would stop."""
-    scene, _ = data.draw(questions(model, constraint, law))
+    scene, _ = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     assert impact.normal_impulse >= 0.0
     if scene.rule == "friction" and math.isfinite(scene.value):
@@ -359,7 +359,7 @@ def test_no_energy_is_gained(model: str, constraint: str, data: Any) -> None:
 @given(data=st.data())
 def test_a_common_velocity_changes_nothing(model: str, constraint: str, law: str, data: Any) -> None:
     """Galilean invariance: seen from another frame the impulse, the changes of velocity and the loss are the same."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     shift_x, shift_y = data.draw(SPEEDS), 0.0 if model == "linear_central" else data.draw(SPEEDS)
     a, b = (replace(body, vx=body.vx + shift_x, vy=body.vy + shift_y) for body in (scene.a, scene.b))
     assert_same(solved(model, scene), solved(model, replace(scene, a=a, b=b)), scene, answer)
@@ -371,7 +371,7 @@ def test_a_common_velocity_changes_nothing(model: str, constraint: str, law: str
 @given(data=st.data())
 def test_a_shift_of_the_origin_changes_nothing(constraint: str, law: str, data: Any) -> None:
     """The origin of the scene is anyone's choice, a map grid's included: shifts by thousands of kilometres change nothing."""
-    scene, answer = data.draw(questions("eccentric", constraint, law))
+    scene, answer = data.draw(scenes("eccentric", constraint, law))
     east, north = (data.draw(st.integers(-(2**27), 2**27)) / 32.0 for _ in "xy")
 
     def moved(body: Body) -> Body:
@@ -403,7 +403,7 @@ def turned(scene: Scene, c: float, s: float) -> Scene:
 @given(data=st.data())
 def test_a_quarter_turn_of_the_scene_changes_nothing(model: str, constraint: str, law: str, data: Any) -> None:
     """Turned by 90, 180 or 270 degrees, which rounds nothing, the scene gives the same answer, turned."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     c, s = data.draw(st.sampled_from([(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]))
     assert_same(solved(model, scene), solved(model, turned(scene, c, s)), scene, answer, turned=(c, s))
 
@@ -415,7 +415,7 @@ def test_a_quarter_turn_of_the_scene_changes_nothing(model: str, constraint: str
 @given(data=st.data())
 def test_any_turn_of_the_scene_changes_nothing(model: str, constraint: str, law: str, data: Any) -> None:
     """Turned by any angle about the contact, B standing before, the scene gives the same answer, turned."""
-    scene, _ = data.draw(questions(model, constraint, law))
+    scene, _ = data.draw(scenes(model, constraint, law))
     # From the contact, and from a frame in which B stands, so that what turning rounds is small against the data themselves.
     a, b = (replace(o, x=o.x - scene.point[0], y=o.y - scene.point[1]) for o in (scene.a, scene.b))
     a, b = replace(a, vx=a.vx - b.vx, vy=a.vy - b.vy), replace(b, vx=0.0, vy=0.0)
@@ -432,7 +432,7 @@ def test_any_turn_of_the_scene_changes_nothing(model: str, constraint: str, law:
 @given(data=st.data())
 def test_the_names_of_the_bodies_change_nothing(model: str, constraint: str, law: str, data: Any) -> None:
     """A called B, B called A and the normal turned round: the same impact, with the same components of the impulse."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     n = scene.normal if isinstance(scene.normal, tuple) else (math.cos(scene.normal), math.sin(scene.normal))
     scene = replace(scene, normal=n)
     one = solved(model, scene)
@@ -452,24 +452,24 @@ def test_the_names_of_the_bodies_change_nothing(model: str, constraint: str, law
 @crossed
 @given(data=st.data())
 def test_one_case_equals_the_same_case_in_a_batch(model: str, constraint: str, law: str, data: Any) -> None:
-    """A case solved alone and as one lane of a batch of three gives the same within two promises, with the same verdict."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    """A case solved alone and as one case of a batch of three gives the same within two promises, with the same status."""
+    scene, answer = data.draw(scenes(model, constraint, law))
     impact = solved(model, scene)
     batch = solved_together(model, [scene, replace(scene, restitution=0.5), scene])
     assert batch.normal_impulse.shape == (3,)
 
-    class Lane:
-        """One lane of a batch, or of a side of it."""
+    class Case:
+        """One case of a batch, or of a side of it."""
 
         def __init__(self, of: Any, index: int) -> None:
             self.of, self.index = of, index
 
         def __getattr__(self, name: str) -> Any:
             found = getattr(self.of, name)
-            return float(found[self.index]) if isinstance(found, np.ndarray) else Lane(found, self.index)
+            return float(found[self.index]) if isinstance(found, np.ndarray) else Case(found, self.index)
 
     for index in (0, 2):
-        assert_same(impact, Lane(batch, index), scene, answer)  # type: ignore[arg-type]
+        assert_same(impact, Case(batch, index), scene, answer)  # type: ignore[arg-type]
         assert batch.status[index] == impact.status
 
 
@@ -503,7 +503,7 @@ def in_us_units(body: Body, form: Any) -> dict[str, Any]:
 @given(data=st.data())
 def test_the_unit_system_changes_nothing(law: str, data: Any) -> None:
     """US texts and Quantities of another registry are the SI numbers found by hand, and solve to the last bit as those numbers."""
-    scene, _ = data.draw(questions("eccentric", "free", law))
+    scene, _ = data.draw(scenes("eccentric", "free", law))
     options = {"normal": scene.normal, scene.rule: scene.value, "law": law, "on_failure": "nan"}
     feet = tuple(f"{part!r} ft" for part in scene.point)
     for form, point in (
@@ -612,7 +612,7 @@ def test_friction_on_a_lever_along_the_normal_turns_the_bodies(law: str, data: A
 @given(data=st.data())
 def test_oblique_central_equals_linear_central_in_line(constraint: str, law: str, data: Any) -> None:
     """Without motion across the normal there is no slip to rub, so any friction gives the linear answer."""
-    scene, answer = data.draw(questions("linear_central", constraint, law))
+    scene, answer = data.draw(scenes("linear_central", constraint, law))
     value = data.draw(VALUES["friction"])
     assert_same(solved("linear_central", scene), solved("oblique_central", replace(scene, value=value)), scene, answer)
 
@@ -707,7 +707,7 @@ def test_the_laws_differ_where_a_contact_sticks_and_restores(data: Any) -> None:
 @given(data=st.data())
 def test_separating_bodies_are_refused_with_their_speed(model: str, constraint: str, law: str, data: Any) -> None:
     """With the normal turned round the bodies part: NoImpactError, code separating, with the negative closing speed."""
-    scene, answer = data.draw(questions(model, constraint, law))
+    scene, answer = data.draw(scenes(model, constraint, law))
     n = scene.normal if isinstance(scene.normal, tuple) else (math.cos(scene.normal), math.sin(scene.normal))
     with pytest.raises(col.NoImpactError, match="from A into B") as caught:
         solved(model, replace(scene, normal=(-n[0], -n[1])))

@@ -52,15 +52,15 @@ def gaining_momentum():
 )
 def test_what_is_said_of_cases_is_silent(call, code):
     """Said outside, at the line of the caller; not said inside; said again afterwards."""
-    with pytest.warns(col.CollisionsWarning) as told:
+    with pytest.warns(col.CollisionsWarning) as caught:
         call()
-    assert [one.message.code for one in told] == [code]
-    assert told[0].filename == __file__
+    assert [one.message.code for one in caught] == [code]
+    assert caught[0].filename == __file__
     with quietly():
         call()
-    with pytest.warns(col.CollisionsWarning) as told:
+    with pytest.warns(col.CollisionsWarning) as caught:
         call()
-    assert [one.message.code for one in told] == [code]
+    assert [one.message.code for one in caught] == [code]
 
 
 def test_other_warnings_are_still_given():
@@ -80,7 +80,7 @@ def test_an_error_inside_ends_the_silence():
 def test_one_thread_is_silent_and_the_other_is_not():
     """Both at the same time: what is silent in one thread is said in the other."""
     meeting = threading.Barrier(2)
-    told = {}
+    seen = {}
 
     def work(silent):
         if not silent:
@@ -88,20 +88,20 @@ def test_one_thread_is_silent_and_the_other_is_not():
             try:
                 warn_of_cases(col.CollisionsWarning("said", code="refused_cases"))
             except col.CollisionsWarning:
-                told["other"] = "said"
+                seen["other"] = "said"
             meeting.wait()
             return
         with quietly():
             meeting.wait()
             warn_of_cases(col.CollisionsWarning("not said", code="refused_cases"))
             meeting.wait()
-        told["silent"] = "nothing"
+        seen["silent"] = "nothing"
 
     with warnings.catch_warnings():
         warnings.simplefilter("error", col.CollisionsWarning)
         with ThreadPoolExecutor(2) as pool:
             list(pool.map(work, (True, False)))
-    assert told == {"silent": "nothing", "other": "said"}
+    assert seen == {"silent": "nothing", "other": "said"}
 
 
 def test_left_out_leaves_the_filters_of_the_program_alone(monkeypatch):

@@ -1,4 +1,4 @@
-"""Every refusal of the three solvers: the error, its code, and what its message tells, single and in a batch."""
+"""Every refusal of the three solvers: the error, its code, and what its message says, single and in a batch."""
 
 import math
 import pickle
@@ -257,7 +257,7 @@ BATCH = [
 
 @pytest.mark.parametrize(("status", "changes"), BATCH, ids=[f"{i}-{row[0]}" for i, row in enumerate(BATCH)])
 def test_a_refused_case_of_a_batch(status, changes):
-    """NaN with a status, its neighbour untouched, one warning; asked to raise, the same error as for the single case."""
+    """NaN with a status, its neighbour untouched, one warning; where it is to raise, the same error as for the single case."""
     scene = {"a": car(vx=15.0), "b": STRUCK, "restitution": 0.1, "friction": 0.5, **SCENE, **changes}
     a, b, e = (scene.pop(name) for name in ("a", "b", "restitution"))
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases") as caught:
@@ -284,7 +284,7 @@ def test_every_status_explains_itself():
 
 
 def test_a_single_case_may_be_answered_with_nan():
-    """on_failure="nan" gives the status instead of the error, and no warning: it was asked for."""
+    """on_failure="nan" gives the status instead of the error, and no warning: it was wanted."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         impact = col.linear_central(car(vx=-5.0), STRUCK, 0.1, on_failure="nan")
@@ -335,7 +335,7 @@ def nested(depth):
 
 @pytest.mark.parametrize("given", [Unshowable(), nested(5000)], ids=["unshowable", "nested"])
 @pytest.mark.parametrize(
-    "ask",
+    "call",
     [
         lambda given: col.linear_central(STRIKING, col.Vehicle.barrier(), 0.1, on_failure=given),
         lambda given: col.linear_central(STRIKING, col.Vehicle.barrier(), 0.1, threads=given),
@@ -351,7 +351,7 @@ def nested(depth):
         lambda given: col.travel.speed(10.0, drag=given),
     ],
 )
-def test_a_message_survives_what_cannot_be_shown(ask, given):
+def test_a_message_survives_what_cannot_be_shown(call, given):
     """The refusal is the library's own, whatever the object does when it is printed."""
     with pytest.raises(col.InputError):
-        ask(given)
+        call(given)

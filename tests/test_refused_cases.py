@@ -1,6 +1,6 @@
 """In a batch every output of a refused case is NaN, or None, its status or no text; and a case is refused exactly as it is alone.
 
-Every number of every question is spoilt in turn, each way in a case of its own of one batch; what refuses it is found by asking
+Every number of every call is spoilt in turn, each way in a case of its own of one batch; what refuses it is found by solving
 each case alone. Outputs are found by their names, so that a new one is looked at too.
 """
 
@@ -34,10 +34,10 @@ FACTORS = (-1.0, 0.1, 10.0)
 
 
 @dataclass(frozen=True)
-class Question:
+class Call:
     """A call of numbers by name, numbers that it answers, and changes of these that refuse it in ways of their own."""
 
-    call: Callable[..., Any]
+    function: Callable[..., Any]
     base: Mapping[str, float]
     changes: tuple[Mapping[str, float], ...] = ()
     # What may stand in a refused case, because it was given for it.
@@ -47,7 +47,7 @@ class Question:
     single: tuple[str, ...] = ()
 
 
-# ---- what is asked ----
+# ---- the calls ----
 CAR_A = {
     "a.mass": 1500.0,
     "a.vx": 15.0,
@@ -112,7 +112,7 @@ def left_out(**numbers: Any) -> Any:
 
 
 def methods(**numbers: Any) -> Any:
-    """What an impact answers when it is asked with numbers."""
+    """What the methods of an impact give."""
     share, place = numbers.pop("share_a"), pair(numbers, "place")
     impact = forward("eccentric")(**numbers)
     return {"ees": impact.ees(share), "a": impact.a.delta_v_at(place), "b": impact.b.delta_v_at(place)}
@@ -212,16 +212,16 @@ JAMMED = {
 }
 
 
-def questions() -> Iterator[tuple[str, Question]]:
+def calls() -> Iterator[tuple[str, Call]]:
     """All of them, by name."""
     free = {**CAR_A, **CAR_B, **CONTACT}
     special = (STILL, FIXED)
     flat = {name: 0.0 if name.endswith("yaw_rate") else value for name, value in free.items() if "point" not in name}
     straight = {name: 0.0 if name.endswith(".vy") else value for name, value in flat.items()}
-    yield "linear_central", Question(forward("linear_central"), {**straight, "normal": 0.0}, special, FORWARD)
+    yield "linear_central", Call(forward("linear_central"), {**straight, "normal": 0.0}, special, FORWARD)
     yield (
         "linear_central, vector",
-        Question(
+        Call(
             forward("linear_central"),
             {**{k: v for k, v in straight.items() if k != "normal"}, "normal[0]": 2.0, "normal[1]": 0.0},
             ({"normal[0]": 0.0},),
@@ -229,23 +229,23 @@ def questions() -> Iterator[tuple[str, Question]]:
         ),
     )
     for rule, bound in RULES.items():
-        yield f"oblique_central, {rule}", Question(forward("oblique_central"), {**flat, rule: bound}, special, FORWARD)
+        yield f"oblique_central, {rule}", Call(forward("oblique_central"), {**flat, rule: bound}, special, FORWARD)
         for law in LAWS:
             jammed = ({**JAMMED, "impulse_ratio": -2.0},) if rule == "impulse_ratio" else ()
             pulls = ({**PULLS, rule: INF if rule == "friction" else 0.5},) if rule != "impulse_ratio" else ()
             yield (
                 f"eccentric, {rule}, {law}",
-                Question(forward("eccentric"), {**free, rule: bound}, (*special, *jammed, *pulls), FORWARD, {"law": law}),
+                Call(forward("eccentric"), {**free, rule: bound}, (*special, *jammed, *pulls), FORWARD, {"law": law}),
             )
         for tolerance in (0.0, 0.3, 100.0):
-            asked = {**free, rule: bound, "tolerance": tolerance}
+            inputs = {**free, rule: bound, "tolerance": tolerance}
             yield (
                 f"solve, {rule}, {tolerance}",
-                Question(forward("solve"), asked, special, (*FORWARD, "choice.tolerance"), single=("tolerance",)),
+                Call(forward("solve"), inputs, special, (*FORWARD, "choice.tolerance"), single=("tolerance",)),
             )
         yield (
             f"required_model, {rule}",
-            Question(
+            Call(
                 forward("required_model"),
                 {**free, rule: bound, "tolerance": 0.3},
                 special,
@@ -256,14 +256,14 @@ def questions() -> Iterator[tuple[str, Question]]:
         pinned = {**free, "b.vx": 0.0, "b.vy": 0.0, "b.pivot[0]": 2.5, "b.pivot[1]": 1.5, rule: bound}
         yield (
             f"eccentric, pinned, {rule}",
-            Question(
+            Call(
                 forward("eccentric"), pinned, ({"b.vx": 3.0}, {"a.mass": INF, "a.yaw_inertia": INF, "a.yaw_rate": 0.0}), FORWARD
             ),
         )
-    yield "left_out", Question(left_out, {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}, special)
+    yield "left_out", Call(left_out, {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}, special)
     yield (
         "methods",
-        Question(
+        Call(
             methods,
             {**free, "friction": 0.4, "share_a": 0.6, "place[0]": 1.0, "place[1]": 0.5},
             special,
@@ -278,7 +278,7 @@ def questions() -> Iterator[tuple[str, Question]]:
                 echoes = (*IN_LINE, *(["restitution"] if "restitution" in known else []))
                 yield (
                     f"central, {', '.join(known)}",
-                    Question(central, {"mass_a": 1500.0, "mass_b": 1200.0, **known}, ({"mass_a": INF, "mass_b": INF},), echoes),
+                    Call(central, {"mass_a": 1500.0, "mass_b": 1200.0, **known}, ({"mass_a": INF, "mass_b": INF},), echoes),
                 )
     backwards = (*STATE, *PLACE, "friction")
     after = {"a.vx": 3.0, "a.vy": 1.6, "b.vx": 6.0, "b.vy": 1.9}
@@ -287,14 +287,14 @@ def questions() -> Iterator[tuple[str, Question]]:
             for kind, value in (("restitution", 0.2), ("closing_speed", 12.0), ("energy_loss", 9e3)):
                 if rule == "critical_fraction" and kind == "energy_loss":
                     continue
-                asked = {
+                inputs = {
                     **{name: part for name, part in free.items() if name != "restitution"},
                     **after,
                     rule: bound,
                     kind: value,
                 }
                 echoes = (*backwards, *(["restitution"] if kind == "restitution" else []))
-                yield f"planar, {rule}, {law}, {kind}", Question(planar, asked, (STILL, FIXED), echoes, {"law": law})
+                yield f"planar, {rule}, {law}, {kind}", Call(planar, inputs, (STILL, FIXED), echoes, {"law": law})
     yawing = tuple(f"{side}.before.yaw_rate" for side in "ab")
     pairs = (
         {"speed_b": 5.0, "delta_v_a": 6.0},
@@ -306,9 +306,9 @@ def questions() -> Iterator[tuple[str, Question]]:
     still = {name: value for name, value in free.items() if not name.endswith((".vx", ".vy"))}
     # The slowest of all, so each pair has one rule.
     for known, rule, law in zip(pairs, (*RULES, *RULES), (*LAWS, *LAWS, LAWS[0]), strict=False):
-        asked = {**still, rule: RULES[rule], **known, "course_a": 0.1, "course_b": 2.2}
+        inputs = {**still, rule: RULES[rule], **known, "course_a": 0.1, "course_b": 2.2}
         echoes = (*backwards, *yawing, "restitution")
-        yield f"speeds, {rule}, {', '.join(known)}", Question(speeds, asked, (FIXED,), echoes, {"law": law})
+        yield f"speeds, {rule}, {', '.join(known)}", Call(speeds, inputs, (FIXED,), echoes, {"law": law})
     courses = {"course_a": 0.1, "course_b": 1.7, "course_a_after": 0.9, "course_b_after": 0.5}
     going = {"speed_a": 15.0, "speed_b": 12.0, "speed_a_after": 9.0, "speed_b_after": 8.0}
     balance = {"mass_a": 1500.0, "mass_b": 1300.0, **courses}
@@ -316,7 +316,7 @@ def questions() -> Iterator[tuple[str, Question]]:
     parallel = ({"course_a": 1.7}, {"course_a_after": 0.5})
     for one, other in (("speed_a", "speed_b"), ("speed_a_after", "speed_b_after"), ("speed_a", "speed_b_after")):
         known = {name: speed for name, speed in going.items() if name in (one, other)}
-        yield f"momentum, {one}, {other}", Question(momentum, {**balance, **known}, parallel, echoes)
+        yield f"momentum, {one}, {other}", Call(momentum, {**balance, **known}, parallel, echoes)
     whole = {
         "speed_a_after": 9.0,
         "speed_b_after": 8.0,
@@ -326,10 +326,10 @@ def questions() -> Iterator[tuple[str, Question]]:
         "outside_impulse[0]": 200.0,
         "outside_impulse[1]": -100.0,
     }
-    yield "momentum, everything", Question(momentum, {**balance, **whole}, parallel, echoes)
+    yield "momentum, everything", Call(momentum, {**balance, **whole}, parallel, echoes)
     yield (
         "momentum, vector",
-        Question(
+        Call(
             momentum,
             {**balance, "speed_a_after": 9.0, "speed_b_after": 8.0, "normal[0]": 1.0, "normal[1]": 0.2},
             parallel,
@@ -338,7 +338,7 @@ def questions() -> Iterator[tuple[str, Question]]:
     )
     yield (
         "momentum, together",
-        Question(
+        Call(
             momentum,
             {name: value for name, value in balance.items() if name != "course_b_after"} | {"speed_b": 12.0},
             ({"course_a": 0.9},),
@@ -360,22 +360,22 @@ def questions() -> Iterator[tuple[str, Question]]:
     at = {name: value for name, value in CONTACT.items() if name != "restitution"}
     unturned = {name: value for name, value in seen.items() if not name.endswith("yaw_rate")}
     for name in ("restitution", "friction"):
-        yield name, Question(observed(name), {**seen, **at}, ({f"{side}_before.vx": 0.0 for side in "ab"},))
-        yield f"{name}, unturned", Question(observed(name), {**unturned, "normal": 0.1})
+        yield name, Call(observed(name), {**seen, **at}, ({f"{side}_before.vx": 0.0 for side in "ab"},))
+        yield f"{name}, unturned", Call(observed(name), {**unturned, "normal": 0.1})
     pins = {f"b_{moment}.{name}": 0.0 for moment in ("before", "after") for name in ("vx", "vy")}
     pins |= {f"b_{moment}.pivot[{i}]": part for moment in ("before", "after") for i, part in enumerate((2.5, 1.5))}
     others = ({"b_before.vx": 3.0}, {"b_after.vy": 3.0}, {"b_before.yaw_inertia": INF, "b_after.yaw_inertia": INF})
-    yield "restitution, pinned", Question(observed("restitution"), {**seen, **at, **pins}, others)
+    yield "restitution, pinned", Call(observed("restitution"), {**seen, **at, **pins}, others)
     for kind in ({"delta_v_a": 6.0}, {"delta_v_b": 6.0}, {"energy_loss": 5e4}, {"ees_a": 6.0, "ees_b": 5.0}):
         numbers = {"mass_a": 1500.0, "mass_b": 1300.0, "restitution": 0.2, **kind}
         yield (
             f"inline_closing_speed, {next(iter(kind))}",
-            Question(inline, numbers, ({"mass_a": INF, "mass_b": INF}, {"restitution": 1.0})),
+            Call(inline, numbers, ({"mass_a": INF, "mass_b": INF}, {"restitution": 1.0})),
         )
     profile = {"widths[0]": 0.4, "widths[1]": 0.5, "depths[0]": 0.2, "depths[1]": 0.3, "depths[2]": 0.1}
     yield (
         "crush_energy",
-        Question(
+        Call(
             crush,
             {**profile, "stiffness_a": 4e4, "stiffness_b": 6e5, "force_angle": 0.2},
             ({"force_angle": 0.5 * math.pi}, {"force_angle": 2.0}),
@@ -387,11 +387,11 @@ def questions() -> Iterator[tuple[str, Question]]:
     } | {"end_speed": 3.0}
     downhill = ({"drag": 0.0, "grade": -0.4, "end_speed": 1.0}, {"drag": 0.0, "grade": 0.0, "end_speed": 0.0}, {"drag": 1e308})
     for name in ("speed", "time"):
-        yield name, Question(along(getattr(travel, name), 0), surface, downhill)
-        yield f"{name}, several", Question(along(getattr(travel, name), 2), several, ({"drag[1]": 1e308}, {"drag[0]": 1e308}))
+        yield name, Call(along(getattr(travel, name), 0), surface, downhill)
+        yield f"{name}, several", Call(along(getattr(travel, name), 2), several, ({"drag[1]": 1e308}, {"drag[0]": 1e308}))
     yield (
         "distance",
-        Question(along(travel.distance, 0), {"speed": 15.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0}, downhill),
+        Call(along(travel.distance, 0), {"speed": 15.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0}, downhill),
     )
     places = {
         "x[0]": 0.0,
@@ -405,14 +405,14 @@ def questions() -> Iterator[tuple[str, Question]]:
         "heading[2]": 2.0,
     }
     ground = {"friction": 0.7, "lock": 0.3, "grade": 0.02, "end_speed": 2.0}
-    yield "path", Question(path, {**places, **ground}, ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}))
+    yield "path", Call(path, {**places, **ground}, ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}))
     yield (
         "reference.restitution",
-        Question(reference.restitution, {"closing_speed": 3.0}, ({"closing_speed": 30.0}, {"closing_speed": 0.01})),
+        Call(reference.restitution, {"closing_speed": 3.0}, ({"closing_speed": 30.0}, {"closing_speed": 0.01})),
     )
-    yield "reference.restitution_range", Question(reference.restitution_range, {"closing_speed": 3.0})
-    yield "reference.yaw_inertia", Question(reference.yaw_inertia, {"mass": 1500.0, "wheelbase": 2.7, "length": 4.5})
-    yield "reference.yaw_inertia, width", Question(reference.yaw_inertia, {"mass": 1500.0, "length": 4.5, "width": 1.8})
+    yield "reference.restitution_range", Call(reference.restitution_range, {"closing_speed": 3.0})
+    yield "reference.yaw_inertia", Call(reference.yaw_inertia, {"mass": 1500.0, "wheelbase": 2.7, "length": 4.5})
+    yield "reference.yaw_inertia, width", Call(reference.yaw_inertia, {"mass": 1500.0, "length": 4.5, "width": 1.8})
 
 
 def pulling() -> dict[str, float]:
@@ -442,12 +442,12 @@ def pulling() -> dict[str, float]:
 
 
 PULLS = pulling()
-QUESTIONS = dict(questions())
+CALLS = dict(calls())
 
 
 # ---- what comes back ----
 ARGUMENTS = {"share_a": 0.5, "point": (1.0, 2.0)}
-# Of the whole question, not of a case of it.
+# Of the whole call, not of a case of it.
 WHOLE = ("model", "law", "name", "method", "reason", "missing", "known", "unknowns", "choice", "reconstruction")
 
 
@@ -489,7 +489,7 @@ def is_nothing(value: Any) -> bool:
 
 
 def check_case(label: str, found: Any, shape: tuple[int, ...], case: int, echoes: tuple[str, ...]) -> None:
-    """No output of a refused case tells anything but how it was refused."""
+    """No output of a refused case says anything but how it was refused."""
     for name, value in outputs(found):
         value, last = at(value, shape, case), name.rpartition(".")[2].partition("[")[0]
         what = f"{label}: {name} is {value!r} in a refused case"
@@ -514,36 +514,36 @@ def quietly(call: Callable[[], Any]) -> Any:
 
 @cache
 def columns_of(name: str) -> list[dict[str, float]]:
-    """Every case of a question: as it is, and spoilt in every way."""
-    question = QUESTIONS[name]
-    base = question.base
+    """Every case of a call: as it is, and spoilt in every way."""
+    call = CALLS[name]
+    base = call.base
     found = [dict(base)]
     for number, value in base.items():
-        if number not in question.single:
+        if number not in call.single:
             found += [{**base, number: worse} for worse in (*SPOILT, *(factor * value for factor in FACTORS)) if worse != value]
-    return found + [{**base, **changes} for changes in question.changes]
+    return found + [{**base, **changes} for changes in call.changes]
 
 
 @cache
 def alone(name: str, case: int) -> Any:
-    """The answer to one case of a question, or the error that refuses it."""
-    question = QUESTIONS[name]
+    """The answer to one case of a call, or the error that refuses it."""
+    call = CALLS[name]
     try:
-        return quietly(lambda: question.call(**columns_of(name)[case], **question.options))
+        return quietly(lambda: call.function(**columns_of(name)[case], **call.options))
     except col.CollisionsError as error:
         return error
 
 
 def together(
-    question: Question, columns: list[dict[str, float]], varied: set[str] | None = None, shape: Any = -1, kind: Any = float
+    call: Call, columns: list[dict[str, float]], varied: set[str] | None = None, shape: Any = -1, kind: Any = float
 ) -> Any:
     """The answer to all cases at once; numbers that are not varied stay single."""
-    numbers: dict[str, Any] = dict(question.base)
-    for name in question.base:
-        if name not in question.single and (varied is None or name in varied):
+    numbers: dict[str, Any] = dict(call.base)
+    for name in call.base:
+        if name not in call.single and (varied is None or name in varied):
             with np.errstate(over="ignore"):
                 numbers[name] = np.array([case[name] for case in columns]).astype(kind).reshape(shape)
-    return quietly(lambda: question.call(**numbers, **question.options))
+    return quietly(lambda: call.function(**numbers, **call.options))
 
 
 def parts(found: Any) -> list[Any]:
@@ -552,20 +552,20 @@ def parts(found: Any) -> list[Any]:
 
 
 def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) -> tuple[int, int]:
-    """Looks at these cases of a question in the answer to all of them; gives how many were answered and how many refused."""
-    question, columns = QUESTIONS[name], columns_of(name)
+    """Looks at these cases of a call in the answer to all of them; gives how many were answered and how many refused."""
+    call, columns = CALLS[name], columns_of(name)
     answered = refused = 0
     for number, case in enumerate(chosen):
         one = alone(name, case)
         is_refused = isinstance(one, col.CollisionsError)
         answered, refused = answered + (not is_refused), refused + is_refused
-        here = f"{name}, { ({key: value for key, value in columns[case].items() if value != question.base[key]}) }"
+        here = f"{name}, { ({key: value for key, value in columns[case].items() if value != call.base[key]}) }"
         for place, part in enumerate(parts(found)):
             status = at(np.asarray(getattr(part, "status", GAIN if not is_refused else GAIN + 1)), shape, number)
             if place == 0:
                 assert (status > GAIN) == is_refused, f"{here}: {col.Status(status).label}, and alone {one!r}"
             if status > GAIN:
-                check_case(here, part, shape, number, question.echoes)
+                check_case(here, part, shape, number, call.echoes)
             elif place == 0:
                 for (output, value), (same, value_alone) in zip(outputs(part), outputs(parts(one)[0]), strict=True):
                     assert output == same
@@ -574,29 +574,29 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
     return answered, refused
 
 
-# Of the many ways to ask `speeds` and `planar`, those by friction are for every run.
-every_question = pytest.mark.parametrize(
+# Of the many ways to call `speeds` and `planar`, those by friction are for every run.
+every_call = pytest.mark.parametrize(
     "name",
     [
         pytest.param(
             name, marks=pytest.mark.slow if name.startswith(("speeds, ", "planar, ")) and "friction" not in name else ()
         )
-        for name in QUESTIONS
+        for name in CALLS
     ],
 )
 
 
-@every_question
+@every_call
 def test_every_output_of_a_refused_case(name: str) -> None:
-    """Each number of the question spoilt in turn, all in one batch; refused exactly where the case alone is."""
+    """Each number of the call spoilt in turn, all in one batch; refused exactly where the case alone is."""
     columns = columns_of(name)
-    answered, refused = check(name, range(len(columns)), together(QUESTIONS[name], columns), (len(columns),))
+    answered, refused = check(name, range(len(columns)), together(CALLS[name], columns), (len(columns),))
     assert answered
     assert refused
 
 
 @settings(max_examples=150, deadline=None, derandomize=True, database=None)
-@given(st.data(), st.sampled_from(sorted(QUESTIONS)))
+@given(st.data(), st.sampled_from(sorted(CALLS)))
 def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:
     """Whatever is an array and whatever stays single, in a batch of one dimension or of two."""
     columns = columns_of(name)
@@ -605,22 +605,22 @@ def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:
     varied = {number for number, value in some[0].items() if any(case[number] != value for case in some)}
     others = sorted(set(some[0]) - varied)
     varied |= set(data.draw(st.lists(st.sampled_from(others), max_size=3))) if others else set()
-    if not varied - set(QUESTIONS[name].single):
+    if not varied - set(CALLS[name].single):
         return
     shape = data.draw(st.sampled_from(((len(some),), (1, len(some)), (len(some), 1))))
-    check(name, chosen, together(QUESTIONS[name], some, varied, shape=shape), shape)
+    check(name, chosen, together(CALLS[name], some, varied, shape=shape), shape)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
-@every_question
+@every_call
 def test_many_cases_and_float32(name: str, kind: Any) -> None:
-    """More cases than a block, whose outputs are worked out when they are asked for; in float32 more is beyond floats."""
-    question, columns = QUESTIONS[name], columns_of(name)
-    columns = [*columns, *({**question.base, number: large} for number in question.base for large in (1e18, 3e38))]
+    """More cases than a block, whose outputs are worked out when they are read; in float32 more is beyond floats."""
+    call, columns = CALLS[name], columns_of(name)
+    columns = [*columns, *({**call.base, number: large} for number in call.base for large in (1e18, 3e38))]
     # What solves by eigenvalues takes too long for so many.
     repeats = 1 if "speeds" in name else BLOCK // len(columns) + 2
-    found = together(question, columns * repeats, kind=kind)
+    found = together(call, columns * repeats, kind=kind)
     shape = (len(columns) * repeats,)
     for part in parts(found):
         taken = {
@@ -636,36 +636,36 @@ def test_many_cases_and_float32(name: str, kind: Any) -> None:
         for case in np.flatnonzero(part.status[: len(columns)] > GAIN):
             for output, value in taken.items():
                 last = output.rpartition(".")[2].partition("[")[0]
-                if output not in question.echoes and last not in (*WHOLE, "status", "ok", "refused", "answers"):
+                if output not in call.echoes and last not in (*WHOLE, "status", "ok", "refused", "answers"):
                     assert is_nothing(value[case].item()), f"{name}, {columns[case]}: {output} is {value[case]!r}"
 
 
-@every_question
+@every_call
 def test_a_single_case_that_is_not_to_raise(name: str) -> None:
     """With on_failure="nan" a refused case alone is as one of a batch."""
-    question = QUESTIONS[name]
+    call = CALLS[name]
     if name.partition(",")[0] not in NOT_TO_RAISE:
         return
     given_back = 0
     for number, case in enumerate(columns_of(name)):
         if isinstance(alone(name, number), col.CollisionsError):
             try:
-                found = quietly(lambda case=case: question.call(**case, **question.options, on_failure="nan"))
+                found = quietly(lambda case=case: call.function(**case, **call.options, on_failure="nan"))
             except col.InputError:
                 continue  # an argument that cannot be used is refused all the same
-            check_case(f"{name}, {case}", found, (), 0, question.echoes)
+            check_case(f"{name}, {case}", found, (), 0, call.echoes)
             given_back += 1
     assert given_back
 
 
-@every_question
+@every_call
 def test_columns_of_refused_cases(name: str) -> None:
     """In a table too."""
-    question, columns = QUESTIONS[name], columns_of(name)
-    for impact in parts(together(question, columns)):
+    call, columns = CALLS[name], columns_of(name)
+    for impact in parts(together(call, columns)):
         if isinstance(impact, col.Impact):
             refused = np.flatnonzero(impact.refused)
-            allowed = {output.replace("[0]", ".x").replace("[1]", ".y") for output in question.echoes}
+            allowed = {output.replace("[0]", ".x").replace("[1]", ".y") for output in call.echoes}
             for key, column in impact.to_columns().items():
                 last = key.rpartition(".")[2]
                 if key not in allowed and last not in (*WHOLE, *RULES, "status", "ok", "refused", "answers"):
@@ -699,8 +699,8 @@ def test_a_refused_case_may_lack_a_position(place: dict[str, float], answered: i
 def test_every_reason_of_refusal_is_met() -> None:
     """No status is left out of the table."""
     seen = {0}
-    for name, question in QUESTIONS.items():
-        for part in parts(together(question, columns_of(name))):
+    for name, call in CALLS.items():
+        for part in parts(together(call, columns_of(name))):
             seen |= set(np.unique(getattr(part, "status", 0)).tolist())
     assert {status.label for status in col.Status if status > GAIN} == {col.Status(code).label for code in seen if code > GAIN}
 
@@ -716,12 +716,12 @@ ONE_CASE = {
 
 
 @pytest.mark.parametrize("module", ONE_CASE, ids=lambda module: module.__name__)
-def test_every_public_function_is_asked(module: ModuleType) -> None:
+def test_every_public_function_is_called(module: ModuleType) -> None:
     """A new function has to be put into the table, or among those that take one case."""
     public = {name for name in module.__all__ if inspect.isfunction(getattr(module, name))}
     prefix = "reference." if module is reference else ""
-    asked = {name.partition(",")[0] for name in QUESTIONS}
-    assert {name for name in public if prefix + name in asked} == public - ONE_CASE[module]
+    covered = {name.partition(",")[0] for name in CALLS}
+    assert {name for name in public if prefix + name in covered} == public - ONE_CASE[module]
     for name in public:
         assert ("on_failure" in inspect.signature(getattr(module, name)).parameters) == (name in NOT_TO_RAISE)
 

@@ -21,7 +21,7 @@ LAWS = ("brach", "kudlich-slibar")
 
 
 def traffic(rng, *, lever=1.0, across=1.0):
-    """Two cars that meet: levers, spin and motion across the normal as large as asked for."""
+    """Two cars that meet: levers, spin and motion across the normal as large as wanted."""
     normal = rng.uniform(-3.0, 3.0)
     n = np.array([math.cos(normal), math.sin(normal)])
     t = np.array([-n[1], n[0]])
@@ -85,7 +85,7 @@ def actual_error(model, a, b, contact):
 @pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
 @pytest.mark.parametrize("law", LAWS)
 def test_predicted_errors_are_the_errors_made(law):
-    """To 10 percent as the issue asks; being worked out from the same impulse, they agree to rounding."""
+    """To 10 percent as the issue wants; being worked out from the same impulse, they agree to rounding."""
     rng = random.Random(1)
     compared = 0
     for _ in range(300):
@@ -408,7 +408,7 @@ def test_a_batch_chooses_for_every_case_by_itself():
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_records_columns_and_pickles_keep_the_choice():
-    """A chosen impact is asked again from its record with the same tolerance, single and in a batch."""
+    """A chosen impact is solved again from its record with the same tolerance, single and in a batch."""
     scenes, a, b, contact = batch(60)
     for impact in (
         col.solve(a, b, tolerance=0.3, **contact),
@@ -504,7 +504,7 @@ def test_an_answer_without_a_point_is_asked_again_from_its_record():
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
-    """More cases than a block holds, worked out in blocks by model: the same bits, also of what is asked for later."""
+    """More cases than a block holds, worked out in blocks by model: the same bits, also of what is read later."""
     rng = np.random.default_rng(6)
     size = 2 * BLOCK + 5
     turned = rng.choice([0.0, 0.02, 0.6], size)
@@ -514,20 +514,20 @@ def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
     e, friction = rng.uniform(0.0, 0.4, size), rng.choice([0.0, 0.3], size)
     e[7] = 2.0
 
-    def ask(part):
+    def part_of(part):
         cars = [
             col.Vehicle(**{n: v[part].astype(dtype) for n, v in (body | {"yaw_inertia": inertia}).items()}) for body in (a, b)
         ]
         contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": friction[part].astype(dtype)}
         return col.solve(*cars, e[part].astype(dtype), **contact, tolerance=0.5, on_failure="nan")
 
-    whole = ask(slice(None))
+    whole = part_of(slice(None))
     assert set(whole.model) == set(MODELS)
     assert np.flatnonzero(whole.refused).tolist() == [7]
     # By model, so that those of a model stand side by side and are worked out where they are.
     sorted_by_model = np.argsort(whole.model, kind="stable")
     for part in (slice(0, 100), slice(BLOCK - 50, BLOCK + 50), slice(2 * BLOCK, None), sorted_by_model):
-        few = ask(part)
+        few = part_of(part)
         assert (few.model == whole.model[part]).all()
         for name, errors in few.choice.errors.items():
             assert errors.dtype == dtype
@@ -604,8 +604,8 @@ def test_what_solve_wrote_is_read_in_a_new_process():
         "print(impact.model, impact.choice.reason)"
     )
     given = json.dumps(impact.to_dict()), pickle.dumps(impact).hex()
-    told = subprocess.run([sys.executable, "-c", program, *given], capture_output=True, text=True)
-    assert told.stdout.strip() == f"{impact.model} {impact.choice.reason}", told.stderr
+    done = subprocess.run([sys.executable, "-c", program, *given], capture_output=True, text=True)
+    assert done.stdout.strip() == f"{impact.model} {impact.choice.reason}", done.stderr
 
 
 def test_the_common_velocity_is_that_of_the_model_taken():
@@ -648,14 +648,14 @@ def test_the_work_on_each_vehicle_is_that_of_the_model_taken():
 
 
 def test_a_choice_is_no_tolerance():
-    """Made for other inputs it may lack what these need; only an answer that is asked again takes its own."""
+    """Made for other inputs it may lack what these need; only an answer that is solved again takes its own."""
     a, b = col.Vehicle(mass=1500.0, vx=10.0, x=-2.0, y=0.4), col.Vehicle(mass=1200.0, x=2.0, y=0.0)
     contact = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.4), "friction": 0.0}
     choice = col.required_model(a, b, **contact, tolerance=0.1)
     assert choice.missing["eccentric"]
-    for ask in (col.solve, col.required_model):
+    for call in (col.solve, col.required_model):
         with pytest.raises(col.InputError, match="tolerance must be a number"):
-            ask(a, b, **contact, tolerance=choice)
+            call(a, b, **contact, tolerance=choice)
 
 
 @pytest.mark.parametrize("inertia", [500.0, 2400.0, 1e4])
@@ -704,7 +704,7 @@ def test_masses_that_only_turn_have_no_central_answer(speed):
 
 @pytest.mark.parametrize("speeds", [-5.0, np.array([-5.0, -6.0])], ids=["one case", "a batch"])
 def test_bodies_that_part_are_refused_beside_a_pivot_too(speeds):
-    """Whatever is missing; one case that approaches asks for it."""
+    """Whatever is missing; one case that approaches needs it."""
     a = col.Vehicle(mass=1000.0, vx=speeds, yaw_inertia=2000.0, x=-2.0, y=0.0)
     post = col.Vehicle(mass=1000.0, x=2.0, y=0.0, pivot=(2.0, 1.0))
     scene = {"restitution": 0.2, "normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "tolerance": 0.1}

@@ -125,7 +125,7 @@ def car(**given):
 
 
 # The file keeps three digits.
-KEPT = 0.006
+THREE_DIGITS = 0.006
 
 
 def test_errors_over_the_lever_are_those_of_the_solvers(committed):
@@ -141,24 +141,24 @@ def test_errors_over_the_lever_are_those_of_the_solvers(committed):
         )
         full = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0)
         off = math.hypot(full.b.delta_vx - cheap.b.delta_vx, gyration * full.b.delta_yaw_rate)
-        assert error == pytest.approx(off, rel=KEPT, abs=1e-12)
-        assert share == pytest.approx(off / full.b.delta_v, rel=KEPT, abs=1e-12)
-        assert alone == pytest.approx(0.5 * x * x, rel=KEPT, abs=1e-12)
-        assert predicted == pytest.approx(error, rel=KEPT, abs=1e-12)
+        assert error == pytest.approx(off, rel=THREE_DIGITS, abs=1e-12)
+        assert share == pytest.approx(off / full.b.delta_v, rel=THREE_DIGITS, abs=1e-12)
+        assert alone == pytest.approx(0.5 * x * x, rel=THREE_DIGITS, abs=1e-12)
+        assert predicted == pytest.approx(error, rel=THREE_DIGITS, abs=1e-12)
 
 
 def test_errors_over_the_angle_are_those_of_the_solvers(committed):
     """Ignored, the angle costs 1/cos - 1; friction left out costs what the friction impulse is of the whole."""
     curves = {curve["key"]: curve for curve in committed[0]["errors"]["angles"]}
     for angle, share in zip(curves["ignored"]["x"], curves["ignored"]["share"], strict=True):
-        assert share == pytest.approx(1.0 / math.cos(math.radians(angle)) - 1.0, rel=KEPT, abs=1e-12)
+        assert share == pytest.approx(1.0 / math.cos(math.radians(angle)) - 1.0, rel=THREE_DIGITS, abs=1e-12)
     for friction in (0.1, 0.5):
         curve = curves[f"linear_{friction}"]
         for angle, share, predicted, error in zip(*(curve[name] for name in ("x", "share", "predicted", "error")), strict=True):
             a = car(vx=15.0, vy=15.0 * math.tan(math.radians(angle)))
             full = col.oblique_central(a, car(), 0.1, normal=0.0, friction=friction)
-            assert share == pytest.approx(abs(full.b.delta_vy) / full.b.delta_v, rel=KEPT, abs=1e-12)
-            assert predicted == pytest.approx(error, rel=KEPT, abs=1e-12)
+            assert share == pytest.approx(abs(full.b.delta_vy) / full.b.delta_v, rel=THREE_DIGITS, abs=1e-12)
+            assert predicted == pytest.approx(error, rel=THREE_DIGITS, abs=1e-12)
 
 
 def test_every_prediction_is_the_error_made(committed):
@@ -167,7 +167,7 @@ def test_every_prediction_is_the_error_made(committed):
         for curve in committed[0]["errors"][group]:
             assert (curve["predicted"] is None) == (curve["key"] == "ignored")
             if curve["predicted"] is not None:
-                assert curve["predicted"] == pytest.approx(curve["error"], rel=KEPT, abs=1e-12), curve["key"]
+                assert curve["predicted"] == pytest.approx(curve["error"], rel=THREE_DIGITS, abs=1e-12), curve["key"]
 
 
 def test_errors_of_the_choices_are_found_again(committed):
@@ -185,7 +185,7 @@ def test_errors_of_the_choices_are_found_again(committed):
             continue
         assert errors.keys() == again[key].keys()
         for name, value in errors.items():
-            assert value == pytest.approx(again[key][name], rel=0.2 if key in rounding else KEPT), (key, name)
+            assert value == pytest.approx(again[key][name], rel=0.2 if key in rounding else THREE_DIGITS), (key, name)
 
 
 def test_both_formulas_in_64_bits_are_measured_alike(committed):
@@ -202,8 +202,8 @@ def test_the_other_law_is_compared_where_it_sticks(committed):
     assert law["mean"] * law["sticking"] == pytest.approx(0.00515, rel=0.02)
 
 
-def test_memory_of_a_batch_is_told(tables, committed):
-    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of a stretch of 16384 cases."""
+def test_memory_of_a_batch_is_stated(tables, committed):
+    """All work in blocks: a whole array of a million cases is 7.6 MiB, and left_out has some 150 of a block of 16384 cases."""
     taken = committed[0]["memory"]
     assert taken["eccentric"] < 8.0
     assert taken["solve"] < 8.0

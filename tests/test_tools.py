@@ -245,7 +245,7 @@ def test_eight_threads_find_the_same_bits(threads):
 
 
 def test_one_answer_may_be_read_in_eight_threads():
-    """What is worked out when first asked for is the same for all who ask at once."""
+    """What is worked out when first read is the same for all who read at once."""
     names = ("regime", "kind", "impulse_ratio", "a.after.speed", "b.pdof", "a.delta_v", "energy_absorbed", "q.b.delta_v")
     for _ in range(20):
         impact = col.eccentric(MANY, B.replace(heading=0.0), 0.1, on_failure="nan", **SCENE)
@@ -509,11 +509,11 @@ def test_a_refused_answer_of_a_reverse_solver_is_read_back(loss):
     assert strict(again) == record
 
 
-def silent(ask):
+def silent(call):
     """The answer, without the warnings about its inputs."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.CollisionsWarning)
-        return ask()
+        return call()
 
 
 def test_each_input_stands_in_a_record_once_as_it_was_given():

@@ -59,9 +59,9 @@ def test_a_quantity_is_written_alike(system):
 def test_units_are_checked_in_one_way(units):
     """The four that take ``units=`` refuse what is no system with one text and one code."""
     said = set()
-    for ask in (explain, report, diagnose, plot.energy):
+    for function in (explain, report, diagnose, plot.energy):
         with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us', got") as caught:
-            ask(IMPACT, units=units)
+            function(IMPACT, units=units)
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "units")
         said.add(str(caught.value))
     assert len(said) == 1

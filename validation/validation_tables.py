@@ -300,10 +300,10 @@ def headlines(found: dict[str, Any]) -> str:
     lines = [
         f"1. **Agreement with other people's solutions**: {one['cases']} cases, {one['figures']} figures. {one['within']} "
         f"agree to half a unit of their last printed digit, {one['sound'] - one['within']} differ by more for a reason "
-        f"that stands beside each, and {one['aside']} are misprints. {told(found['agreement'])}",
-        f"2. **Fits to measured tests**: {two['cases']} tests, {two['figures']} figures. Barrier tests: {told(found['fits'])} "
-        "With the tuned inputs of the other nine tests instead of its own, a test is missed by much more. "
-        f"{told(found['fits']['held_out'])}",
+        f"that stands beside each, and {one['aside']} are misprints. {both_of(found['agreement'])}",
+        f"2. **Fits to measured tests**: {two['cases']} tests, {two['figures']} figures. Barrier tests: "
+        f"{both_of(found['fits'])} With the tuned inputs of the other nine tests instead of its own, a test is missed by much "
+        f"more. {both_of(found['fits']['held_out'])}",
         f"3. **Untuned prediction against instruments**: {three['cases']} tests, {three['figures']} figures (some from the "
         f"same readings), of which {three['aside']} are doubtful. Delta-V from the closing speed, {guess['figures']} readings: "
         f"{spread(guess)}.",
@@ -316,7 +316,7 @@ def spread(entry: dict[str, Any]) -> str:
     return f"bias {off(entry['bias'], '%')}, median {size(entry['median'], '%')}, worst {off(entry['worst'], '%')}"
 
 
-def told(cases: dict[str, Any]) -> str:
+def both_of(cases: dict[str, Any]) -> str:
     """Delta-V and yaw rate of a table in words."""
     return f"Delta-V {spread(of(cases, 'delta-V')['sound'])}; yaw rate {spread(of(cases, 'yaw rate')['sound'])}."
 

@@ -45,10 +45,10 @@ def attribute_table(kind, prefix=""):
 def names_table(module):
     """Every public name of a module, with the first sentence of what it says of itself; constants share a row."""
     constants = [name for name in module.__all__ if name.isupper()]
-    told = [(f"`{name}`", escaped(sentence(getattr(module, name)))) for name in module.__all__ if name not in constants]
+    listed = [(f"`{name}`", escaped(sentence(getattr(module, name)))) for name in module.__all__ if name not in constants]
     if constants:
-        told.append((", ".join(f"`{name}`" for name in constants), "published values, limits and constants"))
-    return f"**`from {module.__name__} import ...`**\n\n" + rows(("name", "what it is"), told)
+        listed.append((", ".join(f"`{name}`" for name in constants), "published values, limits and constants"))
+    return f"**`from {module.__name__} import ...`**\n\n" + rows(("name", "what it is"), listed)
 
 
 def add_unit(app, what, name, obj, options, lines):

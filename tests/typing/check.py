@@ -10,7 +10,7 @@ HERE = Path(__file__).parent
 FILES = sorted(path for path in HERE.glob("*.py") if path.name != Path(__file__).name)
 
 
-def asked(*command: str) -> str:
+def output_of(*command: str) -> str:
     """What a checker prints; a checker that fails itself prints nothing that can be read below."""
     run = subprocess.run([sys.executable, "-m", *command], cwd=HERE.parents[1], capture_output=True, text=True, check=False)
     if run.returncode not in (0, 1):
@@ -20,13 +20,13 @@ def asked(*command: str) -> str:
 
 def of_mypy() -> dict[tuple[str, int], str]:
     """What ``mypy --strict`` says of each line."""
-    found = re.findall(r"^(.+?):(\d+): error: (.*)$", asked("mypy", "--strict", *map(str, FILES)), re.MULTILINE)
+    found = re.findall(r"^(.+?):(\d+): error: (.*)$", output_of("mypy", "--strict", *map(str, FILES)), re.MULTILINE)
     return {(Path(path).name, int(line)): text for path, line, text in found}
 
 
 def of_pyright() -> dict[tuple[str, int], str]:
     """What pyright says of each line; files ask for its strict mode themselves."""
-    report = json.loads(asked("pyright", "--outputjson", "--pythonpath", sys.executable, *map(str, FILES)))
+    report = json.loads(output_of("pyright", "--outputjson", "--pythonpath", sys.executable, *map(str, FILES)))
     errors = (note for note in report["generalDiagnostics"] if note["severity"] == "error")
     return {(Path(note["file"]).name, note["range"]["start"]["line"] + 1): note["message"] for note in errors}
 
