@@ -22,8 +22,8 @@ from collisions.uncertainty import (
     Samples,
     Triangular,
     Uniform,
-    kept,
     normal,
+    normal_family,
 )
 from collisions.uncertainty.distributions import read_input
 from collisions.units import si_unit
@@ -153,7 +153,7 @@ def test_score_of_a_coverage(coverage):
 
 def test_the_rule_of_quadrature():
     """Nodes are the zeros of the Legendre polynomial of degree 12, weights those of the textbook, each to the last digit."""
-    for x, weight in zip(kept._POSITIVE, kept._WEIGHTS, strict=True):
+    for x, weight in zip(normal_family._POSITIVE, normal_family._WEIGHTS, strict=True):
         zero = mp.findroot(lambda y: mp.legendre(12, y), mp.mpf(x))
         assert float(zero) == x
         assert float(2 * (1 - zero**2) / (12 * mp.legendre(11, zero)) ** 2) == weight

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import FrozenInstanceError
-from typing import Any, Self
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -17,25 +17,20 @@ from .normal import both_tails
 
 
 class Stated:
-    """Base of what can be stated about a quantity: a frozen value made of SI numbers and the unit they are in."""
+    """Base of what can be stated about a quantity: a frozen value made of SI numbers and the unit they are in.
 
-    __slots__ = ("unit",)
+    ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and sets all else.
+    """
+
+    __slots__ = ("_parts", "unit")
 
     unit: str
+    _parts: dict[str, Any]
+    _derive: Callable[..., None]
 
-    @classmethod
-    def _of(cls, unit: str, *parts: Any) -> Self:
-        """One made of SI numbers, past the reader."""
-        made: Self = object.__new__(cls)
-        made._make(unit, *parts)
-        return made
-
-    def _make(self, unit: str, *parts: Any) -> None:
-        raise NotImplementedError
-
-    def _parts(self) -> dict[str, Any]:
-        """What it was made of, by the names of the arguments."""
-        raise NotImplementedError
+    def _make(self, unit: str, **parts: Any) -> None:
+        self._set(unit=unit, _parts=parts)
+        self._derive(**parts)
 
     def _set(self, **values: Any) -> None:
         for name, value in values.items():
@@ -50,16 +45,16 @@ class Stated:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return self.unit == other.unit and self._parts() == other._parts()
+        return self.unit == other.unit and self._parts == other._parts
 
     def __hash__(self) -> int:
-        return hash((type(self), self.unit, *self._parts().values()))
+        return hash((type(self), self.unit, *self._parts.values()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), self.unit, *self._parts().values())
+        return from_numbers, (type(self), self.unit, self._parts)
 
     def __repr__(self) -> str:
-        shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts().items() if part is not None)
+        shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts.items() if part is not None)
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
@@ -130,7 +125,7 @@ class Distribution(Stated):
             A score that is NaN, or no number.
         """
         reader = ArgumentReader()
-        z = _bare(reader, z, "z")
+        z = _plain_number(reader, z, "z")
         reader.close()
         if np.any(np.isnan(z)):
             raise InputError("z must be a number, got NaN", code="not_finite", argument="z")
@@ -148,30 +143,34 @@ class Distribution(Stated):
         if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
             raise self._too_large()
         if not sd > 0.0:
-            raise InputError(
-                f"{type(self).__name__}: its deviation is too small for a float64; look for a wrong unit or a slipped digit",
-                code="out_of_range",
-                argument=next(iter(self._parts())),
-            )
+            raise self._beyond_floats("its deviation is too small")
         self._set(mean=mean, sd=sd, skewness=skewness, kurtosis=kurtosis, support=support)
 
     def _too_large(self) -> InputError:
+        return self._beyond_floats("its mean, its deviation or their ratio is too large")
+
+    def _beyond_floats(self, what: str) -> InputError:
         return InputError(
-            f"{type(self).__name__}: its mean, its deviation or their ratio is too large for a float64; look for a wrong unit "
-            f"or a slipped digit",
+            f"{type(self).__name__}: {what} for a float64; look for a wrong unit or a slipped digit",
             code="out_of_range",
-            argument=next(iter(self._parts())),
+            argument=next(iter(self._parts)),
         )
 
 
-def _again(kind: type[Stated], unit: str, *parts: Any) -> Stated:
-    return kind._of(unit, *parts)
+T = TypeVar("T", bound=Stated)
+
+
+def from_numbers(kind: type[T], unit: str, parts: Mapping[str, Any]) -> T:
+    """One made of SI numbers, which are not read again."""
+    made = object.__new__(kind)
+    made._make(unit, **parts)
+    return made
 
 
 def probability(given: Any, argument: str = "p") -> Any:
     """A probability, or an array of them, as float64; a text or a Quantity is none."""
     reader = ArgumentReader()
-    found = _bare(reader, given, argument)
+    found = _plain_number(reader, given, argument)
     if reader.problems or not np.all((found >= 0.0) & (found <= 1.0)):
         raise InputError(
             f"{argument} must be a probability from 0 to 1, got {shown(given)}", code="bad_fraction", argument=argument
@@ -179,7 +178,7 @@ def probability(given: Any, argument: str = "p") -> Any:
     return found
 
 
-def _bare(reader: ArgumentReader, given: Any, argument: str) -> Any:
+def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """A float64 or an array of them, from what has no unit."""
     if isinstance(given, str) or is_quantity(given):
         return reader.refuse(
@@ -207,7 +206,9 @@ def read_alike(
     given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
     measured = [name for name, value in given.items() if has_unit(value)]
     unit = si_unit(given[measured[0]], measured[0]) if measured else ""
-    bare = [name for name, value in given.items() if name not in measured and not _is_zero(value)]
+    # 0 is the same in every unit.
+    zeros = [name for name, value in given.items() if (isinstance(value, float) or is_whole(value)) and value == 0]
+    bare = [name for name in given if name not in measured and name not in zeros]
     if measured and bare:
         raise UnitsError(
             f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = {shown(given[measured[0]])} has one; "
@@ -230,23 +231,18 @@ def read_alike(
     return [numbers.get(name) for name in (*needed, *optional)], unit
 
 
-def _is_zero(value: Any) -> bool:
-    """0 is the same in every unit."""
-    return (isinstance(value, float) or is_whole(value)) and bool(value == 0)
-
-
 def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:
     """Refuses a range without width; of angles with a hint how to go on across the end of a turn."""
     if low < high:
         return
-    told, hint = f"{low:.6g} and {high:.6g}", "of a quantity that is known exactly give the number itself"
+    shown_ends, hint = f"{low:.6g} and {high:.6g}", "of a quantity that is known exactly give the number itself"
     start, end = math.degrees(low), math.degrees(high)
     if unit == "rad" and high < low:
-        told += f" rad ({start:.6g} and {end:.6g} deg)"
+        shown_ends += f" rad ({start:.6g} and {end:.6g} deg)"
         onwards = (end - start) % 360.0
         if 0.0 < onwards < 180.0:
             hint = (
                 f"an angle that goes on across the end of the turn is counted on: write '{start:.6g} deg' and "
                 f"'{start + onwards:.6g} deg'"
             )
-    raise InputError(f"{what} must be in rising order, got {told}; {hint}", code="bad_range", argument="low")
+    raise InputError(f"{what} must be in rising order, got {shown_ends}; {hint}", code="bad_range", argument="low")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from numbers import Number
 from typing import Any
@@ -11,11 +12,12 @@ import numpy as np
 
 from ..errors import InputError, ShapeError, UnitsError
 from ..kernels.elementwise import UNCHECKED
+from ..quantities import lock
 from ..reading import ArgumentReader
 from ..units import Input, is_quantity, si_unit
-from .distribution import Distribution, Stated, check_order, read_alike
+from .distribution import Distribution, Stated, check_order, from_numbers, read_alike, show
+from .normal import power_of_two
 from .normal_family import LogNormal, Normal
-from .samples import Samples
 
 __all__ = ["Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform", "read_input"]
 
@@ -47,16 +49,11 @@ class Uniform(Distribution):
 
     def __init__(self, low: Input, high: Input) -> None:
         (start, end), unit = read_alike({"low": low, "high": high})
-        self._make(unit, start, end)
+        self._make(unit, low=start, high=end)
 
-    def _make(self, unit: str, *parts: Any) -> None:
-        low, high = parts
-        check_order(low, high, unit=unit)
-        self._set(unit=unit, support=(low, high))
+    def _derive(self, low: float, high: float) -> None:
+        check_order(low, high, unit=self.unit)
         self._describe(0.5 * low + 0.5 * high, (high - low) / math.sqrt(12.0), 0.0, 1.8, (low, high))
-
-    def _parts(self) -> dict[str, Any]:
-        return {"low": self.support[0], "high": self.support[1]}
 
     def _at(self, below: Any, above: Any) -> Any:
         low, high = self.support
@@ -91,16 +88,15 @@ class Triangular(Distribution):
 
     def __init__(self, low: Input, mode: Input, high: Input) -> None:
         (start, middle, end), unit = read_alike({"low": low, "mode": mode, "high": high})
-        self._make(unit, start, middle, end)
+        self._make(unit, low=start, mode=middle, high=end)
 
-    def _make(self, unit: str, *parts: Any) -> None:
-        low, mode, high = parts
-        check_order(low, high, unit=unit)
+    def _derive(self, low: float, mode: float, high: float) -> None:
+        check_order(low, high, unit=self.unit)
         if not low <= mode <= high:
             raise InputError(
                 f"mode must be from low to high, {low:.6g} to {high:.6g}, got {mode:.6g}", code="bad_range", argument="mode"
             )
-        self._set(unit=unit, mode=mode, support=(low, high))
+        self._set(mode=mode)
         width = high - low
         if math.isinf(width):
             raise self._too_large()
@@ -109,9 +105,6 @@ class Triangular(Distribution):
         skewness = (right - left) * (2.0 * left + right) * (left + 2.0 * right) / (270.0 * square * math.sqrt(square))
         self._describe(low + width * (1.0 + left) / 3.0, width * math.sqrt(square), skewness, 2.4, (low, high))
 
-    def _parts(self) -> dict[str, Any]:
-        return {"low": self.support[0], "mode": self.mode, "high": self.support[1]}
-
     def _at(self, below: Any, above: Any) -> Any:
         low, high = self.support
         width = high - low
@@ -119,6 +112,140 @@ class Triangular(Distribution):
         rising, falling = low + width * np.sqrt(left * below), high - width * np.sqrt(right * above)
         value = np.clip(_chosen(below <= left, rising, falling), low, high)
         return value if isinstance(below, np.ndarray) else float(value)
+
+
+class Samples(Distribution):
+    """A quantity known from values that were measured or drawn elsewhere, each as likely as the others.
+
+    The empirical distribution: nothing is put between the values or beyond them. ``sd`` is that of the values themselves,
+    with their number as the divisor, not an estimate of that of a population they came from.
+
+    Parameters
+    ----------
+    values : array, sequence or Quantity
+        At least two values that are not all the same; SI, or one Quantity with its unit.
+
+    Attributes
+    ----------
+    rows : array
+        The values in the given order [SI], locked.
+    group : str or None
+        What those have in common that are drawn together; None when drawn alone.
+
+    Raises
+    ------
+    InputError
+        Values that are too few, all the same, or not finite.
+
+    Examples
+    --------
+    Drag factors of four skid tests.
+
+    >>> drag = Samples([0.68, 0.71, 0.74, 0.71])
+    >>> drag
+    Samples(4 values, mean=0.71, sd=0.02121)
+    >>> drag.quantile(0.9)
+    0.74
+    """
+
+    __slots__ = ("_sorted", "group", "rows")
+
+    rows: Any
+    group: str | None
+    _sorted: Any
+
+    def __init__(self, values: Any) -> None:
+        (rows,), unit = read_alike({"values": values}, arrays=True)
+        self._make(unit, rows=_checked(rows, "values"), group=None)
+
+    @classmethod
+    def joint(cls, /, **values: Any) -> dict[str, Samples]:
+        """Quantities that were measured together: a draw takes the same row of each, so that what binds them is kept.
+
+        Parameters
+        ----------
+        **values : array, sequence or Quantity
+            One column for each input; all of one length. Each has a unit of its own.
+
+        Returns
+        -------
+        dict
+            The Samples by name, to be given to ``propagate`` as they are.
+
+        Raises
+        ------
+        ShapeError
+            Columns that are not of one length.
+
+        Examples
+        --------
+        >>> tests = Samples.joint(drag=[0.68, 0.71, 0.74], speed=[14.9, 15.2, 15.1])
+        >>> tests["drag"].group == tests["speed"].group
+        True
+        """
+        columns = {name: read_alike({name: column}, arrays=True) for name, column in values.items()}
+        lengths = {name: np.size(column) for name, ((column,), _) in columns.items()}
+        if not columns or len(set(lengths.values())) > 1:
+            listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
+            raise ShapeError(
+                f"joint needs columns of one length, one value of each in a row; got {listed or 'none'}", code="bad_shape"
+            )
+        group = os.urandom(8).hex() if len(columns) > 1 else None
+        return {
+            name: from_numbers(cls, unit, {"rows": _checked(column, name), "group": group})
+            for name, ((column,), unit) in columns.items()
+        }
+
+    def _derive(self, rows: Any, group: str | None) -> None:
+        ordered = lock(np.sort(rows))
+        self._set(rows=lock(rows), group=group, _sorted=ordered)
+        with np.errstate(over="ignore", invalid="ignore"):
+            away = rows - rows[0]
+            scale = power_of_two(away)
+            away /= scale
+            mean = float(np.mean(away))
+            away -= mean
+            sd = float(np.sqrt(np.mean(away**2)))
+            away /= sd
+            moments = float(rows[0]) + scale * mean, scale * sd, float(np.mean(away**3)), float(np.mean(away**4))
+        self._describe(*moments, support=(float(ordered[0]), float(ordered[-1])))
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self.unit == other.unit and self.group == other.group and np.array_equal(self.rows, other.rows)
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.unit, self.group, self.rows.tobytes()))
+
+    def __repr__(self) -> str:
+        joint = ", joint" if self.group is not None else ""
+        return f"Samples({self.rows.size} values, mean={show(self.mean, self.unit)}, sd={show(self.sd, self.unit)}{joint})"
+
+    def _at(self, below: Any, above: Any) -> Any:
+        places = np.minimum(np.floor(np.asarray(below) * self.rows.size).astype(np.intp), self.rows.size - 1)
+        found = self._sorted[places]
+        return found if isinstance(below, np.ndarray) else float(found)
+
+
+def _checked(rows: Any, argument: str) -> Any:
+    """A fresh row of finite values that are not all the same."""
+    if rows.ndim != 1:
+        raise ShapeError(f"{argument} must be one row of values, got shape {rows.shape}", code="bad_shape", argument=argument)
+    if not np.all(np.isfinite(rows)):
+        raise InputError(
+            f"{argument}: value {int(np.argmin(np.isfinite(rows)))} is not a finite number; leave out what was not measured",
+            code="not_finite",
+            argument=argument,
+        )
+    if rows.size < 2 or rows.min() == rows.max():
+        raise InputError(
+            f"{argument} must hold at least two different values, got {rows.size}{' that are all the same' * (rows.size > 1)}; "
+            f"of a quantity that is known exactly give the number itself",
+            code="no_spread",
+            argument=argument,
+        )
+    return rows.astype(np.float64)
 
 
 class Interval(Stated):
@@ -158,15 +285,11 @@ class Interval(Stated):
 
     def __init__(self, low: Input, high: Input) -> None:
         (start, end), unit = read_alike({"low": low, "high": high})
-        self._make(unit, start, end)
+        self._make(unit, low=start, high=end)
 
-    def _make(self, unit: str, *parts: Any) -> None:
-        low, high = parts
-        check_order(low, high, unit=unit)
-        self._set(unit=unit, low=low, high=high)
-
-    def _parts(self) -> dict[str, Any]:
-        return {"low": self.low, "high": self.high}
+    def _derive(self, low: float, high: float) -> None:
+        check_order(low, high, unit=self.unit)
+        self._set(low=low, high=high)
 
 
 def read_input(name: str, value: Any) -> Any:

@@ -1,71 +1,125 @@
-"""Bell-shaped inputs: a normal distribution of a quantity or of its logarithm, of which a truncation keeps a part."""
+"""Normal and lognormal inputs, whole or truncated.
+
+What a truncation leaves is counted from an anchor, the most likely of the values left, in standard deviations of the whole.
+From there the density falls as exp(-t (t + 2 m) / 2), m the score of the anchor, which neither underflows nor cancels however
+far out in a tail, or however narrow, the range is. The moments are integrals of this density over the range by Gauss-Legendre
+quadrature, whose terms all have one sign; the closed forms are differences of nearly equal numbers there.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
 from ..errors import InputError, ShapeError
 from ..reading import ArgumentReader
 from ..units import Input, shown
-from .distribution import Distribution, check_order, read_alike, show
-from .kept import Moments, kept_score, moments
-from .normal import cdf, quantile, score_of_coverage, survival
+from .distribution import Distribution, check_order, from_numbers, read_alike, show
+from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
-_LEAST_KEPT = 1e-12
-_FARTHEST = 8.0  # less than the least share is kept beyond this many standard deviations
+# Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from eigenvalues, which leaves the
+# weights 40 roundings off and the last digits to the machine.
+_POSITIVE = (
+    0.9815606342467192, 0.9041172563704749, 0.7699026741943047, 0.5873179542866175, 0.3678314989981802, 0.1252334085114689,
+)  # fmt: skip
+_WEIGHTS = (
+    0.04717533638651183, 0.10693932599531843, 0.16007832854334622, 0.20316742672306592, 0.2334925365383548, 0.24914704581340277,
+)  # fmt: skip
+_NODES = np.array((*_POSITIVE, *(-x for x in _POSITIVE)))
+_PANELS = 2.0  # to a standard deviation
+_NEGLIGIBLE = 55.0  # beyond exp(-55) of its peak an integrand is nothing beside 1e-16
+_LEAST_SHARE = 1e-12  # of the probability, that a truncation must leave
+_FARTHEST = 8.0  # less than the least share is left beyond this many standard deviations
 _UNNOTICED = 1e-40  # a share lost beyond 13 standard deviations shifts nothing by as much as rounding does
 
-Bounds = tuple[Input | None, Input | None]
+Truncation = tuple[Input | None, Input | None]
 
 
-class Bell(Distribution):
+class NormalFamily(Distribution):
     """Base of what is normal on some scale: ``given_mean`` and ``given_sd`` are those before truncation."""
 
-    __slots__ = ("_lost", "given_mean", "given_sd", "truncate")
+    __slots__ = ("_split", "given_mean", "given_sd", "truncate")
 
     given_mean: float
     given_sd: float
     truncate: tuple[float | None, float | None] | None
-    _lost: tuple[float, float, float] | None
+    # Of the probability before truncation: below the lower bound, between both, and above the upper one.
+    _split: tuple[float, float, float] | None
 
-    def __init__(self, mean: Input, sd: Input, *, truncate: Bounds | None = None) -> None:
-        (given_mean, given_sd, *bounds), unit = read_alike({"mean": mean, "sd": sd}, parts_of(truncate))
-        self._make(unit, given_mean, given_sd, tuple(bounds))
+    def __init__(self, mean: Input, sd: Input, *, truncate: Truncation | None = None) -> None:
+        (given_mean, given_sd, *bounds), unit = read_alike({"mean": mean, "sd": sd}, _named_bounds(truncate))
+        self._make(unit, mean=given_mean, sd=given_sd, truncate=_pair(bounds))
 
-    def _make(self, unit: str, *parts: Any) -> None:
-        mean, sd, truncate = parts
+    @classmethod
+    def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
+        """The distribution of this kind that has a share of its probability between two values, and as much below as above.
+
+        Parameters
+        ----------
+        low, high : float, str or Quantity
+            The range, such as that of a published table; for a lognormal distribution above 0.
+        coverage : float [1]
+            Share of the probability inside, between 0 and 1, before truncation.
+        truncate : tuple (low, high), optional
+            What is physically possible, applied to the distribution found.
+
+        Raises
+        ------
+        InputError
+            A coverage not between 0 and 1, or a range that is not in order, or of a lognormal distribution not above 0.
+
+        Examples
+        --------
+        A drag factor that is said to lie between 0.65 and 0.85 in nineteen cases of twenty.
+
+        >>> Normal.between(0.65, 0.85, 0.95)
+        Normal(mean=0.75, sd=0.05102)
+        >>> round(LogNormal.between("0.5 s", "2 s", 0.9).quantile(0.95), 12)
+        2.0
+        """
+        (start, end, *bounds), unit = read_alike({"low": low, "high": high}, _named_bounds(truncate))
+        reader = ArgumentReader()
+        share = reader.number(coverage, "", "coverage")
+        reader.close()
+        if not isinstance(share, float) or not 0.0 < share < 1.0:
+            raise InputError(
+                f"coverage must be more than 0 and less than 1, such as 0.95, got {shown(coverage)}; a range that cannot be "
+                f"left is Uniform(low, high), or Interval(low, high) where nothing is known of likelihood",
+                code="bad_fraction",
+                argument="coverage",
+            )
+        check_order(start, end, unit=unit)
+        mean, sd = cls._spanning(start, end, score_of_coverage(share))
+        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": _pair(bounds)})
+
+    def _derive(self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None) -> None:
         if not sd > 0.0:
             raise InputError(
-                f"sd must be > 0, got {show(sd, unit)}; of a quantity that is known exactly give the number itself",
+                f"sd must be > 0, got {show(sd, self.unit)}; of a quantity that is known exactly give the number itself",
                 code="not_positive",
                 argument="sd",
             )
-        bounds = None if truncate is None or truncate == (None, None) else truncate
-        self._set(unit=unit, given_mean=mean, given_sd=sd, truncate=bounds, _lost=None)
+        self._set(given_mean=mean, given_sd=sd, truncate=truncate, _split=None)
         self._describe(*self._whole())
-        if bounds is not None:
-            low, high = (-math.inf if bounds[0] is None else bounds[0]), (math.inf if bounds[1] is None else bounds[1])
-            check_order(low, high, "the bounds of truncate", unit)
+        if truncate is not None:
+            low, high = (-math.inf if truncate[0] is None else truncate[0]), (math.inf if truncate[1] is None else truncate[1])
+            check_order(low, high, "the bounds of truncate", self.unit)
             self._truncate(max(low, self.support[0]), min(high, self.support[1]))
 
-    def _parts(self) -> dict[str, Any]:
-        return {"mean": self.given_mean, "sd": self.given_sd, "truncate": self.truncate}
-
     def _truncate(self, low: float, high: float) -> None:
-        """Keeps what lies between two bounds, if enough does."""
+        """Leaves what lies between two bounds, if that is enough."""
         steepness = self._steepness
         anchor = min(max(self._value(0.0), low), high)
-        kept = None
+        left = None
         if low < high and abs(score := self._score(anchor)) <= _FARTHEST:
             start, end = self._between(anchor, low), self._between(anchor, high)
-            if end - start >= _LEAST_KEPT:
-                kept = moments(score, start, end, steepness)
-        if kept is None or kept.share < _LEAST_KEPT:
+            if end - start >= _LEAST_SHARE:
+                left = moments(score, start, end, steepness)
+        if left is None or left.share < _LEAST_SHARE:
             raise InputError(
-                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_KEPT:g} of the probability of "
+                f"truncate={show(self.truncate, self.unit)} leaves less than {_LEAST_SHARE:g} of the probability of "
                 f"{type(self).__name__}(mean={show(self.given_mean, self.unit)}, sd={show(self.given_sd, self.unit)}); "
                 f"look for a wrong bound, or state what is known otherwise, for example by Uniform(low, high)",
                 code="truncated_away",
@@ -76,13 +130,18 @@ class Bell(Distribution):
         if cdf(start) + survival(end - 4.0 * steepness) < _UNNOTICED:
             self._set(support=(low, high))
             return
-        self._set(_lost=(cdf(start), kept.share, survival(end)))
-        self._describe(*self._moved(anchor, kept), kept.skewness, kept.kurtosis, (low, high))
+        self._set(_split=(cdf(start), left.share, survival(end)))
+        self._describe(*self._moved(anchor, left), left.skewness, left.kurtosis, (low, high))
 
     @property
     def _steepness(self) -> float:
         """Growth of the logarithm of the quantity with the score; 0 where the quantity itself grows with it."""
         return 0.0
+
+    @staticmethod
+    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
+        """Mean and standard deviation of the whole whose scores at two values are these, minus and plus."""
+        raise NotImplementedError
 
     def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
         """Moments and support before truncation."""
@@ -100,16 +159,26 @@ class Bell(Distribution):
         """The difference of the scores of two values."""
         raise NotImplementedError
 
-    def _moved(self, anchor: float, kept: Moments) -> tuple[float, float]:
-        """Mean and standard deviation of what is kept, from those about the anchor."""
+    def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
+        """Mean and standard deviation of what is left, from those about the anchor."""
         raise NotImplementedError
 
     def _scored(self, z: Any) -> Any:
-        return self._inside(self._value(z)) if self._lost is None else super()._scored(z)
+        return self._inside(self._value(z)) if self._split is None else super()._scored(z)
 
     def _at(self, below: Any, above: Any) -> Any:
-        score = quantile(below) if self._lost is None else kept_score(below, above, *self._lost)
-        return self._inside(self._value(score))
+        return self._inside(self._value(self._score_at(below, above)))
+
+    def _score_at(self, below: Any, above: Any) -> Any:
+        """The score before truncation; the smaller side decides, so that nothing is lost near either end."""
+        if self._split is None:
+            return quantile(below)
+        lost_below, share, lost_above = self._split
+        lower, upper = lost_below + below * share, lost_above + above * share
+        if not isinstance(lower, np.ndarray):
+            return quantile(lower) if lower <= upper else -quantile(upper)
+        score = quantile(np.minimum(lower, upper))
+        return np.where(lower <= upper, score, -score)
 
     def _inside(self, value: Any) -> Any:
         """The value, held inside bounds that rounding may have crossed."""
@@ -119,7 +188,7 @@ class Bell(Distribution):
         return np.clip(value, low, high) if isinstance(value, np.ndarray) else min(max(value, low), high)
 
 
-class Normal(Bell):
+class Normal(NormalFamily):
     """A quantity whose errors are many, small and independent: a normal distribution, cut off at what is possible.
 
     Parameters
@@ -148,34 +217,9 @@ class Normal(Bell):
 
     __slots__ = ()
 
-    @classmethod
-    def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Bounds | None = None) -> Normal:
-        """The normal distribution that has this share of its probability between two values, and as much below as above.
-
-        Parameters
-        ----------
-        low, high : float, str or Quantity
-            The range, such as that of a published table.
-        coverage : float [1]
-            Share of the probability inside, between 0 and 1, before truncation.
-        truncate : tuple (low, high), optional
-            What is physically possible, applied to the distribution found.
-
-        Raises
-        ------
-        InputError
-            A coverage that is not between 0 and 1, or a range that is not in order.
-
-        Examples
-        --------
-        A drag factor that is said to lie between 0.65 and 0.85 in nineteen cases of twenty.
-
-        >>> Normal.between(0.65, 0.85, 0.95)
-        Normal(mean=0.75, sd=0.05102)
-        """
-        (start, end, *bounds), share, unit = read_range(low, high, coverage, truncate)
-        mean, half = 0.5 * start + 0.5 * end, 0.5 * end - 0.5 * start
-        return cls._of(unit, mean, half / score_of_coverage(share), tuple(bounds))
+    @staticmethod
+    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
+        return 0.5 * low + 0.5 * high, (0.5 * high - 0.5 * low) / score
 
     def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
         return self.given_mean, self.given_sd, 0.0, 3.0, (-math.inf, math.inf)
@@ -187,11 +231,11 @@ class Normal(Bell):
     def _between(self, start: float, end: float) -> float:
         return (end - start) / self.given_sd
 
-    def _moved(self, anchor: float, kept: Moments) -> tuple[float, float]:
-        return anchor + self.given_sd * kept.mean, self.given_sd * kept.sd
+    def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
+        return anchor + self.given_sd * left.mean, self.given_sd * left.sd
 
 
-class LogNormal(Bell):
+class LogNormal(NormalFamily):
     """A quantity that cannot be below 0 and errs by factors: its logarithm is normal.
 
     Parameters
@@ -222,36 +266,13 @@ class LogNormal(Bell):
     _median: float
     _scale: float
 
-    @classmethod
-    def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Bounds | None = None) -> LogNormal:
-        """The lognormal distribution that has this share of its probability between two values, and as much below as above.
-
-        Parameters
-        ----------
-        low, high : float, str or Quantity
-            The range; ``low`` > 0.
-        coverage : float [1]
-            Share of the probability inside, between 0 and 1, before truncation.
-        truncate : tuple (low, high), optional
-            What is physically possible, applied to the distribution found.
-
-        Raises
-        ------
-        InputError
-            A coverage that is not between 0 and 1, or a range that is not in order or not above 0.
-
-        Examples
-        --------
-        >>> round(LogNormal.between("0.5 s", "2 s", 0.9).quantile(0.95), 12)
-        2.0
-        """
-        (start, end, *bounds), share, unit = read_range(low, high, coverage, truncate)
-        _check_positive("low", start)
-        scale = 0.5 * (math.log(end) - math.log(start)) / score_of_coverage(share)
+    @staticmethod
+    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
+        _check_positive("low", low)
+        scale = 0.5 * (math.log(high) - math.log(low)) / score
         with np.errstate(over="ignore", invalid="ignore"):
-            mean = float(math.sqrt(start) * math.sqrt(end) * np.exp(0.5 * scale * scale))
-            sd = mean * float(np.sqrt(np.expm1(scale * scale)))
-        return cls._of(unit, mean, sd, tuple(bounds))
+            mean = float(math.sqrt(low) * math.sqrt(high) * np.exp(0.5 * scale * scale))
+            return mean, mean * float(np.sqrt(np.expm1(scale * scale)))
 
     def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
         mean, sd = self.given_mean, self.given_sd
@@ -284,14 +305,52 @@ class LogNormal(Bell):
         near = 0.5 * start <= end <= 2.0 * start
         return (math.log1p((end - start) / start) if near else math.log(end) - math.log(start)) / self._scale
 
-    def _moved(self, anchor: float, kept: Moments) -> tuple[float, float]:
-        return anchor * (1.0 + kept.mean), anchor * kept.sd
+    def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
+        return anchor * (1.0 + left.mean), anchor * left.sd
 
 
-def parts_of(truncate: Any) -> dict[str, Any]:
+class Moments(NamedTuple):
+    """The share of the probability that a truncation leaves, and the moments of what is left."""
+
+    share: float
+    mean: float
+    sd: float
+    skewness: float
+    kurtosis: float
+
+
+def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> Moments:
+    """Moments of t between low <= 0 and high >= 0 from the anchor's score, or of exp(steepness t) - 1 if steepness > 0."""
+    # The fourth power of exp(steepness t) has its peak this much further up.
+    tilt = 4.0 * steepness
+    start = max(low, -_fall(anchor))
+    end = min(high, max(0.0, tilt - anchor) + _fall(max(0.0, anchor - tilt)))
+    panels = max(1, math.ceil(max(_PANELS, steepness) * (end - start)))
+    half = 0.5 * (end - start) / panels
+    t = (start + half * (2.0 * np.arange(panels)[:, None] + 1.0 + _NODES)).reshape(-1)
+    weighted = np.tile(_WEIGHTS, 2 * panels) * (half * np.exp(-0.5 * t * (t + 2.0 * anchor)))
+    with np.errstate(all="ignore"):
+        value = np.expm1(steepness * t) if steepness else t
+        scale = power_of_two(value)
+        value = value / scale
+        total = float(np.sum(weighted))
+        mean = float(np.sum(weighted * value)) / total
+        away = value - mean
+        sd = math.sqrt(float(np.sum(weighted * away**2)) / total)
+        away /= sd
+        third, fourth = (float(np.sum(weighted * away**power)) / total for power in (3, 4))
+    return Moments(float(density(anchor)) * total, scale * mean, scale * sd, third, fourth)
+
+
+def _fall(score: float) -> float:
+    """How far from a score on, away from the centre, the density is more than negligible beside that at the score."""
+    return 2.0 * _NEGLIGIBLE / (math.sqrt(score * score + 2.0 * _NEGLIGIBLE) + abs(score))
+
+
+def _named_bounds(truncate: Any) -> dict[str, Any]:
     """Both bounds of a truncation by the names that messages call them."""
     if truncate is None:
-        return {"truncate[0]": None, "truncate[1]": None}
+        truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
         raise ShapeError(
             f"truncate must be a pair (low, high), where None leaves a side open, got {shown(truncate)}",
@@ -301,21 +360,9 @@ def parts_of(truncate: Any) -> dict[str, Any]:
     return {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}
 
 
-def read_range(low: Input, high: Input, coverage: Input, truncate: Bounds | None) -> tuple[list[Any], float, str]:
-    """A range, the bounds of a truncation, and the share of the probability that the range is to hold."""
-    numbers, unit = read_alike({"low": low, "high": high}, parts_of(truncate))
-    reader = ArgumentReader()
-    share = reader.number(coverage, "", "coverage")
-    reader.close()
-    if not isinstance(share, float) or not 0.0 < share < 1.0:
-        raise InputError(
-            f"coverage must be more than 0 and less than 1, such as 0.95, got {shown(coverage)}; a range that cannot be left "
-            f"is Uniform(low, high), or Interval(low, high) where nothing is known of likelihood",
-            code="bad_fraction",
-            argument="coverage",
-        )
-    check_order(numbers[0], numbers[1], unit=unit)
-    return numbers, share, unit
+def _pair(bounds: list[float | None]) -> tuple[float | None, ...] | None:
+    """Two bounds as they are stored: None where both sides are open."""
+    return None if bounds == [None, None] else tuple(bounds)
 
 
 def _check_positive(name: str, value: float) -> None:
