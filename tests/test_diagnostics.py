@@ -1210,6 +1210,25 @@ def test_all_wrong_arguments_are_named_at_once():
         assert name in str(caught.value)
 
 
+def test_what_a_vehicle_lacks_is_named_with_the_rest():
+    """Also of planar momentum, of which no outline can be placed; one line each."""
+    with pytest.raises(col.InputError, match="3 arguments cannot be used") as caught:
+        diagnose(square(b={"heading": None}), outline_b=(4.4, 1.8), damage_pdof_b=0.0, limits={"law": -1.0})
+    for text in ("which outline_b needs", "which damage_pdof_b needs", "limits['law'] must be >= 0"):
+        assert text in str(caught.value)
+    with pytest.raises(col.InputError, match="4 arguments cannot be used") as caught:
+        diagnose(balance(), outline_a=(4.4, 1.8), outline_b=(4.4, 1.8), duration=np.ones(2), drag=-1.0)
+    for text in ("outline_a needs positions", "outline_b needs positions", "duration takes one value", "drag must be >= 0"):
+        assert text in str(caught.value)
+
+
+def test_a_bare_duration_of_planar_momentum_is_suspected():
+    """As of an impact; one with a unit is not."""
+    with pytest.warns(col.SuspectUnitsWarning, match="duration = 80 is read as seconds"):
+        diagnose(balance(), duration=80)
+    diagnose(balance(), duration="80 s")
+
+
 def test_a_batch_and_a_refused_case_are_refused():
     """With what to do instead."""
     with pytest.raises(
