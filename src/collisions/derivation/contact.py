@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
-from ..vehicle import Vehicle
-from .expressions import HALF, Direction, Expression, magnitude, signed_total, total
+from .expressions import HALF, ZERO, Direction, Expression, magnitude, signed_total, total
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
 
@@ -152,48 +151,43 @@ def energy(page: Page, s: Symbols) -> None:
 
 def kinetic_energies(page: Page, s: Symbols) -> None:
     """The loss as the difference of the kinetic energies, where those are finite."""
-    states = [(body, when, _kinetic_energy(body.state(when))) for body in s.bodies for when in (BEFORE, AFTER)]
-    if any(math.isnan(value) for *_, value in states):
+    states = [(body, when, *_kinetic_energy(body, when)) for body in s.bodies for when in (BEFORE, AFTER)]
+    if any(math.isnan(value) for _, _, value, _ in states):
         page.say("A body turns whose yaw inertia is not known, and so its kinetic energy is not: (7) is no check here.")
         return
-    if any(math.isinf(value) for *_, value in states):
+    if any(math.isinf(value) for _, _, value, _ in states):
         page.say("A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is no check here.")
         return
     terms: list[tuple[float, Symbol]] = []
-    for body, when, value in states:
+    for body, when, value, formula in states:
         if body.fixed and not value:
             page.say(f"{body.label} has an infinite mass and rests {when}, so it has no kinetic energy.")
             continue
         sign, prime = (1.0, "") if when == BEFORE else (-1.0, "'")
         symbol = Symbol(f"T_{body.label}{prime}", value, "energy")
         terms.append((sign, symbol))
-        parts = _kinetic_terms(body, when)
-        if parts:
-            turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
-            page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, total(*parts))
-        else:
+        if formula is ZERO:
             page.say(f"{body.label} rests {when}: {page.shown(symbol)}.")
+        else:
+            turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
+            page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
     before_first = sorted(terms, key=lambda term: -term[0])
     page.equation("Check: kinetic energies before less those after (7)", s.loss, signed_total(before_first))
 
 
-def _kinetic_terms(body: Body, when: str) -> list[Expression]:
-    """Half of mass times speed squared, and half of yaw inertia times yaw rate squared, as far as they are not 0."""
-    state, terms = body.state(when), list[Expression]()
+def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
+    """Its value, NaN of a body that turns and whose yaw inertia is not known; and its formula, ZERO of a body at rest."""
+    state = body.state(when)
+    formula: Expression = ZERO
     if state.speed:
-        along = [body.axis(axis, when) for axis in "xy"]
-        terms.append(HALF * body.mass * total(*(part.squared() for part in along if part.value)))
+        squares = (part.squared() for part in (body.axis("x", when), body.axis("y", when)) if part.value)
+        formula = HALF * body.mass * total(*squares)
     if state.yaw_rate:
         # A central model leaves the yaw rate as it was.
         spin = body.spin(when if body.impact.model == "eccentric" else BEFORE)
-        terms.append(HALF * body.inertia * spin.squared())
-    return terms
-
-
-def _kinetic_energy(vehicle: Vehicle) -> float:
-    """Kinetic energy; NaN of a body that turns and whose yaw inertia is not known."""
-    turns_unknown = vehicle.yaw_inertia is None and vehicle.yaw_rate != 0.0
-    return math.nan if turns_unknown else float(vehicle.kinetic_energy)
+        formula = formula + HALF * body.inertia * spin.squared()
+    known = state.yaw_inertia is not None or not state.yaw_rate
+    return float(state.kinetic_energy) if known else math.nan, formula
 
 
 def motions(page: Page, s: Symbols) -> None:
@@ -213,59 +207,41 @@ def motions(page: Page, s: Symbols) -> None:
         _speed_and_course(page, body)
 
 
-def seen_from(page: Page, label: str, heading: float, alpha: Symbol, pdof: float) -> None:
-    """The PDOF, from the heading and the direction of the impulse."""
-    psi = Symbol(rf"\psi_{label}", heading, "angle")
-    turns = round((pdof - (psi.value - alpha.value)) / math.pi)
-    caption = f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)"
-    symbol = Symbol(rf"\mathrm{{PDOF}}_{label}", pdof, "angle")
-    page.equation(caption, symbol, (psi - alpha).plus(turns, abs(turns) * Symbol(r"\pi", math.pi, "angle")))
-
-
-def delta_v(label: str, axis: str, value: float) -> Symbol:
-    """A component of delta-V, or its magnitude if no axis is named."""
-    return Symbol(rf"\Delta v_{{{label}{axis}}}", value, "speed")
-
-
-def impulse_direction(label: str, value: float) -> Symbol:
-    """The direction of the impulse on a vehicle."""
-    return Symbol(rf"\alpha_{label}", value, "angle")
-
-
-def _delta_v_parts(body: Body) -> tuple[Symbol, Symbol]:
-    return delta_v(body.label, "x", body.side.delta_vx), delta_v(body.label, "y", body.side.delta_vy)
-
-
 def _delta_v(page: Page, body: Body) -> None:
-    parts = _delta_v_parts(body)
+    label, parts = body.label, (body.delta_v("x"), body.delta_v("y"))
     for axis, part in zip("xy", parts, strict=True):
         before, after = body.axis(axis), body.axis(axis, AFTER)
         if before.value == 0.0 and after.value == 0.0:
-            page.say(f"{body.label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}.")
+            page.say(f"{label} does not move along {axis}, before or after: {page.shown(after)} and {page.shown(part)}.")
         else:
-            page.equation(f"Delta-V of {body.label} along {axis} (definition)", part, after - before)
-    page.equation(f"Delta-V of {body.label} (definition)", delta_v(body.label, "", body.side.delta_v), magnitude(*parts))
+            page.equation(f"Delta-V of {label} along {axis} (definition)", part, after - before)
+    page.equation(f"Delta-V of {label} (definition)", body.delta_v(), magnitude(*parts))
 
 
 def _pdof(page: Page, s: Symbols, body: Body) -> None:
     side, label = body.side, body.label
     if body.start.heading is None or side.pdof is None or math.isnan(side.pdof):
         return
-    alpha = impulse_direction(label, side.impulse_direction)
     other = s.b if label == "A" else s.a
     if not body.fixed and not body.pinned:
         caption = f"Direction of the impulse on {label}, which is that of its delta-V (definition)"
-        pushed = Direction(*_delta_v_parts(body))
+        pushed = Direction(body.delta_v("x"), body.delta_v("y"))
     else:
         caption = f"Direction of the impulse on {label}, opposite to that on {other.label} (1)"
-        if other.fixed or other.pinned or body.pinned:
-            x, y = s.impulse("x"), s.impulse("y")
-            pushed = Direction(x, y) if label == "B" else Direction(-x, -y)
-        else:
-            x, y = _delta_v_parts(other)
-            pushed = Direction(-x, -y)
+        by_delta_v = not (other.fixed or other.pinned or body.pinned)
+        x, y = (other.delta_v(axis) if by_delta_v else s.impulse(axis) for axis in "xy")
+        pushed = Direction(x, y) if label == "B" and not by_delta_v else Direction(-x, -y)
+    pdof(page, label, caption, side.impulse_direction, pushed, body.start.heading, side.pdof)
+
+
+def pdof(page: Page, label: str, caption: str, direction: float, pushed: Expression, heading: float, found: float) -> None:
+    """The PDOF, from the direction of the impulse, which a caption and a formula say, and the heading."""
+    alpha, psi = Symbol(rf"\alpha_{label}", direction, "angle"), Symbol(rf"\psi_{label}", heading, "angle")
     page.equation(caption, alpha, pushed)
-    seen_from(page, label, body.start.heading, alpha, side.pdof)
+    turns = round((found - (psi.value - alpha.value)) / math.pi)
+    caption = f"PDOF of {label}: against the impulse, clockwise from its heading {page.symbol(psi)} (definition)"
+    symbol = Symbol(rf"\mathrm{{PDOF}}_{label}", found, "angle")
+    page.equation(caption, symbol, (psi - alpha).plus(turns, abs(turns) * Symbol(r"\pi", math.pi, "angle")))
 
 
 def _speed_and_course(page: Page, body: Body) -> None:

@@ -7,20 +7,27 @@ from collections.abc import Iterator
 
 from ..reconstruct import Fit, MomentumSolution
 from ..unit_systems import KIND_OF
-from .contact import delta_v, impulse_direction, seen_from
+from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
 from .page import HEAD, Page
-from .symbols import Symbol
+from .symbols import Symbol, delta_v
 
-_SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
-# The answers of planar momentum, by name, with the kind of each.
-MOMENTUM_ANSWERS = {
-    **dict.fromkeys((*_SPEEDS, "delta_v_a", "delta_v_b"), "speed"),
-    **dict.fromkeys(("pdof_a", "pdof_b"), "angle"),
-    "closing_speed": "speed",
-    "restitution": "number",
-    "translational_energy_loss": "energy",
+# The answers of planar momentum: of what, in words, and the kind.
+_ANSWERS = {
+    "speed_a": ("A", "speed before", "speed"),
+    "speed_b": ("B", "speed before", "speed"),
+    "speed_a_after": ("A", "speed after", "speed"),
+    "speed_b_after": ("B", "speed after", "speed"),
+    "delta_v_a": ("A", "delta-V", "speed"),
+    "pdof_a": ("A", "PDOF (0 from ahead, positive clockwise)", "angle"),
+    "delta_v_b": ("B", "delta-V", "speed"),
+    "pdof_b": ("B", "PDOF (0 from ahead, positive clockwise)", "angle"),
+    "closing_speed": ("centres", "closing speed along the normal", "speed"),
+    "restitution": ("centres", "restitution along the normal", "number"),
+    "translational_energy_loss": ("both", "energy of translation lost", "energy"),
 }
+MOMENTUM_ANSWERS = {name: kind for name, (_, _, kind) in _ANSWERS.items()}
+_SPEEDS = tuple(_ANSWERS)[:4]
 _FULL_TURN_OFF = 1e-9 * math.tau  # an angle by the short way round differs by a whole turn, which is more than rounding
 
 
@@ -165,12 +172,10 @@ def _delta_v(page: Page, m: _Momenta, label: str) -> None:
     x, y = parts
     size = getattr(m.solution, f"delta_v_{label}")
     page.equation(f"Delta-V of {name} (definition)", delta_v(name, "", size), magnitude(x, y))
-    heading, pdof = getattr(m.solution, f"heading_{label}"), getattr(m.solution, f"pdof_{label}")
-    if heading is None or math.isnan(pdof):
-        return
-    alpha = impulse_direction(name, math.atan2(y.value + 0.0, x.value))
-    page.equation(f"Direction of the delta-V of {name} (definition)", alpha, Direction(x, y))
-    seen_from(page, name, heading, alpha, pdof)
+    heading, found = getattr(m.solution, f"heading_{label}"), getattr(m.solution, f"pdof_{label}")
+    if heading is not None and not math.isnan(found):
+        caption, direction = f"Direction of the delta-V of {name} (definition)", math.atan2(y.value + 0.0, x.value)
+        pdof(page, name, caption, direction, Direction(x, y), heading, found)
 
 
 def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
@@ -192,19 +197,10 @@ def _is_known(value: float | None) -> bool:
 
 def _momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
     """The rows of what came out."""
-    rows = [(name[6].upper(), f"speed {_when(name)}", name) for name in solution.unknowns]
-    for label in "ab":
-        rows.append((label.upper(), "delta-V", f"delta_v_{label}"))
-        rows.append((label.upper(), "PDOF (0 from ahead, positive clockwise)", f"pdof_{label}"))
-    rows += [
-        ("centres", "closing speed along the normal", "closing_speed"),
-        ("centres", "restitution along the normal", "restitution"),
-        ("both", "energy of translation lost", "translational_energy_loss"),
-    ]
-    for of, what, name in rows:
+    for name, (of, what, kind) in _ANSWERS.items():
         value = getattr(solution, name)
-        if _is_known(value):
-            yield of, what, page.answer(name, value, MOMENTUM_ANSWERS[name])
+        if _is_known(value) and (name in solution.unknowns or name not in _SPEEDS):
+            yield of, what, page.answer(name, value, kind)
 
 
 def fit(page: Page, found: Fit) -> None:

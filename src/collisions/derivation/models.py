@@ -160,7 +160,7 @@ class Lever(Body):
 
 def eccentric(page: Page, s: Symbols) -> None:
     """Bodies that turn, with the impulse at one point."""
-    a, b = levers = levers_of(s.impact)
+    a, b = levers = Lever(s.impact, "A"), Lever(s.impact, "B")
     page.heading("Eccentric impact")
     page.say(
         f"{_turns(page, levers)} The normal n points from A into B, and t is n turned by 90 degrees counter-clockwise; yaw is "
@@ -197,11 +197,6 @@ def eccentric(page: Page, s: Symbols) -> None:
     _restitution(page, s, levers)
     page.equation("Slip after", s.slip_after, b.along("t", AFTER, True) - a.along("t", AFTER, True))
     energy(page, s)
-
-
-def levers_of(impact: Impact) -> tuple[Lever, Lever]:
-    """Both bodies with their levers."""
-    return Lever(impact, "A"), Lever(impact, "B")
 
 
 def impulse_in_scene_axes(page: Page, s: Symbols) -> None:

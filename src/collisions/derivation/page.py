@@ -13,6 +13,11 @@ from .symbols import Symbol
 _MOST = 12
 # The columns of most tables.
 HEAD = ("of", "quantity", "value")
+# Of an equation whose form loses the digits of the result, instead of seeming to be wrong.
+_CANCELLED = (
+    "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, worked out in a "
+    "form that keeps its digits."
+)
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
 
@@ -102,7 +107,8 @@ class Page:
         if numbers not in (lines[0], printed):
             lines.append(numbers)
         self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)])
-        self._excuse(fits)
+        if not fits:
+            self.say(_CANCELLED)
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Formula = formula, in symbols, in numbers, and the value of both sides."""
@@ -110,7 +116,8 @@ class Page:
         numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
         values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
         self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values])
-        self._excuse(fits)
+        if not fits:
+            self.say(_CANCELLED)
 
     def collected(
         self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
@@ -161,14 +168,6 @@ class Page:
         printed = float(self.system.working(value, kind))
         # A little more than half a unit, for the rounding of what is just between two numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
-
-    def _excuse(self, fits: bool) -> None:
-        """An equation whose form loses the digits of the result says so, instead of seeming to be wrong."""
-        if not fits:
-            self.say(
-                "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
-                "worked out in a form that keeps its digits."
-            )
 
     def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = ()) -> None:
         """The left side once, below each other what it equals, and other equations ``below``."""

@@ -7,21 +7,18 @@ from collections.abc import Mapping
 from ..impact import Impact
 from ..kernels.central import shares
 from ..provenance import Reconstruction, how_many
-from .contact import delta_v
 from .expressions import HALF, ONE, ZERO, Expression, root
-from .models import impulse_in_scene_axes, levers_of
+from .models import Lever, impulse_in_scene_axes
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
-_VELOCITIES = {
+_VELOCITIES = ("va", "vb", "va_after", "vb_after")
+# What may be known; of anything else the name of the argument says it.
+_KNOWN = {
     "va": "velocity of A before",
     "vb": "velocity of B before",
     "va_after": "velocity of A after",
     "vb_after": "velocity of B after",
-}
-# What may be known; of anything else the name of the argument says it.
-_KNOWN = {
-    **_VELOCITIES,
     "speed_a": "speed of A before",
     "speed_b": "speed of B before",
     "delta_v_a": "delta-V of A",
@@ -153,7 +150,7 @@ def _relation(
 def _planar(page: Page, s: Symbols, kind: str) -> None:
     """Time reversed, an impact is an impact."""
     e, g, r = s.e, s.closing, s.separation
-    a, b = levers = levers_of(s.impact)
+    a, b = levers = Lever(s.impact, "A"), Lever(s.impact, "B")
     page.say(
         "Reversed in time, an impact is an impact: from the motions after come the separation speed and the slip after at the "
         "contact, from these the impulse, and taken off the motions after it leaves those before."
@@ -201,7 +198,7 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             page.equation(f"Speed of {label} before, known", speed, by_components)
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
-            page.equation(f"Delta-V of {label}, known", delta_v(label, "", body.side.delta_v), by_impulse)
+            page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)
     if "energy_loss" in known:
         page.say(f"The energy lost, known: {page.shown(s.loss)}.")
     if "ees_a" in known:

@@ -56,6 +56,11 @@ def _plain_symbol(latex: str) -> str:
     return re.sub(r"_(\w+?)(?:\^(0)|('))", r"\2\3_\1", text).replace("^", "")
 
 
+def delta_v(label: str, axis: str, value: Any) -> Symbol:
+    """A component of delta-V, or its magnitude if no axis is named."""
+    return Symbol(rf"\Delta v_{{{label}{axis}}}", value, "speed")
+
+
 class Body:
     """The symbols of one vehicle in an impact."""
 
@@ -113,6 +118,10 @@ class Body:
         """Yaw rate."""
         mark = "^0" if when == COMPRESSED else _PRIME[when]
         return Symbol(rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate")
+
+    def delta_v(self, axis: str = "") -> Symbol:
+        """A component of its delta-V in scene axes, or its magnitude if no axis is named."""
+        return delta_v(self.label, axis, getattr(self.side, f"delta_v{axis}"))
 
 
 class Symbols:
