@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 
 from ..impact import Impact
-from ..kernels.eccentric import response
-from ..models import body_numbers
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page
@@ -88,7 +86,7 @@ def oblique(page: Page, s: Symbols) -> None:
     for body in s.bodies:
         velocity_before(page, body, s)
     page.equation("Closing speed", s.closing, a.along("n") - b.along("n"))
-    page.equation("Slip, of B relative to A", s.slip, b.along("t") - a.along("t"))
+    page.equation("Slip, of B relative to A", s.slip, s.relative("t"))
     if a.fixed or b.fixed:
         hit = b if a.fixed else a
         page.equation(f"Mass that the contact feels, as the other is infinite: that of {hit.label}", s.mass, hit.mass)
@@ -102,8 +100,8 @@ def oblique(page: Page, s: Symbols) -> None:
     for body in s.bodies:
         caption = f"Velocity of {body.label} after, along the normal"
         velocity_after(page, body, s, [(caption, BEFORE, AFTER, s.normal)])
-    page.equation("Check: restitution (9)", s.e, -((b.along("n", AFTER) - a.along("n", AFTER)) / (b.along("n") - a.along("n"))))
-    page.equation("Slip after", s.slip_after, b.along("t", AFTER) - a.along("t", AFTER))
+    page.equation("Check: restitution (9)", s.e, -(s.relative("n", AFTER) / s.relative("n")))
+    page.equation("Slip after", s.slip_after, s.relative("t", AFTER))
     energy(page, s)
 
 
@@ -114,22 +112,23 @@ class Lever(Body):
         super().__init__(impact, label)
         assert impact.point is not None
         self.point = impact.point
-        mass, inertia, vx, vy, _, x, y, pivot_x, pivot_y = body_numbers(self.start, self.point)
-        _, turn, rx, ry, _, _ = response(mass, inertia, vx, vy, x, y, pivot_x, pivot_y, *self.point, self.pinned)
+        self.center = self.start.pivot or (self.start.x, self.start.y)
+        # Of a body without a position the lever does not matter.
+        rx, ry = (0.0 if at is None else there - at for there, at in zip(self.point, self.center, strict=True))
         nx, ny = impact.normal
         self.n = Symbol(rf"r_{{{label}n}}", nx * rx + ny * ry, "length")
         self.t = Symbol(rf"r_{{{label}t}}", nx * ry - ny * rx, "length")
-        name = rf"I_{{{label}O}}" if self.pinned else rf"\bar{{I}}_{label}"
-        self.resistance = Symbol(name, 1.0 / turn if turn else math.inf, "inertia")
+        about_pivot = self.inertia + self.mass * (self.arm("x").squared() + self.arm("y").squared())
+        self.resistance = Symbol(rf"I_{{{label}O}}", about_pivot.value, "inertia") if self.pinned else self.inertia
         self.turns = math.isfinite(self.resistance.value)
         self.matters = (self.pinned or self.turns or self.start.yaw_rate != 0.0) and self.start.x is not None
 
     def derive(self, page: Page, s: Symbols) -> None:
         """Where the lever comes from."""
-        label, center = self.label, self.start.pivot or (self.start.x, self.start.y)
+        label = self.label
         x, y = (
             Symbol(f"C_{axis}", there, "length") - Symbol(f"{'O' if self.pinned else 'G'}_{{{label}{axis}}}", here, "length")
-            for axis, there, here in zip("xy", self.point, center, strict=True)
+            for axis, there, here in zip("xy", self.point, self.center, strict=True)
         )
         what = f"from {'its pivot O' if self.pinned else 'its centre of mass G'} to the contact C"
         page.equation(f"Lever of {label} {what}, along the normal", self.n, s.dot(x, y))
@@ -179,7 +178,7 @@ def eccentric(page: Page, s: Symbols) -> None:
             n, t = (page.shown(body.along(direction, contact=True)) for direction in "nt")
             page.say(f"{body.label} is at rest at the contact too: {n} and {t}.")
     page.equation("Closing speed", s.closing, a.along("n", contact=True) - b.along("n", contact=True))
-    page.equation("Slip, of B relative to A", s.slip, b.along("t", contact=True) - a.along("t", contact=True))
+    page.equation("Slip, of B relative to A", s.slip, s.relative("t", contact=True))
     page.heading("Impulse")
     impulses(page, s, _mobility(page, s, levers))
     page.equation("Impulse of the period of deformation", s.compression, s.normal / (1.0 + s.e))
@@ -195,7 +194,7 @@ def eccentric(page: Page, s: Symbols) -> None:
     for body in levers:
         body.at_contact(page, AFTER, f"Velocity of {body.label} at the contact after")
     _restitution(page, s, levers)
-    page.equation("Slip after", s.slip_after, b.along("t", AFTER, True) - a.along("t", AFTER, True))
+    page.equation("Slip after", s.slip_after, s.relative("t", AFTER, True))
     energy(page, s)
 
 
@@ -311,9 +310,8 @@ def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> Non
 def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     """Restitution at the contact, from both bodies and from one."""
     a, b = levers
-    separation = b.along("n", AFTER, True) - a.along("n", AFTER, True)
     closing = a.along("n", contact=True) - b.along("n", contact=True)
-    page.balance("Restitution at the contact (11)", separation, s.e * closing, "speed")
+    page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")
     # From the body that changes more; max takes A of equal ones.
     body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))
     # Without friction a body that is free has it from (13).

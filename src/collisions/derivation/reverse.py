@@ -150,7 +150,7 @@ def _relation(
 def _planar(page: Page, s: Symbols, kind: str) -> None:
     """Time reversed, an impact is an impact."""
     e, g, r = s.e, s.closing, s.separation
-    a, b = levers = Lever(s.impact, "A"), Lever(s.impact, "B")
+    levers = Lever(s.impact, "A"), Lever(s.impact, "B")
     page.say(
         "Reversed in time, an impact is an impact: from the motions after come the separation speed and the slip after at the "
         "contact, from these the impulse, and taken off the motions after it leaves those before."
@@ -158,7 +158,7 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
     for body in levers:
         if body.pinned or body.turns or not body.fixed:
             body.at_contact(page, AFTER, f"Velocity of {body.label} at the contact after")
-    page.equation("Separation speed", r, b.along("n", AFTER, True) - a.along("n", AFTER, True))
+    page.equation("Separation speed", r, s.relative("n", AFTER, True))
     if kind == "restitution":
         page.equation("Closing speed (11)", g, r / e)
     else:

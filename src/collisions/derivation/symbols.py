@@ -145,6 +145,10 @@ class Symbols:
         self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
         self.nx, self.ny = (Symbol(f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True))
 
+    def relative(self, direction: str, when: str = BEFORE, contact: bool = False) -> Expression:
+        """Velocity of B relative to A, of the centres of mass or at the contact."""
+        return self.b.along(direction, when, contact) - self.a.along(direction, when, contact)
+
     def dot(self, x: Expression, y: Expression) -> Expression:
         """The component of a vector along the normal."""
         return _weighed((1.0, self.nx, x), (1.0, self.ny, y))
