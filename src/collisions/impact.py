@@ -17,7 +17,7 @@ from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, solve_least
 from .models import checked, model_of
 from .provenance import Reconstruction
-from .quantities import Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
+from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .side import Side
 from .solving import solve_inputs
@@ -26,7 +26,7 @@ from .vehicle import Vehicle
 from .warning import quietly
 
 
-class Impact:
+class Impact(Frozen):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
 
     Made by the solvers, never by hand. Frozen. Attributes are floats, or arrays in a batch, all in SI; the same attributes of
@@ -39,12 +39,9 @@ class Impact:
     an answer.
     """
 
-    __slots__ = ("_cache", "_raw", "inputs")
-
     inputs: Inputs
     """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
-    _cache: dict[str, Any]
     _raw: Any
 
     def __init__(self) -> None:
@@ -58,12 +55,12 @@ class Impact:
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self.inputs, self._raw, 0, self._cache.get("choice"))
+        return Side(self.inputs, self._raw, 0, vars(self).get("choice"))
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self.inputs, self._raw, 1, self._cache.get("choice"))
+        return Side(self.inputs, self._raw, 1, vars(self).get("choice"))
 
     @derived()
     def model(self) -> Any:
@@ -333,7 +330,7 @@ class Impact:
 
         raw, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
         impact = build(inputs, raw)
-        impact._cache["choice"] = choice._where_answered(impact.refused)
+        vars(impact)["choice"] = choice._where_answered(impact.refused)
         return impact
 
     def _again(self, **changes: Any) -> Impact:
@@ -347,7 +344,7 @@ class Impact:
     def _with(self, a: Vehicle, b: Vehicle) -> Impact:
         """The same answer with vehicles that differ in name or in how their numbers were given."""
         impact = build(self.inputs._changed(a=a, b=b), self._raw)
-        impact._cache.update({name: getattr(self, name) for name in ("reconstruction", "choice")})
+        vars(impact).update({name: getattr(self, name) for name in ("reconstruction", "choice")})
         return impact
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
@@ -422,14 +419,8 @@ class Impact:
             return NotImplemented
         return self.inputs == other.inputs and all(map(same, self._raw, other._raw))
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"an Impact is frozen: {name} cannot be set")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"an Impact is frozen: {name} cannot be deleted")
-
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.inputs, self._raw, {name: self._cache.get(name) for name in ("reconstruction", "choice")})
+        return _rebuild, (self.inputs, self._raw, {name: getattr(self, name) for name in ("reconstruction", "choice")})
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -449,15 +440,12 @@ class Impact:
         return table(f"Impact ({self.model})", iter(rows))
 
 
-_set_inputs, _set_raw, _set_cache = (vars(Impact)[name].__set__ for name in ("inputs", "_raw", "_cache"))
-
-
 def build(inputs: Inputs, raw: Any) -> Impact:
     """An Impact from its inputs and what the kernel answered."""
     impact: Impact = object.__new__(Impact)
-    _set_inputs(impact, inputs)
-    _set_raw(impact, raw)
-    _set_cache(impact, {})
+    found = impact.__dict__
+    found["inputs"] = inputs
+    found["_raw"] = raw
     return impact
 
 
@@ -469,7 +457,7 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
     elif code > Status.ENERGY_GAIN and status != Status.OK:
         code = Status(status)
     impact = build(inputs, raw._replace(status=lock(code)))
-    impact._cache["reconstruction"] = origin._where_answered(code)
+    vars(impact)["reconstruction"] = origin._where_answered(code)
     return impact
 
 
@@ -479,7 +467,7 @@ def _rebuild(inputs: Inputs, raw: Any, provenance: dict[str, Any]) -> Impact:
     for found in provenance.values():
         if found is not None:
             lock(tuple(getattr(found, f.name) for f in fields(found)))
-    impact._cache.update(provenance)
+    vars(impact).update(provenance)
     return impact
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import Field, fields
 from functools import partial
-from typing import Any, ClassVar, Generic, Never, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, TypeVar, overload
 
 import numpy as np
 
@@ -21,7 +21,10 @@ OWN = "own"
 
 
 class Derived(Generic[T]):
-    """A read-only attribute worked out when asked for, and once where its owner has a cache; it carries its unit."""
+    """A read-only attribute with its unit, worked out at its first use.
+
+    An owner with a ``__dict__`` keeps it there, where Python finds it first from then on; so it refuses to set attributes itself.
+    """
 
     def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:
         self.unit = unit
@@ -36,22 +39,30 @@ class Derived(Generic[T]):
     def __get__(self, owner: Any, kind: type[Any] | None = None) -> Any:
         if owner is None:
             return self
-        cache = getattr(owner, "_cache", None)
-        if cache is not None and self.name in cache:
-            return cache[self.name]
-        if type(getattr(getattr(owner, "_raw", None), "status", None)) is Status:
+        kept = getattr(owner, "__dict__", None)
+        if kept and type(getattr(kept.get("_raw"), "status", None)) is Status:
             value = self.work_out(owner)
         else:
             # Refused cases are NaN or infinite, and numpy need not say so again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
-        if cache is not None:
-            cache[self.name] = value
+        if kept is not None:
+            kept[self.name] = value
         return value
 
-    # Of no type is there a value: checkers refuse every assignment.
-    def __set__(self, owner: Any, value: Never) -> None:
-        raise AttributeError(f"{self.name} is worked out and cannot be set")
+    if TYPE_CHECKING:
+        # Of no type is there a value: checkers refuse every assignment.
+        def __set__(self, owner: Any, value: Never) -> None: ...
+
+
+class Frozen:
+    """Base of answers that cannot be changed."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be deleted")
 
 
 def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:

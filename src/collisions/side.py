@@ -12,28 +12,28 @@ from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .model_choice import ModelChoice
-from .quantities import Quantities, attributes, derived, hypot, returns, show, table
+from .quantities import Frozen, Quantities, attributes, derived, hypot, returns, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .units import Pair, Value
 from .vehicle import Vehicle, missing
 
 
-class Side:
+class Side(Frozen):
     """One vehicle's part in an impact: its states before, during and after, and what changed.
 
     ``delta_v`` is the change of velocity of the centre of mass. Scene axes, angles counter-clockwise from +x, except for the
     PDOF. Values are floats, or arrays in a batch.
     """
 
-    __slots__ = ("_cache", "_choice", "_index", "_inputs", "_raw")
+    _inputs: Inputs
+    _raw: Any
+    _index: int
+    _choice: ModelChoice | None
 
     def __init__(self, inputs: Inputs, raw: Any, index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
-        self._inputs = inputs
-        self._raw = raw
-        self._index = index
-        self._choice = choice
-        self._cache: dict[str, Any] = {}
+        found = self.__dict__
+        found["_inputs"], found["_raw"], found["_index"], found["_choice"] = inputs, raw, index, choice
 
     def _change(self) -> tuple[Value, Value, Value]:
         raw = self._raw
