@@ -23,7 +23,7 @@ OWN = "own"
 class Derived(Generic[T]):
     """A read-only attribute with its unit, worked out at its first use.
 
-    An owner with a ``__dict__`` keeps it there, where Python finds it first from then on; so it refuses to set attributes itself.
+    An owner with a ``__dict__`` keeps it there, where Python finds it first from then on; it refuses by itself to be set.
     """
 
     def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:

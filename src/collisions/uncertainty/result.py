@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import OWN, Quantities, derived, returns, show, table
+from ..quantities import OWN, Derived, Quantities, derived, returns, show, table
 from ..reading import is_whole
 from ..units import shown
 from . import angles
@@ -60,7 +60,6 @@ class Output:
     def __init__(self, name: str, unit: str | None) -> None:
         self.name = name
         self.unit = unit
-        self._cache: dict[str, Any] = {}
 
     @property
     def q(self) -> Any:
@@ -73,6 +72,16 @@ class Output:
                 argument=self.name,
             )
         return Quantities(self)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if isinstance(getattr(type(self), name, None), Derived):
+            raise AttributeError(f"{name} is worked out and cannot be set")
+        object.__setattr__(self, name, value)
+
+    def _forget(self) -> None:
+        """Drops what was worked out."""
+        for name in [name for name in vars(self) if isinstance(getattr(type(self), name, None), (Derived, cached_property))]:
+            del vars(self)[name]
 
     @derived(OWN)
     def mean(self) -> Any:
@@ -200,7 +209,7 @@ class Local(Output):
     def add_turns(self, turns: float) -> None:
         """Counts a direction by so many turns more."""
         self._figures = self._figures[0] + 2.0 * math.pi * turns, self._figures[1]
-        self._cache.clear()
+        self._forget()
 
     def _mean(self) -> Any:
         return self._figures[0]
@@ -245,11 +254,11 @@ class Sampled(Output):
         """Counts directions by so many turns more."""
         self.values = self.values + 2.0 * math.pi * turns
         self.values.setflags(write=False)
-        self._cache.clear()
+        self._forget()
 
     def may_wrap(self) -> bool:
         """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
-        found = self._answered()
+        found = self._answered
         if self._directions is not None:
             return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
         return self.unit is None and angles.jump(found)
@@ -258,7 +267,7 @@ class Sampled(Output):
     def mean_standard_error(self) -> Any:
         """Standard error of the mean from sampling; of a probability at least one case in all, which nobody may have seen."""
         error = self._error(average)
-        found = self._answered()
+        found = self._answered
         seldom = found.size and found[0] >= 0.0 and found[-1] <= 1.0 and not np.any((found > 0.0) & (found < 1.0))
         return max(error, 1.0 / found.size) if seldom else error
 
@@ -287,7 +296,7 @@ class Sampled(Output):
             )
         try:
             with np.errstate(all="ignore"):
-                edges = np.histogram_bin_edges(self._answered(), bins)
+                edges = np.histogram_bin_edges(self._answered, bins)
             apart = bool(np.all(edges[1:] > edges[:-1]))
         except ValueError:
             apart = False
@@ -301,17 +310,17 @@ class Sampled(Output):
         def shares(values: Any) -> Any:
             return np.histogram(values, edges)[0] / max(1, values.size)
 
-        return Histogram(edges, shares(self._answered()), self._error(shares))
+        return Histogram(edges, shares(self._answered), self._error(shares))
 
     def _mean(self) -> Any:
-        return average(self._answered())
+        return average(self._answered)
 
     def _std(self) -> Any:
-        return deviation(self._answered())
+        return deviation(self._answered)
 
     def _quantile(self, p: Any) -> Any:
         with np.errstate(all="ignore"):
-            found = np.quantile(self._answered(), p)
+            found = np.quantile(self._answered, p)
         return found if found.ndim else float(found)
 
     def _shares(self) -> Shares:
@@ -321,14 +330,13 @@ class Sampled(Output):
         # The shares worked out now: a pickle cannot hold the user's model.
         return {**self.__dict__, "_all_shares": partial(dict, self._all_shares())}
 
+    @cached_property
     def _answered(self) -> Any:
         """The cases with an answer, sorted."""
-        if "sorted" not in self._cache:
-            self._cache["sorted"] = np.sort(self.values[~np.isnan(self.values)])
-        return self._cache["sorted"]
+        return np.sort(self.values[~np.isnan(self.values)])
 
     def _quantile_error(self, share: float) -> float:
-        found = self._answered()
+        found = self._answered
         if not 0.0 < share < 1.0 or found.size < 2:
             return math.nan
         at = np.quantile(found, share)
@@ -341,7 +349,7 @@ class Sampled(Output):
 
     def _error(self, figure: Callable[[Any], Any]) -> Any:
         """The standard error of a figure, from how it differs between the independent sequences of points."""
-        columns = [column[~np.isnan(column)] for column in self._sequences()]
+        columns = [column[~np.isnan(column)] for column in self._sequences]
         found = [figure(column) for column in columns if column.size > 1]
         if len(found) < 2:
             return figure(np.zeros(2)) * math.nan
@@ -349,16 +357,14 @@ class Sampled(Output):
         error = scale * (np.std(np.divide(found, scale), axis=0, ddof=1) / math.sqrt(len(found)))
         return error if np.ndim(error) else float(error)
 
+    @cached_property
     def _sequences(self) -> list[Any]:
-        """The cases of each independent sequence; directions as each of them alone would count them."""
+        """The cases of each independent sequence; directions as each of them by itself would count them."""
         if self._directions is None:
             return [self.values[which::REPLICATES] for which in range(REPLICATES)]
-        if "sequences" not in self._cache:
-            counted = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]
-            middle = average(self._answered())
-            turn = 2.0 * math.pi
-            self._cache["sequences"] = [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
-        return list(self._cache["sequences"])
+        counted = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]
+        middle, turn = average(self._answered), 2.0 * math.pi
+        return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
 
 
 @dataclass(eq=False, repr=False)
