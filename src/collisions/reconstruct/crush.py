@@ -153,7 +153,7 @@ def crush_energy(
         raise InputError(
             "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
         )
-    if np.any(status > Status.ENERGY_GAIN):
+    if cases.shape is not None and np.any(status > Status.ENERGY_GAIN):
         warn_of_refusals(status, ASK_ALONE)
     absorbed: Value = cases.values(np.where(np.equal(status, Status.OK), energy, np.nan))
     return absorbed

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
+from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError, SuspectUnitsWarning
 from ..warning import warn
 from .fit_candidate import SAME_CHI_SQUARED, TWO_ERROR_RISE, Candidate, examined, with_limits
 from .fit_problem import FitInputs, read_fit_inputs
-from .fit_result import Direction, Fit, Residual, Values, warnings_of
+from .fit_result import Direction, Fit, Residual, Values, notes_of
 from .least_squares import (
     AT_REFUSAL,
     CONVERGED,
@@ -131,8 +131,7 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         if not any(map(math.isnan, found.values.values())):
             # For the warnings that the model itself gives there.
             inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
-    for warning in warnings_of(found):
-        warn(warning)
+    _warn_of(found)
     return found
 
 
@@ -153,7 +152,7 @@ def _search(inputs: FitInputs, problem: Problem) -> Ends:
 
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     """The model answers nowhere that was looked at, and why not if it says so for a single case."""
-    at = {unknown.name: unknown.start for unknown in inputs.unknowns}
+    at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
     reason = "; call the model there with on_failure='raise' to be told why"
     try:
         inputs.model.function(**at)
@@ -212,7 +211,7 @@ def _check_minimum(best: Candidate, ends: Ends) -> None:
             f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {_listed(at)}, and "
             f"{why}. {advice}",
             code="no_convergence",
-            chi_squared=best.chi_squared,
+            chi_squared=float(best.chi_squared),
             at=at,
         )
 
@@ -223,7 +222,7 @@ def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
     Apart are those beyond one standard error in what the better one determines; what it does not is not in the other either.
     """
     near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + TWO_ERROR_RISE))
-    turning = np.array([unknown.unit == "rad" for unknown in best.inputs.unknowns])
+    turning = np.array([unknown.unit == "rad" for unknown in best.inputs.unknowns.values()])
     found = [(best, _precision(best.determination.covariance))]
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
         for one, precision in found:
@@ -258,7 +257,7 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
     """The Fit of a candidate; the last searches, as many as ``around``, were begun around the best."""
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
     names = inputs.names
-    units = {unknown.name: unknown.unit for unknown in inputs.unknowns}
+    units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
     identified = np.isfinite(found.errors)
     over_sigma = -problem.misfit(found.outputs)
     residuals = {
@@ -288,7 +287,7 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
         values=Values(dict(zip(names, values, strict=True)), units),
         names=names,
         units=units,
-        bounds={unknown.name: (unknown.low, unknown.high) for unknown in inputs.unknowns},
+        bounds={name: (unknown.low, unknown.high) for name, unknown in inputs.unknowns.items()},
         covariance=covariance,
         residuals=residuals,
         contributions=dict(zip(names, shares, strict=True)),
@@ -312,6 +311,26 @@ def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
     here = converged & (abs(ends.chi_squared - chi_squared) <= SAME_CHI_SQUARED)
     kinds = {"here": here, "elsewhere": converged & ~here, "refused": refused, "without_end": ~refused & ~converged}
     return {"starts": len(here)} | {name: int(np.count_nonzero(one)) for name, one in kinds.items()}
+
+
+def _warn_of(found: Fit) -> None:
+    """One warning of each kind, for all that must not be overlooked."""
+    notes = list(notes_of(found))
+    for note in {note.code: note for note in notes}.values():
+        if note.warning:
+            sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
+            warn(note.warning(sentences + note.what_to_do, code=note.code))
+    for name, one in found.residuals.items():
+        bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
+        if bare and abs(one.residual) > math.pi:
+            warn(
+                SuspectUnitsWarning(
+                    f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the "
+                    f"short way between them is round the circle: give it with its unit, such as Normal("
+                    f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg')",
+                    code="bare_angle",
+                )
+            )
 
 
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:

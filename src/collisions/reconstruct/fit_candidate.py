@@ -49,15 +49,7 @@ class Candidate:
     @classmethod
     def of(cls, inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> Candidate:
         """The place where search k ended."""
-        return cls(
-            inputs=inputs,
-            problem=problem,
-            point=ends.points[k],
-            outputs=ends.outputs[k],
-            slopes=ends.slopes[k],
-            chi_squared=float(ends.chi_squared[k]),
-            state=int(ends.state[k]),
-        )
+        return cls(inputs, problem, *(part[k] for part in ends))
 
     @cached_property
     def determination(self) -> Determination:

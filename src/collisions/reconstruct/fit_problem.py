@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -16,13 +16,14 @@ from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
 
+T = TypeVar("T")
+
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 
 
 class Unknown(NamedTuple):
     """What is known of one unknown before: a place to start, how far it may be from there, bounds, and a prior if any."""
 
-    name: str
     unit: str
     start: float
     scale: float
@@ -49,18 +50,18 @@ class FitInputs(NamedTuple):
     """The inputs of a fit; ``rows`` are the observations in their order, then the priors."""
 
     model: Model
-    unknowns: tuple[Unknown, ...]
+    unknowns: dict[str, Unknown]
     rows: tuple[Stated, ...]
 
     @property
     def names(self) -> tuple[str, ...]:
         """Of the unknowns."""
-        return tuple(unknown.name for unknown in self.unknowns)
+        return tuple(self.unknowns)
 
     @property
     def has_prior(self) -> Any:
         """Of each unknown, whether it has a prior."""
-        return np.array([unknown.prior is not None for unknown in self.unknowns])
+        return np.array([unknown.prior is not None for unknown in self.unknowns.values()])
 
     @property
     def is_prior(self) -> Any:
@@ -69,12 +70,12 @@ class FitInputs(NamedTuple):
 
     def numbers_of(self, part: str) -> Any:
         """The start, scale, low or high of every unknown."""
-        return np.array([getattr(unknown, part) for unknown in self.unknowns])
+        return np.array([getattr(unknown, part) for unknown in self.unknowns.values()])
 
     @property
     def box(self) -> tuple[Any, Any]:
         """The lowest and the highest point where searches start."""
-        low, high = np.array([unknown.box for unknown in self.unknowns]).T
+        low, high = np.array([unknown.box for unknown in self.unknowns.values()]).T
         return low, high
 
     def computed(self, points: Any) -> Any:
@@ -122,111 +123,80 @@ class FitInputs(NamedTuple):
 def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
     """The arguments of a fit through the reader: one error names all that cannot be used."""
     reader = ArgumentReader()
-    sought = [_unknown(reader, name, given) for name, given in _entries(unknowns, "unknowns", "20.0").items()]
-    measured = [
-        (name, _observation(reader, f"observed[{name!r}]", given))
-        for name, given in _entries(observed, "observed", "Normal('30 km/h', '2 km/h')").items()
-    ]
+    known = _each(reader, unknowns, "unknowns", "20.0", _unknown)
+    measured = _each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", _observation)
     reader.close()
-    known = tuple(unknown for unknown in sought if unknown)
-    inputs = FitInputs(
-        Model(model, {}),
-        known,
-        (
-            *(Stated(name, value, False) for name, value in measured if value),
-            *(Stated(unknown.name, unknown.prior, True) for unknown in known if unknown.prior),
-        ),
-    )
+    rows = [Stated(name, value, False) for name, value in measured]
+    rows += [Stated(name, unknown.prior, True) for name, unknown in known if unknown.prior]
+    inputs = FitInputs(Model(model, {}), dict(known), tuple(rows))
     check_names(model, inputs.names, "unknowns", "bad_model")
     # Two cases tell a model that takes arrays from one that takes numbers; one would not.
     inputs.computed(np.tile(inputs.numbers_of("start"), (2, 1)))
     return inputs
 
 
-def _entries(given: Any, argument: str, value: str) -> Mapping[str, Any]:
+def _each(
+    reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]
+) -> list[tuple[str, T]]:
+    """What is read of each entry of a dict, by name; a refusal says which entry it is about."""
     if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
-        shown = "an empty one" if isinstance(given, Mapping) and not given else f"{type(given).__name__}"
+        got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
         raise InputError(
-            f"{argument} must be a dict by names, such as {{'speed_a': {value}}}, got {shown}",
+            f"{argument} must be a dict by names, such as {{'speed_a': {example}}}, got {got}",
             code="bad_type",
             argument=argument,
         )
-    return given
+    found = []
+    for name, value in given.items():
+        label = f"{argument}[{name!r}]"
+        try:
+            found.append((name, read(label, value)))
+        except InputError as problem:
+            text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
+            reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
+    return found
 
 
-def _unknown(reader: ArgumentReader, name: str, given: Any) -> Unknown | None:
-    label = f"unknowns[{name!r}]"
+def _unknown(label: str, given: Any) -> Unknown:
     if isinstance(given, Normal):
         low, high = given.support
-        return Unknown(name, given.unit, min(max(given.given_mean, low), high), given.given_sd, low, high, given)
+        return Unknown(given.unit, min(max(given.given_mean, low), high), given.given_sd, low, high, given)
     if isinstance(given, (Uniform, Interval)):
         low, high = given.support if isinstance(given, Uniform) else (given.low, given.high)
-        return Unknown(name, given.unit, 0.5 * (low + high), high - low, low, high, None)
+        return Unknown(given.unit, 0.5 * (low + high), high - low, low, high, None)
     if isinstance(given, Distribution) or not (isinstance(given, (int, float, str, np.number)) or is_quantity(given)):
-        _refuse(
-            reader,
-            label,
-            "bad_prior",
-            f"is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform or an "
-            f"Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is normally "
+        raise InputError(
+            f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform or "
+            f"an Interval (bounds that weigh nothing), or a number to start from. Least squares weighs what is normally "
             f"distributed: write Normal.between(low, high, 0.95, truncate=(low, high)) if that says it as "
             f"well{range_hint(given)}",
+            code="bad_prior",
         )
-        return None
-    numbers = _read_numbers(reader, label, {label: given})
-    if numbers is None:
-        return None
-    (start,), unit = numbers
-    return Unknown(name, unit, start, abs(start) or 1.0, -math.inf, math.inf, None)
+    (start,), unit = read_alike({label: given})
+    return Unknown(unit, start, abs(start) or 1.0, -math.inf, math.inf, None)
 
 
-def _observation(reader: ArgumentReader, label: str, given: Any) -> Normal | None:
+def _observation(label: str, given: Any) -> Normal:
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        value, error = given
-        numbers = _read_numbers(reader, label, {f"{label} value": value, f"{label} error": error})
-        if numbers is None:
-            return None
-        (_, sigma), unit = numbers
-        if sigma > 0.0:
-            return Normal(value, error)
-        _refuse(
-            reader,
-            label,
-            "not_positive",
-            f"error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard deviation. "
-            f"What is known exactly is written into the model",
-        )
-    elif not isinstance(given, Normal):
+        (_, sigma), unit = read_alike(dict(zip((f"{label} value", f"{label} error"), given, strict=True)))
+        if not sigma > 0.0:
+            raise InputError(
+                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard "
+                f"deviation. What is known exactly is written into the model",
+                code="not_positive",
+            )
+        given = Normal(*given)
+    if not isinstance(given, Normal):
         kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
-        _refuse(
-            reader,
-            label,
-            "bad_observation",
-            f"is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a range "
-            f"write Normal.between(low, high, coverage)",
+        raise InputError(
+            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a "
+            f"range write Normal.between(low, high, coverage)",
+            code="bad_observation",
         )
-    elif given.truncate is not None:
-        _refuse(
-            reader,
-            label,
-            "bad_observation",
-            f"is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds belong "
-            f"to unknowns",
+    if given.truncate is not None:
+        raise InputError(
+            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds "
+            f"belong to unknowns",
+            code="bad_observation",
         )
-    else:
-        return given
-    return None
-
-
-def _read_numbers(reader: ArgumentReader, label: str, given: dict[str, Any]) -> tuple[list[Any], str] | None:
-    """SI numbers and their unit, or None after a refusal that names where they stand."""
-    try:
-        return read_alike(given)
-    except InputError as problem:
-        text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
-        reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
-        return None
-
-
-def _refuse(reader: ArgumentReader, label: str, code: str, text: str) -> None:
-    reader.refuse(InputError(f"{label} {text}", code=code, argument=label))
+    return given

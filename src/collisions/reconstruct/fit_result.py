@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
+from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError
 from ..quantities import OWN, Shown, derived, show
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
@@ -252,10 +252,6 @@ class Fit(Shown):
         return tuple(name for name in self.names if widths[name] < self.standard_errors[name] < math.inf)
 
     @property
-    def _is_nonlinear(self) -> bool:
-        return math.isnan(self.nonlinearity) or self.nonlinearity > _LARGE_NONLINEARITY
-
-    @property
     def bend(self) -> str:
         """How far the standard errors can be relied on, in words."""
         if math.isnan(self.nonlinearity):
@@ -268,7 +264,7 @@ class Fit(Shown):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said with the numbers, in sentences."""
-        return tuple(self._statements())
+        return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON: an infinity and NaN by name."""
@@ -317,46 +313,6 @@ class Fit(Shown):
         for number, sentence in enumerate(self.statements, 1):
             yield f"{prefix}note {number}", sentence
 
-    def _statements(self) -> Iterator[str]:
-        if self.consistent is None:
-            yield "there is no more evidence than unknowns, so that nothing checks it"
-        else:
-            how = "agrees with itself"
-            if not self.consistent:
-                how = "contradicts itself, the model or the stated errors"
-            elif self.p_value < _WEAK:
-                how = "agrees only weakly with itself, the model and the stated errors"
-            yield f"the evidence {how}: a misfit this large or larger has a chance of {self._chance}"
-        yield from (direction.sentence for direction in self.undetermined)
-        for name, side in self.at_bounds.items():
-            inward = "above" if side == "low" else "below"
-            if name in self.reaches:
-                yield (
-                    f"{name} ended on its {side} bound, where the model turns round: its error reaches {inward} only, and two "
-                    f"errors, at the rise of chi-squared by 4 or the other bound, to "
-                    f"{show(self.reaches[name], self.units[name])}"
-                )
-            else:
-                yield (
-                    f"{name} ended on its {side} bound, beyond which the evidence pulls it: its error is not symmetric and "
-                    f"reaches {inward} only"
-                )
-        yield from self._bound_limited()
-        if self.searches["around"]:
-            yield (
-                f"few searches ended at this answer, so that {self.searches['around']} more were begun around it; a better one "
-                f"may still lie between them, which narrower bounds would show"
-            )
-        if self._is_nonlinear:
-            yield self.bend
-
-    def _bound_limited(self) -> Iterator[str]:
-        for name in self.told_by_bounds:
-            yield (
-                f"the standard error of {name}, {self.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell "
-                f"its range, not the evidence"
-            )
-
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
 
@@ -377,41 +333,67 @@ class Fit(Shown):
             )
 
 
-def warnings_of(found: Fit) -> Iterator[CollisionsWarning]:
-    """What must not be overlooked in the answer."""
-    lost = [name for name in found.names if not found[name].determined]
-    if lost:
-        sentences = "; ".join(one.sentence for one in found.undetermined if not one.held_by_prior)
-        yield IllConditionedWarning(
-            f"nothing determines {', '.join(lost)}, which are NaN: {sentences}. Give a prior (a Normal), or an observation "
-            f"that tells it",
-            code="undetermined",
-        )
-    if found._is_nonlinear:
-        yield IllConditionedWarning(
-            f"{found.bend}; sample the unknowns, or give priors that hold them closer", code="not_linear"
-        )
-    if found.told_by_bounds:
-        yield IllConditionedWarning(
-            f"{'; '.join(found._bound_limited())}; give an observation that tells more, or a prior", code="told_by_bounds"
-        )
-    if found.consistent is False:
+class Note(NamedTuple):
+    """What has to be said of a fit; where it is warned of as well, by ``warning`` with a ``code``, what to do follows."""
+
+    warning: type[CollisionsWarning] | None
+    sentence: str
+    what_to_do: str = ""
+    code: str = ""
+
+
+def notes_of(found: Fit) -> Iterator[Note]:
+    """In the order in which a reader needs them: first whether the evidence agrees."""
+    if found.consistent is None:
+        yield Note(None, "there is no more evidence than unknowns, so that nothing checks it")
+    else:
+        chance = f"a misfit this large or larger has a chance of {found._chance}"
         name, worst = max(found.residuals.items(), key=lambda item: abs(item[1].over_sigma))
-        yield CollisionsWarning(
-            f"the evidence contradicts itself, the model or the stated errors: a misfit this large (chi-squared "
-            f"{found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom) has a chance of {found._chance}, and "
-            f"{_CONTRADICTION} would pass; the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
-            code="contradictory",
-        )
-    for name, one in found.residuals.items():
-        bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
-        if bare and abs(one.residual) > math.pi:
-            yield SuspectUnitsWarning(
-                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
-                f"way between them is round the circle: give it with its unit, such as Normal("
-                f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg')",
-                code="bare_angle",
+        if not found.consistent:
+            yield Note(
+                CollisionsWarning,
+                f"the evidence contradicts itself, the model or the stated errors: {chance}",
+                f", and {_CONTRADICTION} would pass (chi-squared {found.chi_squared:.4g} with {found.degrees_of_freedom} "
+                f"degrees of freedom); the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
+                "contradictory",
             )
+        elif found.p_value < _WEAK:
+            yield Note(None, f"the evidence agrees only weakly with itself, the model and the stated errors: {chance}")
+        else:
+            yield Note(None, f"the evidence agrees with itself: {chance}")
+    for direction in found.undetermined:
+        advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that tells it"
+        if direction.held_by_prior:
+            yield Note(None, direction.sentence)
+        else:
+            yield Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
+    for name, side in found.at_bounds.items():
+        inward = "above" if side == "low" else "below"
+        why = f"beyond which the evidence pulls it: its error is not symmetric and reaches {inward} only"
+        if name in found.reaches:
+            why = (
+                f"where the model turns round: its error reaches {inward} only, and two errors, at the rise of chi-squared by "
+                f"4 or the other bound, to {show(found.reaches[name], found.units[name])}"
+            )
+        yield Note(None, f"{name} ended on its {side} bound, {why}")
+    for name in found.told_by_bounds:
+        yield Note(
+            IllConditionedWarning,
+            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell its "
+            f"range, not the evidence",
+            "; give an observation that tells more, or a prior",
+            "told_by_bounds",
+        )
+    if found.searches["around"]:
+        yield Note(
+            None,
+            f"few searches ended at this answer, so that {found.searches['around']} more were begun around it; a better one "
+            f"may still lie between them, which narrower bounds would show",
+        )
+    if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
+        yield Note(
+            IllConditionedWarning, found.bend, "; sample the unknowns, or give priors that hold them closer", "not_linear"
+        )
 
 
 def _with_error(one: Estimate) -> str:

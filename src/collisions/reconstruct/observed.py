@@ -219,20 +219,12 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in _as_given(body).items()}
     numbers |= given
     cases = Cases.of(numbers)
+    turning = {label: body.pivot is not None and not Vehicle._rests(body.yaw_rate) for label, body in bodies.items()}
     with np.errstate(all="ignore"):
-        n, (px, py) = tuple(map(np.asarray, read.normal)), map(np.asarray, contact or (0.0, 0.0))
-        moments = []
-        for moment in ("before", "after"):
-            labels = (f"a_{moment}", f"b_{moment}")
-            a, b = ({name: np.asarray(x, dtype=np.float64) for name, x in used[label].items()} for label in labels)
-            pinned = (bodies[label].pivot is not None and not Vehicle._rests(bodies[label].yaw_rate) for label in labels)
-            raw = forward(np.zeros(()), *n, np.zeros(()), px, py, *a.values(), *b.values(), FRICTION, BRACH, *pinned)
-            speeds: Any = 0.0
-            for body in (a, b):
-                lever = abs(px - body["x"]) + abs(py - body["y"])
-                speeds = speeds + abs(body["vx"]) + abs(body["vy"]) + abs(body["yaw_rate"]) * lever
-            moments.append(_Moment(a, b, n, raw.closing_speed, speeds))
-        before, after = moments
+        before, after = (
+            _moment(read.normal, contact or (0.0, 0.0), used[a], used[b], turning[a], turning[b])
+            for a, b in (("a_before", "b_before"), ("a_after", "b_after"))
+        )
         faults = [
             *input_faults(numbers),
             *_pivot_faults(given, bodies, cases),
@@ -243,6 +235,17 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     return cases, before, after, faults
 
 
+def _moment(normal: Any, contact: Any, a: dict[str, Any], b: dict[str, Any], *pinned: bool) -> _Moment:
+    n, (px, py) = tuple(map(np.asarray, normal)), map(np.asarray, contact)
+    a, b = ({name: np.asarray(value, dtype=np.float64) for name, value in body.items()} for body in (a, b))
+    raw = forward(np.zeros(()), *n, np.zeros(()), px, py, *a.values(), *b.values(), FRICTION, BRACH, *pinned)
+    speeds: Any = 0.0
+    for body in (a, b):
+        lever = abs(px - body["x"]) + abs(py - body["y"])
+        speeds = speeds + abs(body["vx"]) + abs(body["vy"]) + abs(body["yaw_rate"]) * lever
+    return _Moment(a, b, n, raw.closing_speed, speeds)
+
+
 def _as_given(body: Vehicle) -> dict[str, Any]:
     """Every number of a vehicle by its name."""
     pivot = {f"pivot[{i}]": part for i, part in enumerate(body.pivot or ())}
@@ -251,25 +254,26 @@ def _as_given(body: Vehicle) -> dict[str, Any]:
 
 def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
     """The numbers of one body by name; what does not matter for its motion at the contact is filled in."""
-    turns = not Vehicle._rests(body.yaw_rate)
-    if turns and contact is None:
+    if Vehicle._rests(body.yaw_rate):
+        yaw_rate = body.yaw_rate if np.any(np.isnan(body.yaw_rate)) else 0.0
+        moving = {"mass": body.mass, "yaw_inertia": np.inf, "vx": body.vx, "vy": body.vy, "yaw_rate": yaw_rate}
+        return dict.fromkeys(NUMBERS, 0.0) | moving
+    if contact is None:
         raise MissingInputError(
             f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
         )
-    if turns:
-        for name in ("x", "y"):
-            body._need(name, purpose, label)
-        numbers = dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
-        return numbers | {"yaw_inertia": np.inf if body.yaw_inertia is None else body.yaw_inertia}
-    unknown = np.any(np.isnan(body.yaw_rate))
-    moving = {"mass": body.mass, "yaw_inertia": np.inf, "vx": body.vx, "vy": body.vy}
-    return dict.fromkeys(NUMBERS, 0.0) | moving | ({"yaw_rate": body.yaw_rate} if unknown else {})
+    for name in ("x", "y"):
+        body._need(name, purpose, label)
+    numbers = dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
+    return numbers | {"yaw_inertia": np.inf if body.yaw_inertia is None else body.yaw_inertia}
 
 
 def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -> _Faults:
     """What a pinned vehicle checks of single numbers, of arrays."""
     faults: _Faults = []
-    for label in (label for label, body in bodies.items() if body.pivot is not None):
+    for label, body in bodies.items():
+        if body.pivot is None:
+            continue
         mass, inertia = (given.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
         motion = [given[f"{label}.{name}"] for name in _PINNED]
         about: list[Any] = [np.asarray(value, dtype=np.float64) for value in motion]
