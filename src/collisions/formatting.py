@@ -28,8 +28,8 @@ def places(value: float, figures: int) -> int:
 
 def with_decimals(value: float, decimals: int, thousands: str = "") -> str:
     """A number with so many decimals, or rounded to a power of ten, and never -0."""
-    # Above this a digit before the point can round beyond the range of floats.
-    rounded = value if abs(value) > 1e300 else round(value, decimals)
+    # Above 1e300 a digit before the point can round beyond the range of floats.
+    rounded = value if decimals >= 0 or abs(value) > 1e300 else round(value, decimals)
     text = f"{rounded:,.{max(decimals, 0)}f}".replace(",", thousands)
     return text if text.strip("-0.") else text.lstrip("-")
 

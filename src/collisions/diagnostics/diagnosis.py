@@ -26,6 +26,7 @@ from .finding import Check, Findings, Limit
 
 _MODULES = (checks_consistency, checks_reliability, checks_inputs)
 _CHECKS = [check for module in _MODULES for check in vars(module).values() if isinstance(check, Check)]
+_CHECKS_OF = {kind: [check for check in _CHECKS if issubclass(kind, check.kind)] for kind in (ImpactCase, MomentumCase)}
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
 """By code, in the order in which findings are listed: what is measured, its default limit and where that is from."""
 
@@ -149,8 +150,8 @@ def diagnose(
         reader.close()
         case = MomentumCase(answer=impact, duration=time, drag=pull, **known)
     findings, measured = [], []
-    for check in _CHECKS:
-        if isinstance(case, check.kind) and allowed[check.code] != check.off:
+    for check in _CHECKS_OF[type(case)]:
+        if allowed[check.code] != check.off:
             values = list(check.measure(case))
             findings += check.findings(values, allowed[check.code])
             measured += [check.code] if values else []
