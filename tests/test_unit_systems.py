@@ -9,9 +9,9 @@ from collisions.derivation import explain
 from collisions.derivation.expressions import System
 from collisions.diagnostics import diagnose
 from collisions.diagnostics.case import MomentumCase
+from collisions.formatting import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of
 from collisions.plot.canvas import Units
 from collisions.reporting import report
-from collisions.unit_systems import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of
 
 UREG = pint.get_application_registry()
 IMPACT = col.linear_central(col.Vehicle(mass=1100, vx=20.0), col.Vehicle(mass=950), 0.3)

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from . import pulse
-from .amounts import at_least_zero
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
 from .impact import Impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, lock, numeric
-from .reading import ArgumentReader, broadcast, warn_if_large, widened
+from .reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from .travel.surfaces import GRAVITY, one_value, out_of_range, read_drag
 from .units import Input, Value
 from .vehicle import Vehicle

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from .amounts import amount
 from .directions import direction
 from .errors import InputError, Status
 from .inputs import Inputs
@@ -19,7 +18,7 @@ from .model_choice import ModelChoice
 from .models import MODELS, read
 from .provenance import Reconstruction
 from .quantities import attributes, lock, same, unit_of
-from .reading import ArgumentReader
+from .reading import ArgumentReader, amount
 from .side import Side
 from .units import shown
 from .vehicle import DOMAINS, NAMES, Vehicle

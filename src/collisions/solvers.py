@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 
-from .amounts import amount
 from .impact import Impact, build
 from .inputs import Inputs, Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose, refuse_first
 from .models import ECCENTRIC, LINEAR, OBLIQUE, refusals
 from .progress import Progress
-from .reading import ArgumentReader
+from .reading import ArgumentReader, amount
 from .solving import solve_inputs
 from .units import Input, Pair
 from .vehicle import Vehicle

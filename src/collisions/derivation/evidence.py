@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..formatting import KIND_OF
 from ..reconstruct import Fit, MomentumSolution
-from ..unit_systems import KIND_OF
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
 from .page import HEAD, Page

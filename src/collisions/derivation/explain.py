@@ -7,16 +7,14 @@ from collections.abc import Iterator, Mapping
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
-from ..amounts import at_least_zero
 from ..errors import InputError, ShapeError, Status
+from ..formatting import SI_UNITS, UnitSystem, bad_system
 from ..impact import Impact
 from ..kernels.contact_laws import RULES
-from ..one_case import need_one_case
-from ..reading import ArgumentReader
+from ..reading import ArgumentReader, at_least_zero, need_one_case
 from ..reconstruct import Fit, MomentumSolution
 from ..solving import error_of
 from ..uncertainty.result import Propagation
-from ..unit_systems import SI_UNITS, UnitSystem, bad_system
 from ..units import shown
 from ..vehicle import Vehicle
 from .contact import motions

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import NamedTuple
 
-from ..formatting import Numbers, places, with_decimals
-from ..unit_systems import decimals_of
+from ..formatting import Numbers, decimals_of, places, with_decimals
 
 # What is this near to 0 in SI is what rounding left of it, and printed as 0.
 _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact_effects import LeftOut
 from ..directions import from_degrees
-from ..formatting import in_words, places, with_decimals
+from ..formatting import decimals_of, in_words, places, scale_of, unit_of, with_decimals
 from ..formatting import percent as in_percent
 from ..impact import Impact
 from ..kernels.contact_laws import BRACH, LAWS
@@ -21,7 +21,6 @@ from ..outlines import overlap, placed
 from ..reconstruct import MomentumSolution
 from ..side import Side
 from ..solvers import required_model
-from ..unit_systems import decimals_of, scale_of, unit_of
 from ..vehicle import Vehicle
 
 # A ratio that comes out of an answer and rounds to its limit has not passed it.

@@ -7,17 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from ..amounts import amount
 from ..contact_effects import left_out, read_duration
 from ..errors import InputError, MissingInputError, ShapeError
+from ..formatting import UnitSystem, bad_system
 from ..impact import Impact
 from ..kernels.elementwise import UNCHECKED
-from ..one_case import need_one_case
 from ..outlines import read_outline
-from ..reading import ArgumentReader
+from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
 from ..travel.surfaces import read_drag
-from ..unit_systems import UnitSystem, bad_system
 from ..units import Input, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability

@@ -7,10 +7,9 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
-from ..formatting import in_words, places, with_decimals
+from ..formatting import KIND_OF, SI_UNITS, bad_system, decimals_of, in_words, places, scale_of, unit_of, with_decimals
 from ..impact import Impact
-from ..one_case import need_one_case
-from ..unit_systems import KIND_OF, SI_UNITS, bad_system, decimals_of, scale_of, unit_of
+from ..reading import need_one_case
 from ..units import shown
 from ..vehicle import Vehicle
 

@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from ..errors import InputError, MissingInputError
+from ..formatting import UnitSystem
 from ..impact import Impact
-from ..unit_systems import UnitSystem
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from .. import pulse
 from ..errors import InputError
+from ..formatting import UnitSystem
 from ..impact import Impact
 from ..reading import ArgumentReader, warn_if_large
 from ..travel.surfaces import one_value
-from ..unit_systems import UnitSystem
 from ..units import Input, shown
 from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, tidy
 

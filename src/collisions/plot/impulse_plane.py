@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..formatting import UnitSystem
 from ..impact import Impact
 from ..kernels.contact_laws import IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..kernels.status import EPS
-from ..unit_systems import UnitSystem
 from ..warning import quietly
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
 

@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..formatting import UnitSystem
 from ..impact import Impact
 from ..side import Side
-from ..unit_systems import UnitSystem
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..formatting import UnitSystem
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..reading import ArgumentReader
-from ..unit_systems import UnitSystem
 from ..units import shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, answered, begin, tidy, who

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..formatting import with_decimals
+from ..formatting import UnitSystem, with_decimals
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
-from ..unit_systems import UnitSystem
 from ..units import shown
 from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, drawable, in_lines, legend_below, number, tidy
 

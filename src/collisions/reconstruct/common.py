@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..amounts import amount
 from ..errors import CollisionsError, InputError, Status
 from ..impact import Impact, found_by
 from ..inputs import Inputs
@@ -19,7 +18,7 @@ from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
 from ..models import body_numbers
 from ..provenance import Reconstruction
 from ..quantities import lock
-from ..reading import ArgumentReader, broadcast
+from ..reading import ArgumentReader, amount, broadcast
 from ..solving import check_options, error_of, first_refused, warn_of_refusals
 from ..vehicle import Vehicle
 from ..warning import quietly

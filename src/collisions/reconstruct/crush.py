@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..amounts import amount
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels.status import Status
-from ..reading import ArgumentReader, largest, warn_if_large
+from ..reading import ArgumentReader, amount, largest, warn_if_large
 from ..solving import warn_of_refusals
 from ..units import Input, Value, has_unit, is_quantity, shown
 from ..warning import warn

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..amounts import amount
 from ..directions import Angle, angle_of, between, course, direction
 from ..errors import (
     CollisionsError,
@@ -24,7 +23,7 @@ from ..inputs import OnFailure
 from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
 from ..kernels.status import EPS, Status
 from ..quantities import hypot, show
-from ..reading import ArgumentReader
+from ..reading import ArgumentReader, amount
 from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
 from ..warning import warn, warn_of_cases

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ..derivation.page import Page
-from ..unit_systems import SI_UNITS
+from ..formatting import SI_UNITS
 
 # Signs that join letters; what else has no shape of its own could make a line read as another.
 _JOINERS = "\u200c\u200d"

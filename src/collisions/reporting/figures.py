@@ -13,10 +13,10 @@ from typing import Any
 
 from .. import plot
 from ..errors import InputError
+from ..formatting import UnitSystem
 from ..impact import Impact
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled
-from ..unit_systems import UnitSystem
 from .blocks import Block, Paragraph, Picture, plain, visible
 from .known import varies
 

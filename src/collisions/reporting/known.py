@@ -7,10 +7,10 @@ from typing import Any
 
 from ..derivation.explain import kinds_of_answers
 from ..errors import InputError
+from ..formatting import KIND_OF, SI_UNITS
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Output, Propagation
-from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import shown
 from .blocks import Sheet, plain
 

@@ -16,15 +16,14 @@ from ..derivation.expressions import System
 from ..derivation.page import Page
 from ..diagnostics import diagnose
 from ..errors import InputError, ShapeError
+from ..formatting import UnitSystem, bad_system
 from ..impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
-from ..one_case import need_one_case
 from ..outlines import read_outline
 from ..plot.canvas import who
-from ..reading import ArgumentReader
+from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
-from ..unit_systems import UnitSystem, bad_system
 from ..units import Input, shown
 from . import sections
 from .blocks import Heading, Paragraph, Record, Sheet, Working, plain

@@ -17,13 +17,13 @@ from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings
 from ..errors import Status
+from ..formatting import KIND_OF, SI_UNITS
 from ..impact import Impact
 from ..kernels.contact_laws import LAWS
 from ..models import BY_NAME
 from ..plot.canvas import who
 from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
-from ..unit_systems import KIND_OF, SI_UNITS
 from ..units import Input
 from ..vehicle import Vehicle
 from .blocks import Items, Sheet, Table, plain

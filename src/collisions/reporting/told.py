@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..directions import course
+from ..formatting import SI_UNITS
 from ..impact import Impact
 from ..reading import ArgumentReader
-from ..unit_systems import SI_UNITS
 from .blocks import Sheet
 
 _MOTION = {

@@ -10,13 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ..amounts import at_least_zero
 from ..directions import Angle, angle_of
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, safe_divisor, select
 from ..quantities import Shown, derived, hypot, numeric
 from ..quantities import lock as write_locked
-from ..reading import ArgumentReader, warn_if_large
+from ..reading import ArgumentReader, at_least_zero, warn_if_large
 from ..units import Input, Pair, Value, is_quantity, shown
 from ..warning import warn
 from .surfaces import (

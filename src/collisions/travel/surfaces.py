@@ -8,11 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..amounts import at_least_zero
 from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError, UnitsError
 from ..kernels.elementwise import FINITE, Domain, select
 from ..quantities import hypot, numeric
-from ..reading import ArgumentReader, broadcast, warn_if_large, widened
+from ..reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from ..units import Input, is_quantity, shown
 from ..warning import warn_of_cases
 
