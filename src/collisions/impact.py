@@ -15,7 +15,7 @@ from .inputs import Inputs, OnFailure, index_of, part_of
 from .kernels.contact_laws import FRICTION
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, solve_least
-from .models import checked, model_of
+from .models import model_of, read_again
 from .provenance import Reconstruction
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .reading import ArgumentReader, broadcast, widened
@@ -385,7 +385,7 @@ class Impact(Frozen):
     def _part(self, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
         """Some cases of a batch, solved again: those that ``take`` takes of every array."""
         origin = self.reconstruction
-        inputs = checked(self.inputs._part(take), found=origin is not None)
+        inputs = read_again(self.inputs._part(take), found=origin is not None)
         choice = None if self.choice is None else self.choice._part(take, inputs)
         impact = self._solved(inputs, on_failure=on_failure, choice=choice)
         return impact if origin is None else found_by(part_of(origin, take), inputs, impact._raw, take(self.status))

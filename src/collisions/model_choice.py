@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .errors import InputError
 from .inputs import Inputs, part_of
 from .kernels.elementwise import select
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
-from .models import MODELS, checked, lacking, missing_numbers
+from .models import MODELS, lacking, missing_numbers, read_again
 from .progress import halves, reporter
 from .quantities import Shown, lock, same, show
 from .reading import ArgumentReader, broadcast
@@ -146,15 +145,6 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
     return choice, lacks
 
 
-def refuse_first(reader: ArgumentReader, tolerances: Any) -> None:
-    """Refuses the first of these that would be refused alone."""
-    at = tuple(int(i) for i in np.argwhere(~np.isfinite(tolerances) | (tolerances < 0.0))[0])
-    value, place = float(tolerances[at]), at[0] if len(at) == 1 else at
-    code = "negative_speed" if math.isfinite(value) else "not_finite"
-    text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
-    reader.refuse(InputError(text, code=code, argument="tolerance"))
-
-
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     """Names all that is missing, in a batch for the first case that needs it."""
     place = ""
@@ -192,7 +182,7 @@ def solve_least(
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
 
     def one(take: Any) -> Any:
-        case = checked(inputs._part(take))
+        case = read_again(inputs._part(take))
         return solve_least(case, False, None, 1, None, chosen._part(take, case))
 
     chosen = choice

@@ -17,6 +17,7 @@ from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
 from .kernels.replay import printed
 from .kernels.status import Answer
+from .reading import ArgumentReader, amount
 from .vehicle import Vehicle, missing
 
 
@@ -122,14 +123,26 @@ def model_of(inputs: Inputs) -> Model:
 
 
 def read(
-    model: str, a: Any, b: Any, restitution: Any, normal: Any, point: Any, tangential: tuple[Any, ...], law: Any
+    model: str,
+    a: Any,
+    b: Any,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    tangential: tuple[Any, ...],
+    law: Any,
+    tolerance: Any = None,
 ) -> tuple[Inputs, bool]:
     """The arguments of a solver as its inputs, refused if its model lacks or cannot hold something; see ``read_inputs``."""
-    return read_inputs(model, a, b, restitution, normal, point, tangential, law, refusals(model, a, b, point))
+    reader = ArgumentReader()
+    limit = _read_tolerance(reader, tolerance) if model == "solve" else None
+    problems = (*reader.problems, *refusals(model, a, b, point))
+    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, problems)
+    return (inputs, plain) if limit is None else (inputs._changed(tolerance=limit), plain and isinstance(limit, float))
 
 
-def checked(inputs: Inputs, found: bool = False) -> Inputs:
-    """The same inputs, read as a caller's arguments are, and refused where a number cannot be used.
+def read_again(inputs: Inputs, found: bool = False) -> Inputs:
+    """Inputs of which any may be as a caller gives them, read as a caller's arguments are.
 
     Those that a reverse solver ``found`` may have a restitution of NaN, for which it looked in vain.
     """
@@ -137,9 +150,24 @@ def checked(inputs: Inputs, found: bool = False) -> Inputs:
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
-    again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH)
-    kept = {name: getattr(inputs, name) for name in ("given", "tolerance", "contact_velocity")}
-    return again._changed(restitution=e if unknown else again.restitution, **kept)
+    again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
+    return again._changed(
+        restitution=e if unknown else again.restitution,
+        given={**(again.given or {}), **(inputs.given or {})} or None,
+        contact_velocity=inputs.contact_velocity,
+    )
+
+
+def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
+    """The tolerance of ``solve``; of an array the first that would be refused by itself is."""
+    limit = amount(reader, tolerance, "m/s", "tolerance")
+    if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
+        at = tuple(int(i) for i in np.argwhere(~np.isfinite(limit) | (limit < 0.0))[0])
+        value, place = float(limit[at]), at[0] if len(at) == 1 else at
+        code = "negative_speed" if math.isfinite(value) else "not_finite"
+        text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
+        reader.refuse(InputError(text, code=code, argument="tolerance"))
+    return limit
 
 
 def lacking(a: Any, b: Any) -> list[tuple[str, str]]:

@@ -12,13 +12,13 @@ import numpy as np
 from .directions import direction
 from .errors import InputError, Status
 from .inputs import Inputs
-from .kernels.contact_laws import BRACH, RULES
+from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
-from .models import MODELS, read
+from .models import MODELS, read_again
 from .provenance import Reconstruction
 from .quantities import attributes, lock, same, unit_of
-from .reading import ArgumentReader, amount
+from .reading import ArgumentReader
 from .side import Side
 from .units import shown
 from .vehicle import DOMAINS, NAMES, Vehicle
@@ -111,26 +111,19 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
         origin = _origin(record["results"]["reconstruction"], velocity)
         a, b = (_vehicle(found[label], refused and origin is not None) for label in "ab")
-        restitution, normal, rule_value, point = (
-            _read(found[name]) for name in ("restitution", "normal", "rule_value", "point")
-        )
-        # A reverse solver that found nothing may have no restitution either.
-        lost = origin is not None and isinstance(restitution, float) and math.isnan(restitution)
-        tangential = tuple(rule_value if name == rule else None for name in RULES)
-        inputs, _ = read(model, a, b, 0.0 if lost else restitution, normal, point, tangential, law or BRACH)
-        reader = ArgumentReader()
-        tolerance = found["tolerance"]
-        tolerance = None if tolerance is None else amount(reader, _read(tolerance), "m/s", "tolerance")
-        given = {**(inputs.given or {}), **_texts(found["known"], origin)}
+        given: dict[str, Any] = _texts(found["known"], origin)
         if found["bare_normal"] is not None:
+            reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
-        reader.close()
-        inputs = inputs._changed(given=given or None, tolerance=tolerance, contact_velocity=velocity)
+            reader.close()
+        numbers = {name: _read(found[name]) for name in ("restitution", "normal", "rule_value", "point", "tolerance")}
+        inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
+        inputs = read_again(inputs, found=origin is not None)
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
-    return inputs._changed(restitution=restitution) if lost else inputs, "nan" if refused else None, origin, status
+    return inputs, "nan" if refused else None, origin, status
 
 
 def _origin(found: Any, velocity: Any) -> Reconstruction | None:

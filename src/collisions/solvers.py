@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
-
 from .impact import Impact, build
-from .inputs import Inputs, Law, OnFailure, read_inputs
+from .inputs import Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
-from .model_choice import ModelChoice, choose, refuse_first
-from .models import ECCENTRIC, LINEAR, OBLIQUE, refusals
+from .model_choice import ModelChoice, choose
+from .models import ECCENTRIC, LINEAR, OBLIQUE, read, refusals
 from .progress import Progress
-from .reading import ArgumentReader, amount
 from .solving import solve_inputs
 from .units import Input, Pair
 from .vehicle import Vehicle
@@ -284,7 +279,8 @@ def required_model(
     >>> choice.model, round(choice.errors["linear_central"], 2)
     ('eccentric', 2.14)
     """
-    inputs, plain = _read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law, tolerance)
+    tangential = friction, impulse_ratio, critical_fraction
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance)
     return choose(inputs, plain)[0]
 
 
@@ -337,23 +333,6 @@ def solve(
     >>> impact.model, round(impact.b.delta_v, 3)
     ('linear_central', 6.667)
     """
-    inputs, plain = _read(a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law, tolerance)
+    tangential = friction, impulse_ratio, critical_fraction
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance)
     return Impact._solved(inputs, plain, on_failure, threads, progress)
-
-
-def _read(
-    a: Vehicle,
-    b: Vehicle,
-    restitution: Input,
-    normal: Input | Pair,
-    point: Pair | None,
-    tangential: tuple[Input | None, ...],
-    law: Law,
-    tolerance: Input,
-) -> tuple[Inputs, bool]:
-    reader = ArgumentReader()
-    limit = amount(reader, tolerance, "m/s", "tolerance")
-    if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
-        refuse_first(reader, limit)
-    inputs, plain = read_inputs("solve", a, b, restitution, normal, point, tangential, law, reader.problems)
-    return inputs._changed(tolerance=limit), plain and isinstance(limit, float)

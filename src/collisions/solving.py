@@ -24,7 +24,7 @@ from .kernels.elementwise import (
     without_length,
 )
 from .kernels.status import Answer, Status
-from .models import Model, checked, float_function, model_of
+from .models import Model, float_function, model_of, read_again
 from .progress import reporter
 from .reading import broadcast
 from .units import shown
@@ -234,7 +234,7 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
         return np.broadcast_to(value, status.shape)[index].item()
 
     try:
-        case = checked(inputs._part(take))
+        case = read_again(inputs._part(take))
         solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)
