@@ -184,7 +184,7 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.case", "Impact.ees", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read back."""
@@ -198,6 +198,8 @@ def test_impacts(case: Case) -> None:
     one = case.call("Impact.case", impact.case, index)
     if isinstance(one, col.Impact):
         assert isinstance(one.status, col.Status)
+    changed = {"restitution": case.value("restitution"), "friction": case.value("friction")}
+    case.call("Impact.again", impact.again, **({} if case.maybe(0.3) else changed))
     columns = case.must("Impact.to_columns", impact.to_columns)
     assert {len(column) for column in columns.values()} == {np.size(impact.status)}
     record = case.must("Impact.to_dict", impact.to_dict)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions import reconstruct
 from collisions.quantities import attributes
 from collisions.reporting import replay
 from collisions.side import Side
@@ -488,3 +489,65 @@ def test_inputs_of_the_other_solvers():
     assert (linear.model, linear.law, linear.point, linear.tolerance) == ("linear_central", None, None, None)
     least = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="0.36 km/h").inputs
     assert (least.model, least.tolerance, least.given) == ("solve", 0.1, None)
+
+
+CRASH = {"normal": "10 deg", "point": ("1 in", 0.4), "friction": 0.5}
+
+
+def crash_bodies():
+    return (
+        col.Vehicle(mass="1500 kg", vx=10.0, yaw_inertia=2400.0, x=-2.0, y=0.4),
+        col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0),
+    )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {}, {"restitution": "10 %"}, {"friction": 0.1}, {"impulse_ratio": 0.1}, {"law": "kudlich-slibar"}, {"normal": "0 deg"},
+        {"point": (0.0, "0.2 m")}, {"a": col.Vehicle(mass=900, vx=20.0, yaw_inertia=1500.0, x=-2.0, y=0.1)},
+        {"restitution": np.array([0.0, 0.1])},
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("solver", ["oblique_central", "eccentric", "solve"])
+def test_an_impact_again_is_what_its_solver_gives(solver, changes):
+    """With the same arguments and the changed ones; a new tangential rule takes the place of the old; texts stay or go with them."""
+    a, b = crash_bodies()
+    contact = {name: CRASH[name] for name in CRASH if solver != "oblique_central" or name != "point"}
+    if solver == "oblique_central" and "point" in changes:
+        pytest.skip("has no point")
+    asked = {"a": a, "b": b, "restitution": 0.2, **contact, **({"tolerance": 0.5} if solver == "solve" else {})}
+    impact = getattr(col, solver)(**asked)
+    rule = {name: value for name, value in asked.items() if name != "friction" or "impulse_ratio" not in changes}
+    expected = getattr(col, solver)(**(rule | changes))
+    again = impact.again(**changes)
+    assert again == expected
+    assert (again.inputs.given or {}) == (expected.inputs.given or {})
+    assert json.dumps(again.to_dict()) == json.dumps(expected.to_dict())
+
+
+def test_an_impact_again_takes_what_its_solver_takes():
+    """An argument of another solver is a TypeError, a bad value the solver's own refusal."""
+    impact = col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle(mass=950.0), 0.4)
+    with pytest.raises(TypeError, match="takes the arguments of linear_central: a, b, normal, restitution; got 'friction'"):
+        impact.again(friction=0.1)
+    with pytest.raises(col.InputError, match="restitution must be from 0 to 1"):
+        impact.again(restitution=3.0)
+    with pytest.raises(col.NoImpactError):
+        impact.again(normal="180 deg")
+    other = col.eccentric(*crash_bodies(), 0.2, **CRASH)
+    with pytest.raises(col.InputError, match="friction and impulse_ratio, not both"):
+        other.again(friction=0.1, impulse_ratio=0.1)
+    with pytest.raises(col.InputError, match="give exactly one of"):
+        other.again(friction=None)
+    with pytest.raises(col.MissingInputError, match="point"):
+        other.again(point=None)
+
+
+def test_what_a_reverse_solver_found_is_solved_forward_again():
+    """From the motions that it found."""
+    found = reconstruct.central(1500.0, 1200.0, va=20.0, vb=0.0, vb_after=13.0)
+    again = found.again(restitution=0.0)
+    assert again.reconstruction is None
+    # 1500 kg of 20 m/s among 2700 kg.
+    assert again.b.after.vx == pytest.approx(20.0 * 1500.0 / 2700.0, rel=1e-14)

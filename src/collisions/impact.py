@@ -12,7 +12,7 @@ import numpy as np
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
 from .inputs import Inputs, OnFailure, index_of, part_of
-from .kernels.contact_laws import FRICTION
+from .kernels.contact_laws import FRICTION, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, solve_least
 from .models import model_of, read_again
@@ -332,6 +332,52 @@ class Impact(Frozen):
         impact = build(inputs, raw)
         vars(impact)["choice"] = choice._where_answered(impact.refused)
         return impact
+
+    def again(self, **changes: Any) -> Impact:
+        """Solve it again by the same solver with some of its arguments changed.
+
+        Parameters
+        ----------
+        **changes
+            Arguments of the solver that gave it, written as there: ``a``, ``b``, ``restitution``, ``normal`` and, where it has
+            them, ``point``, ``law``, ``tolerance``, and one of ``friction``, ``impulse_ratio`` and ``critical_fraction`` in
+            place of the one used.
+
+        Returns
+        -------
+        Impact
+            Solved forward, also where a reverse solver found this one: from the motions that it found.
+
+        Raises
+        ------
+        TypeError
+            An argument that its solver does not have.
+        CollisionsError
+            As its solver does.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> impact = col.linear_central(col.Vehicle(mass=1100, vx="80 km/h"), col.Vehicle(mass=950), 0.4)
+        >>> for e in (0.2, 0.4):
+        ...     print(round(impact.again(restitution=e).b.delta_v, 2))
+        14.31
+        16.69
+        """
+        inputs, rules = self.inputs, [name for name in RULES if name in changes]
+        takes = {"a", "b", "restitution", "normal"}
+        takes |= {"law", *RULES} if inputs.model != "linear_central" else set()
+        takes |= {"eccentric": {"point"}, "solve": {"point", "tolerance"}}.get(inputs.model, set())
+        unknown = changes.keys() - takes
+        if unknown:
+            raise TypeError(f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got {min(unknown)!r}")
+        if len(rules) > 1:
+            raise InputError(f"give one of {' and '.join(rules)}, not both", code="one_tangential", argument=rules[0])
+        changed = {name: value for name, value in changes.items() if name not in RULES}
+        changed |= {"rule": rules[0], "rule_value": changes[rules[0]]} if rules else {}
+        same_as_before = takes - changes.keys() - (RULES.keys() if rules else set())
+        given = {name: text for name, text in (inputs.given or {}).items() if name.partition("[")[0] in same_as_before}
+        return self._solved(read_again(inputs._changed(**changed, given=given, contact_velocity=None)))
 
     def _again(self, **changes: Any) -> Impact:
         """The answer of the same model to the same inputs with some of them changed, NaN where it is refused.
