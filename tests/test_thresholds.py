@@ -6,6 +6,7 @@ behind. What is measured is worked out by hand, so that a case can be placed one
 
 import ast
 import math
+import re
 import statistics
 import warnings
 from collections.abc import Callable
@@ -620,8 +621,10 @@ def test_every_warning_has_its_rows():
                 continue
             if isinstance(call.func, ast.Name) and call.func.id in categories:
                 found |= {word.value.value for word in call.keywords if word.arg == "code"}
-            elif call.args and isinstance(call.args[0], ast.Name) and call.args[0].id in categories:
-                found.add(call.args[-1].value)
+            # Or a category among the arguments, with the code behind it.
+            elif any(isinstance(part, ast.Name) and part.id in categories for part in call.args):
+                words = [part.value for part in call.args if isinstance(part, ast.Constant)]
+                found |= {word for word in words if re.fullmatch("[a-z_]+", word)}
     assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | {"nearly_plastic", "undetermined"}
 
 
