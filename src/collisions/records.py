@@ -44,7 +44,7 @@ _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 def to_record(impact: Any) -> dict[str, Any]:
     """Inputs to solve it again from, each as the text it was given as or else in SI, and every result in SI."""
     sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
-    results = {name: _strict(value) for name, value in _results(impact)}
+    results = {name: strict(value) for name, value in _results(impact)}
     return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
 
 
@@ -57,12 +57,12 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         "restitution": _given(texts.pop("restitution", None), inputs.restitution, ""),
-        "normal": text if as_text else _strict(inputs.normal),
-        "bare_normal": _strict(inputs.bare_normal),
+        "normal": text if as_text else strict(inputs.normal),
+        "bare_normal": strict(inputs.bare_normal),
         "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
         "point": inputs.point and [_given(texts.pop(f"point[{i}]", None), part, "m") for i, part in enumerate(inputs.point)],
-        "tolerance": _strict(inputs.tolerance),
-        "contact_velocity": _strict(inputs.contact_velocity),
+        "tolerance": strict(inputs.tolerance),
+        "contact_velocity": strict(inputs.contact_velocity),
         # The texts that are left are of what a reverse solver was given.
         "known": texts,
     }
@@ -91,7 +91,7 @@ def _given(text: str | None, number: Any, unit: str) -> Any:
     reader = ArgumentReader()
     if text is not None and isinstance(number, float) and reader.number(text, unit, "", UNCHECKED) == number:
         return text
-    return _strict(number)
+    return strict(number)
 
 
 def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
@@ -214,45 +214,45 @@ def _results(owner: Any) -> list[tuple[str, Any]]:
 
 def _side(side: Side) -> dict[str, Any]:
     states = {name: _state(getattr(side, name)) for name in ("before", "after", "at_compression")}
-    return {**states, **{name: _strict(value) for name, value in _results(side)}}
+    return {**states, **{name: strict(value) for name, value in _results(side)}}
 
 
 def _state(vehicle: Vehicle) -> dict[str, Any]:
-    return {name: _strict(getattr(vehicle, name)) for name in NAMES}
+    return {name: strict(getattr(vehicle, name)) for name in NAMES}
 
 
-def _strict(value: Any) -> Any:
+def strict(value: Any) -> Any:
     """Only what strict JSON knows: an infinity and NaN by name, an array with its precision, a pair as a list."""
     if isinstance(value, np.ndarray):
         return {
             "dtype": str(value.dtype),
             "shape": list(value.shape),
-            "values": [_strict(v) for v in value.reshape(-1).tolist()],
+            "values": [strict(v) for v in value.reshape(-1).tolist()],
         }
-    if isinstance(value, tuple):
-        return [_strict(part) for part in value]
+    if isinstance(value, (tuple, list)):
+        return [strict(part) for part in value]
     if isinstance(value, Status):
         return int(value)
     if isinstance(value, ModelChoice):
-        return {name: _strict(getattr(value, name)) for name in _CHOICE}
+        return {name: strict(getattr(value, name)) for name in _CHOICE}
     if isinstance(value, Reconstruction):
-        return {f.name: _strict(getattr(value, f.name)) for f in fields(value)}
+        return {f.name: strict(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):
-        return {name: _strict(part) for name, part in value.items()}
+        return {name: strict(part) for name, part in value.items()}
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
     return value
 
 
 def _count(value: Any) -> Any:
-    """A whole number, or a batch of them, as ``_strict`` wrote it."""
+    """A whole number, or a batch of them, as ``strict`` wrote it."""
     if isinstance(value, Mapping):
         return lock(np.array([int(count) for count in value["values"]], dtype=np.int64).reshape(value["shape"]))
     return math.inf if value == "inf" else int(value)
 
 
 def _read(value: Any) -> Any:
-    """What ``_strict`` wrote, read again; a text with a unit stays one."""
+    """What ``strict`` wrote, read again; a text with a unit stays one."""
     if isinstance(value, list):
         return tuple(_read(part) for part in value)
     if isinstance(value, Mapping):

@@ -112,7 +112,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     loss = Symbol(r"\Delta E", solution.translational_energy_loss, "energy")
     page.equation("Energy of translation lost (7)", loss, signed_total(zip((1.0, 1.0, -1.0, -1.0), energies, strict=True)))
     page.heading("Answers")
-    page.table(HEAD, list(_momentum_answers(page, solution)))
+    page.table(HEAD, list(momentum_answers(page, solution)))
 
 
 def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
@@ -195,7 +195,7 @@ def _is_known(value: float | None) -> bool:
     return value is not None and not math.isnan(value)
 
 
-def _momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
+def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
     """The rows of what came out."""
     for name, (of, what, kind) in _ANSWERS.items():
         value = getattr(solution, name)

@@ -16,7 +16,6 @@ from ..reconstruct import Fit, MomentumSolution
 from ..solving import error_of
 from ..uncertainty.result import Propagation
 from ..units import shown
-from ..vehicle import Vehicle
 from .contact import motions
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import Function, System
@@ -33,6 +32,16 @@ NOT_EXPLAINED = (
 )
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
 
+_VEHICLE = {
+    "mass": ("mass", "mass"),
+    "vx": ("velocity along x", "speed"),
+    "vy": ("velocity along y", "speed"),
+    "yaw_rate": ("yaw rate", "yaw rate"),
+    "yaw_inertia": ("yaw inertia about the centre of mass", "inertia"),
+    "x": ("position x of the centre of mass", "length"),
+    "y": ("position y of the centre of mass", "length"),
+    "heading": ("heading", "angle"),
+}
 _SIDE = {
     "after.vx": ("velocity after, along x", "speed"),
     "after.vy": ("velocity after, along y", "speed"),
@@ -178,54 +187,48 @@ def kinds_of_answers(result: Impact | MomentumSolution | Fit) -> Mapping[str, st
 def _impact(page: Page, impact: Impact) -> None:
     s = Symbols(impact)
     page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
-    inputs(page, impact)
+    _inputs(page, impact)
     _normal(page, s)
     why_this_model(page, impact)
     state_before(page, s)
     _MODELS[impact.model](page, s)
     motions(page, s)
-    answers(page, impact)
+    page.heading("Answers")
+    page.table(HEAD, list(impact_answers(page, impact)))
 
 
-def inputs(page: Page, impact: Impact) -> None:
-    """What went in, as a table."""
-    rows: list[tuple[str, str, str]] = []
+def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
+    """What was given: of A, B or the contact, in words, by which arguments, their numbers and their kind."""
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
-        name = f"{label} ({page.name(vehicle.name)})" if vehicle.name and vehicle.name != label else label
-        rows += [(name, what, text) for what, text in _vehicle(page, vehicle)]
-    direction = page.number(impact.normal_angle, "angle")
-    bare = impact.inputs.bare_normal
-    if bare is not None:
-        direction += f", given as {bare:.6g} without a unit"
-    rows.append(("contact", "normal, direction from A into B", direction))
+        for name, (what, kind) in _VEHICLE.items():
+            value = getattr(vehicle, name)
+            if value is not None and not (name == "yaw_rate" and value == 0.0):
+                yield label, what, (name,), (value,), kind
+        if vehicle.pivot is not None:
+            yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
+    yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
     if impact.point is not None and impact.model == "eccentric":
-        rows.append(("contact", "contact point (x, y)", _place(page, impact.point)))
-    rows.append(("contact", "restitution e", page.number(impact.restitution, "number")))
+        yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
+    yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     if impact.model != "linear_central":
-        rows.append(("contact", RULES[impact.inputs.rule].meaning, page.number(impact.inputs.rule_value, "number")))
+        rule = impact.inputs.rule
+        yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
+
+
+def _inputs(page: Page, impact: Impact) -> None:
+    """What went in, as a table."""
+    vehicles = {"A": impact.a.before.name, "B": impact.b.before.name}
+    bare = impact.inputs.bare_normal
+    rows = []
+    for of, what, names, numbers, kind in impact_inputs(impact):
+        text = ", ".join(page.number(number, kind) for number in numbers)
+        if "normal" in names and bare is not None:
+            text += f", given as {bare:.6g} without a unit"
+        name = vehicles.get(of, "")
+        rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
+    if impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     page.table(HEAD, rows)
-
-
-def _vehicle(page: Page, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
-    for what, value, kind in (
-        ("mass", vehicle.mass, "mass"),
-        ("velocity along x", vehicle.vx, "speed"),
-        ("velocity along y", vehicle.vy, "speed"),
-        ("yaw rate", vehicle.yaw_rate or None, "yaw rate"),
-        ("yaw inertia about the centre of mass", vehicle.yaw_inertia, "inertia"),
-        ("position x of the centre of mass", vehicle.x, "length"),
-        ("position y of the centre of mass", vehicle.y, "length"),
-        ("heading", vehicle.heading, "angle"),
-    ):
-        if value is not None:
-            yield what, page.number(value, kind)
-    if vehicle.pivot is not None:
-        yield "pivot O (x, y)", _place(page, vehicle.pivot)
-
-
-def _place(page: Page, place: tuple[float, float]) -> str:
-    return ", ".join(page.number(part, "length") for part in place)
 
 
 def _normal(page: Page, s: Symbols) -> None:
@@ -240,9 +243,8 @@ def _normal(page: Page, s: Symbols) -> None:
     page.equation("Normal along y", s.ny, Function("sin", phi))
 
 
-def answers(page: Page, impact: Impact) -> None:
-    """What came out, rounded, as a table."""
-    rows = []
+def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]:
+    """What came out, rounded, as rows of a table."""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
             if impact.model != "eccentric" and name.endswith("yaw_rate"):
@@ -253,13 +255,11 @@ def answers(page: Page, impact: Impact) -> None:
                 continue
             value = attrgetter(name)(side)
             if value is not None and not math.isnan(value):
-                rows.append((label.upper(), what, page.answer(f"{label}.{name}", value, kind)))
+                yield label.upper(), what, page.answer(f"{label}.{name}", value, kind)
     for name, (what, kind) in _CONTACT.items():
         shown_already = name == "restitution" and impact.reconstruction is None
         if not shown_already and not (impact.model == "linear_central" and name in _OF_FRICTION):
-            rows.append(("contact", what, page.answer(name, getattr(impact, name), kind)))
-    page.heading("Answers")
-    page.table(HEAD, rows)
+            yield "contact", what, page.answer(name, getattr(impact, name), kind)
 
 
 def _energy_gain(page: Page, status: Any, loss: float) -> None:

@@ -1,14 +1,20 @@
-"""report: the whole page of one answer."""
+"""report: the whole page of one answer, with its figures, from the first heading to the record."""
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from html import escape
+from importlib import import_module
 from inspect import signature
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from .. import plot
 from ..contact_effects import left_out
 from ..derivation.evidence import fit
 from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
@@ -24,19 +30,28 @@ from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
+from ..uncertainty.result import Sampled
 from ..units import Input, shown
 from . import sections
-from .blocks import Heading, Paragraph, Record, Sheet, Working, plain
-from .figures import figures as pictures
-from .known import Known
-from .markdown import markdown
-from .options import EVIDENCE, kept, plain_options
-from .record import record
-from .render import html
+from .record import EVIDENCE, plain_options, record
+from .render import Block, Paragraph, Picture, Record, Working, html, markdown, plain, visible
+from .sections import Sheet
+from .uncertainty import Spread, varies
 
 Form: TypeAlias = Literal["html", "markdown"]
-_FORMS = get_args(Form)
 _SURROGATE = re.compile("[\ud800-\udfff]")
+# What no page of these answers has a part for.
+_OTHER_PARTS: dict[type, tuple[str, ...]] = {
+    MomentumSolution: ("outline_a", "outline_b", "share_a"),
+    Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
+}
+_SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2)}
+_SIZE = (6.5, 4.6)
+# Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names are no formulas.
+_SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
+_UNDATED = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+_TAG = re.compile(r"<[^>]*>")
+_ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 
 def report(
@@ -127,29 +142,95 @@ def report(
     from .. import __version__
 
     need_one_case(impact, (Impact, MomentumSolution, Fit), "report", instead=NOT_EXPLAINED)
-    readable = _readable(impact) if isinstance(impact, Impact) else impact
     options = plain_options(given)
-    duration, drag, limits, share_a = (options[name] for name in ("duration", "drag", "limits", "share_a"))
+    paragraphs, outlines = _checked(impact, options, uncertainty)
+    evidence = {name: options[name] for name in EVIDENCE}
+    looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
+    spread = Spread(impact, uncertainty)
+    sheet = Sheet(Page(System(units), False, spread.deviations, spread.ranges))
+    sheet.title(plain(title or _title(impact)))
+    findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
+    if isinstance(impact, Impact):
+        sections.gain(sheet, impact, impact.energy_loss)
+        sections.inputs(sheet, impact, evidence)
+        found = left_out(impact, duration=options["duration"], drag=options["drag"])
+        sections.assumptions(sheet, impact, found, outlines, options["limits"])
+        sections.results(sheet, impact, options["share_a"])
+    elif isinstance(impact, MomentumSolution):
+        sections.gain(sheet, impact, impact.translational_energy_loss)
+        sections.momentum(sheet, impact, evidence)
+    else:
+        fit(sheet, impact)
+    if uncertainty is not None:
+        spread.write(sheet, uncertainty)
+    if findings is not None:
+        sections.findings(sheet, findings)
+    if paragraphs:
+        sheet.heading("Notes")
+        for paragraph in paragraphs:
+            sheet.say(paragraph)
+    readable = _readable(impact) if isinstance(impact, Impact) else impact
+    if figures and (isinstance(impact, Impact) or uncertainty is not None):
+        sheet.heading("Figures")
+        if form == "html":
+            sheet.blocks += _figures(readable, uncertainty, options["outline_a"], options["outline_b"], units)
+        else:
+            sheet.say("The figures are in the HTML form of this report.")
+    if derivation:
+        sheet.heading("Derivation")
+        known = uncertainty if spread.ranges else spread.deviations
+        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=known or None)
+        sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
+    if findings is not None:
+        sections.sources(sheet, findings)
+    sheet.say(f"Worked out by collisions {__version__}.")
+    sheet.heading("Record")
+    unusual = {name: value for name, value in options.items() if value != _USUAL[name]}
+    sheet.blocks.append(Record(record(impact, __version__, unusual, uncertainty)))
+    return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
+
+
+_USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
+
+
+def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple[list[str], dict[str, Any]]:
+    """The paragraphs of the notes and the outlines by vehicle; one error names every option that cannot be used."""
     reader = ArgumentReader()
-    _option(reader, "form", form, _FORMS)
-    problem = bad_system(units)
+
+    def refuse(argument: str, text: str, code: str = "bad_option") -> None:
+        reader.refuse(InputError(text, code=code, argument=argument))
+
+    form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
+    if not isinstance(form, str) or form not in get_args(Form):
+        refuse("form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}")
+    problem = bad_system(options["units"])
     if problem is not None:
         reader.refuse(problem)
-    heading = "" if title is None else _text(reader, "title", title)
-    words = [_text(reader, "notes", note) for note in ([notes] if isinstance(notes, str) else _listed(reader, notes))]
-    for name, value in (("figures", figures), ("derivation", derivation)):
-        if not isinstance(value, bool):
-            reader.refuse(InputError(f"{name} must be True or False, got {shown(value)}", code="bad_option", argument=name))
+    paragraphs = [notes] if isinstance(notes, str) else list(notes) if isinstance(notes, (list, tuple)) else []
+    texts = [] if title is None else [("title", title)]
+    for name, text in [*texts, *(("notes", paragraph) for paragraph in paragraphs)]:
+        if not isinstance(text, str) or not plain(text):
+            refuse(name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text")
+    if notes is not None and not isinstance(notes, (str, list, tuple)):
+        refuse("notes", f"notes must be a text, or a list of texts, got {type(notes).__name__}", "not_a_text")
+    for name in ("figures", "derivation"):
+        if not isinstance(options[name], bool):
+            refuse(name, f"{name} must be True or False, got {shown(options[name])}")
     if uncertainty is not None and not isinstance(uncertainty, Propagation):
-        reader.refuse(
-            InputError(
-                f"uncertainty must be what uncertainty.propagate returned, got {type(uncertainty).__name__}; standard "
-                f"deviations by name go to explain(impact, uncertainty=...)",
-                code="bad_option",
-                argument="uncertainty",
-            )
+        refuse(
+            "uncertainty",
+            f"uncertainty must be what uncertainty.propagate returned, got {type(uncertainty).__name__}; standard "
+            f"deviations by name go to explain(impact, uncertainty=...)",
         )
-    _refuse_other_parts(reader, impact, options)
+    kind = type(impact)
+    for name in _OTHER_PARTS.get(kind, ()):
+        if options[name] != _USUAL[name]:
+            refuse(
+                name,
+                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself",
+            )
+    if kind is Fit and isinstance(uncertainty, Propagation):
+        reader.refuse(no_uncertainty())
     outlines = {
         label: read_outline(reader, options[f"outline_{label}"], f"outline_{label}")
         for label in "ab"
@@ -158,118 +239,91 @@ def report(
     if share_a is not None and isinstance(reader.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
         reader.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
     reader.close()
-    evidence = {name: options[name] for name in EVIDENCE}
-    looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
-    known = Known(impact, uncertainty)
-    sheet = Sheet(Page(System(units), False, known.deviations, known.ranges))
-    sheet.title(heading or _title(impact))
-    findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
-    if isinstance(impact, Impact):
-        sections.gain(sheet, impact, impact.energy_loss)
-        sections.inputs(sheet, impact, evidence)
-        sections.assumptions(sheet, impact, left_out(impact, duration=duration, drag=drag), outlines, limits)
-        sections.results(sheet, impact, share_a)
-    elif isinstance(impact, MomentumSolution):
-        sections.gain(sheet, impact, impact.translational_energy_loss)
-        sections.momentum(sheet, impact, evidence)
-    else:
-        fit(sheet, impact)
-    if uncertainty is not None:
-        known.tell(sheet, uncertainty)
-    if findings is not None:
-        sections.findings(sheet, findings)
-    if words:
-        sheet.heading("Notes")
-        for note in words:
-            sheet.say(note)
-    if figures and (isinstance(impact, Impact) or uncertainty is not None):
-        sheet.heading("Figures")
-        sheet.blocks += (
-            pictures(readable, uncertainty, options["outline_a"], options["outline_b"], units)
-            if form == "html"
-            else [Paragraph("The figures are in the HTML form of this report.")]
-        )
-    if derivation:
-        sheet.heading("Derivation")
-        spread = uncertainty if known.ranges else known.deviations
-        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=spread or None)
-        sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
-    if findings is not None:
-        sections.sources(sheet, findings)
-    sheet.say(f"Worked out by collisions {__version__}.")
-    sheet.blocks += [Heading("Record"), Record(record(impact, __version__, kept(options, _USUAL), uncertainty))]
-    return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
-
-
-_USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
-
-
-# What no page of these answers has a part for.
-_OTHER_PARTS: dict[type, tuple[str, ...]] = {
-    MomentumSolution: ("outline_a", "outline_b", "share_a"),
-    Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
-}
-
-
-def _refuse_other_parts(reader: ArgumentReader, impact: Any, options: Mapping[str, Any]) -> None:
-    kind = type(impact)
-    for name in _OTHER_PARTS.get(kind, ()):
-        if options[name] != _USUAL[name]:
-            told = (
-                f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself"
-            )
-            reader.refuse(InputError(told, code="bad_option", argument=name))
-    if kind is Fit and isinstance(options["uncertainty"], Propagation):
-        reader.refuse(no_uncertainty())
+    return [plain(paragraph) for paragraph in paragraphs], outlines
 
 
 def _title(impact: Impact | MomentumSolution | Fit) -> str:
     if isinstance(impact, Impact):
-        return plain(f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}")
+        return f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"
     return "Fit to evidence" if isinstance(impact, Fit) else "Planar momentum of A and B"
 
 
 def _readable(impact: Impact) -> Impact:
     """The same impact with names that a file can hold, where one has half a letter."""
-    if not any(map(_SURROGATE.search, (impact.a.before.name, impact.b.before.name))):
+    vehicles = impact.inputs.a, impact.inputs.b
+    if not any(_SURROGATE.search(vehicle.name) for vehicle in vehicles):
         return impact
-    a, b = (vehicle._told(None) for vehicle in (impact.inputs.a, impact.inputs.b))
-    for vehicle in (a, b):
-        vehicle.__setstate__({"name": plain(vehicle.name)})
-    named = impact._with(a, b)
-    return named
+    a, b = (vehicle.replace(name=plain(vehicle.name)) for vehicle in vehicles)
+    whole: Impact = impact._with(a, b)
+    return whole
 
 
-def _option(reader: ArgumentReader, argument: str, value: Any, allowed: tuple[str, ...]) -> None:
-    if not isinstance(value, str) or value not in allowed:
-        reader.refuse(
-            InputError(
-                f"{argument} must be one of {', '.join(map(repr, allowed))}, got {shown(value)}",
-                code="bad_option",
-                argument=argument,
-            )
+def _figures(
+    impact: Any, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: UnitSystem
+) -> Iterator[Block]:
+    """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
+    try:
+        import_module("matplotlib.figure")
+    except ImportError:
+        yield Paragraph("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
+        return
+    if isinstance(impact, Impact):
+        yield from _of_impact(impact, outline_a, outline_b, units)
+    for number, output in enumerate(() if uncertainty is None else uncertainty.outputs.values(), 1):
+        name = plain(output.name)
+        if not varies(output):
+            yield Paragraph(f"{name}: no figures, because it is the same in every case.")
+            continue
+        if isinstance(output, Sampled):
+            caption = f"{name}: the cases drawn, given the stated inputs."
+            yield _drawn(f"distribution-{number}", caption, partial(plot.distribution, output, units=units))
+        caption = f"{name}: the share of its variance that each input brings, by itself and in all."
+        yield _drawn(f"contributions-{number}", caption, partial(plot.contributions, output, units=units))
+
+
+def _of_impact(impact: Impact, outline_a: Any, outline_b: Any, units: UnitSystem) -> Iterator[Block]:
+    scene = partial(plot.scene, impact, units=units, outline_a=outline_a, outline_b=outline_b)
+    yield _drawn("scene", "The scene from above at the moment of impact.", scene)
+    if impact.model != "linear_central":
+        yield _drawn("momentum", "Momentum before and after, head to tail.", partial(plot.momentum, impact, units=units))
+        yield _drawn(
+            "impulse-plane",
+            "Normal and tangential impulse, with the lines that decide them.",
+            partial(plot.impulse_plane, impact, units=units),
         )
+    yield _drawn("energy", "Where the kinetic energy went.", partial(plot.energy, impact, units=units))
 
 
-def _listed(reader: ArgumentReader, notes: Any) -> Sequence[Any]:
-    if notes is None:
-        return []
-    if not isinstance(notes, (list, tuple)):
-        reader.refuse(
-            InputError(
-                f"notes must be a text, or a list of texts, got {type(notes).__name__}", code="not_a_text", argument="notes"
-            )
-        )
-        return []
-    return notes
+def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:
+    """One figure, drawn with nobody's settings but these; a sentence where its numbers give none."""
+    from matplotlib import rc_context, rcdefaults, rcParams
+    from matplotlib.figure import Figure
+    from matplotlib.text import Text
+
+    with rc_context(), warnings.catch_warnings():
+        rcdefaults()
+        rcParams.update(_SETTINGS)
+        # A name may have letters that this font lacks, and the font of whoever reads the page has.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        figure = Figure(figsize=_SIZES.get(name, _SIZE), layout="constrained")
+        try:
+            draw(axes=figure.add_subplot())
+        except InputError as error:
+            return Paragraph(f"{caption} Not drawn: {error}.")
+        for text in figure.findobj(Text):
+            text.set_text(visible(text.get_text()))
+        target = io.StringIO()
+        figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
+    return Picture(caption, _standalone(target.getvalue(), name, caption))
 
 
-def _text(reader: ArgumentReader, argument: str, text: Any) -> str:
-    if not isinstance(text, str) or not plain(text):
-        reader.refuse(
-            InputError(
-                f"{argument} must be a text that says something, got {shown(text)}", code="not_a_text", argument=argument
-            )
-        )
-        return ""
-    return plain(text)
+def _standalone(svg: str, name: str, caption: str) -> str:
+    """The svg element alone, its ids apart from those of other figures, its style left to the page."""
+    svg = visible(svg[svg.index("<svg") :].rstrip())
+    svg = re.sub(r"\n\s*<defs>\s*<style[^>]*>[^<]*</style>\s*</defs>", "", svg, count=1)
+
+    def with_name(tag: re.Match[str]) -> str:
+        return _ID.sub(lambda found: f"{found[1]}{name}.{found[2].replace(' ', '-')}", tag[0])
+
+    label = f'<svg role="img" aria-label="{escape(caption)}"'
+    return _TAG.sub(with_name, svg).replace("<svg", label, 1)

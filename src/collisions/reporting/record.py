@@ -1,4 +1,4 @@
-"""The record at the end of a report, and the answer read back from it."""
+"""The record at the end of a report: written as JSON, found again in a page, and its answer and options read back."""
 
 from __future__ import annotations
 
@@ -6,31 +6,46 @@ import json
 import math
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
-from html.parser import HTMLParser
+from functools import partial
+from html import unescape
 from typing import Any
 
+from ..diagnostics import LIMITS
 from ..errors import CollisionsError, CollisionsWarning, InputError
 from ..impact import Impact
+from ..kernels.elementwise import UNCHECKED
+from ..outlines import read_outline
 from ..quantities import unit_of
 from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution, momentum
+from ..records import strict
 from ..uncertainty import Propagation
 from ..units import shown
-from ..vehicle import NAMES, Vehicle
-from .markdown import FENCE
-from .options import UNITS, given_again, strict
-from .render import RECORD
-from .told import unlike
+from ..vehicle import DOMAINS, Vehicle
+from .render import FENCE, RECORD
 
-_FORMAT = "collisions report 1"
-# What may have been given as a text.
-_NAMES = (*(name for name in NAMES if name not in ("name", "pivot")), "pivot[0]", "pivot[1]", "speed", "course")
-# A text is read again by the same rules; the velocity of a pinned vehicle may differ by 1e-9 from the one that was given.
-_SAME = 2e-9
+_FORMAT = "collisions report 2"
+# The options that make another page, and the unit in which one is read; None for what is no number.
+_UNITS: dict[str, str | None] = {
+    **dict.fromkeys(("title", "form", "units", "outline_a", "outline_b", "limits", "notes", "figures", "derivation")),
+    "duration": "s",
+    "drag": "",
+    "share_a": "",
+    "crush_energy": "J",
+    "damage_pdof_a": "rad",
+    "damage_pdof_b": "rad",
+    "damage_delta_v_a": "m/s",
+    "damage_delta_v_b": "m/s",
+}
+EVIDENCE = tuple(name for name in _UNITS if name.startswith(("crush", "damage")))
+# Arguments of a vehicle that may be given as a text.
+_NUMBERS = (*DOMAINS, "pivot[0]", "pivot[1]", "speed", "course")
+# The velocity of a pinned vehicle may differ by 1e-9 from the text that it was given as.
+_READ_AGAIN = 2e-9
 # Results that another machine gives may differ by its rounding, relative or in SI; nobody would read more.
-_OFF = 1e-6
+_OTHER_MACHINE = 1e-6
 # Words about the numbers, which another version may choose otherwise.
 _SENTENCES = ("choice.reason",)
 
@@ -39,17 +54,65 @@ def record(
     impact: Impact | MomentumSolution | Fit, version: str, options: Mapping[str, Any], uncertainty: Propagation | None
 ) -> str:
     """The answer, how its inputs were given, and the options of the report, as JSON."""
-    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": dict(options)}
+    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": strict(options)}
     if uncertainty is not None:
         whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
     if isinstance(impact, Impact):
-        whole["given"] = {label: dict(side.before._given or {}) for label, side in (("a", impact.a), ("b", impact.b))}
         whole["impact"] = impact.to_dict()
+        inputs = whole["impact"]["inputs"]
+        whole["other_texts"] = {
+            label: _other_texts(vehicle, inputs[label]) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
+        }
     elif isinstance(impact, Fit):
         whole["fit"] = impact.to_dict()
     else:
         whole["momentum"] = {"inputs": impact._given, "results": _results(impact)}
     return json.dumps(whole, indent=1, allow_nan=False)
+
+
+def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The options with every number as a float or as the text it was given as; what cannot be read stays, to be refused."""
+    found = {name: value for name, value in given.items() if name in _UNITS}
+    for name, unit in _UNITS.items():
+        if unit is not None and given[name] is not None:
+            found[name] = _number(given[name], unit, name)
+    if isinstance(given["limits"], Mapping):
+        found["limits"] = {
+            code: _number(value, LIMITS[code].unit, code) if code in LIMITS else value
+            for code, value in given["limits"].items()
+        }
+    for name in ("outline_a", "outline_b"):
+        reader = ArgumentReader()
+        corners = None if given[name] is None else read_outline(reader, given[name], name)
+        if corners is not None and not reader.problems:
+            found[name] = [tuple(map(float, corner)) for corner in corners]
+    return found
+
+
+def _number(value: Any, unit: str, name: str) -> Any:
+    """A float, or a text that reads as the same number here."""
+    if isinstance(value, str):
+        return value
+    reader = ArgumentReader(trusted=(name,))
+    read = reader.number(value, unit, name, UNCHECKED)
+    if reader.problems or not isinstance(read, float):
+        return value
+    text = reader.texts.get(name)
+    # A unit of another registry may be another here, or none.
+    return text if text is not None and ArgumentReader().number(text, unit, name, UNCHECKED) == read else read
+
+
+def _other_texts(vehicle: Vehicle, inputs: Mapping[str, Any]) -> dict[str, str]:
+    """Texts that the record of the impact does not hold, as they do not read as the number here."""
+    texts = vehicle._given or {}
+    return {name: text for name, text in texts.items() if _argument(inputs.get, name) != text}
+
+
+def _argument(find: Callable[[str], Any], name: str) -> Any:
+    """What is found for an argument, or for one of the two of a place."""
+    field, _, index = name.partition("[")
+    value = find(field)
+    return value[int(index[0])] if index and value is not None else value
 
 
 def _results(solution: MomentumSolution) -> Any:
@@ -76,8 +139,8 @@ def replay(text: str) -> Impact | MomentumSolution:
     Raises
     ------
     InputError
-        No report with a record, or a record that cannot be read, or whose texts and numbers differ; or the report of a ``Fit``,
-        whose model is code.
+        No report with a record, or a record that cannot be read, or whose inputs do not give its results; or the report of a
+        ``Fit``, whose model is code.
 
     Examples
     --------
@@ -104,34 +167,43 @@ def replay(text: str) -> Impact | MomentumSolution:
         impact = Impact.from_dict(found["impact"])
     except CollisionsError as error:
         raise _bad(str(error)) from error
-    differing = next(_differences(found["impact"]["results"], impact.to_dict()["results"]), None)
-    if differing is not None:
-        raise _bad(f"its inputs do not give its {differing}")
-    stray = next(unlike(impact), None)
-    if stray is not None:
-        raise _bad(stray)
-    given = found.get("given")
-    if not isinstance(given, Mapping) or set(given) != {"a", "b"}:
-        raise _bad("it does not say how a and b were given")
-    a, b = (_told(vehicle, given[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
-    whole = impact._with(a, b)
+    _check(found["impact"]["results"], impact.to_dict()["results"])
+    texts = found.get("other_texts")
+    if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:
+        raise _bad("it does not say how else a and b were given")
+    a, b = (_with_texts(vehicle, texts[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
+    whole: Impact = impact._with(a, b)
     return whole
 
 
 def _momentum(whole: Any) -> MomentumSolution:
     """Planar momentum again, by the arguments of a record."""
     try:
-        inputs, told = dict(whole["inputs"]), whole["results"]
+        inputs, results = dict(whole["inputs"]), whole["results"]
         pairs = {name: tuple(value) for name, value in inputs.items() if isinstance(value, list)}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", CollisionsWarning)  # given when it was solved
             solution = momentum(**(inputs | pairs), on_failure="nan")
     except (CollisionsError, LookupError, TypeError, ValueError) as error:
         raise _bad(str(error)) from error
-    differing = next(_differences(told, json.loads(json.dumps(_results(solution)))), None)
-    if differing is not None:
-        raise _bad(f"its inputs do not give its {differing}")
+    _check(results, json.loads(json.dumps(_results(solution))))
     return solution
+
+
+def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
+    """The vehicle with other texts that it was given as; one that can be read here must be of its number."""
+    if not isinstance(texts, Mapping) or not all(isinstance(text, str) for text in texts.values()):
+        raise _bad(f"what it says of how {label} was given is no dict of texts")
+    for name, text in texts.items():
+        if name not in _NUMBERS or not isinstance(number := _argument(partial(getattr, vehicle), name), float):
+            raise _bad(f"{label} has no {shown(name)} that could have been given")
+        reader = ArgumentReader()
+        unit = unit_of(Vehicle, name.partition("[")[0]) or ""
+        read = reader.number(text, unit, name, UNCHECKED)
+        apart = math.remainder(read - number, math.tau) if unit == "rad" else read - number
+        if not reader.problems and abs(apart) > _READ_AGAIN * max(1.0, abs(number)):
+            raise _bad(f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} {unit}")
+    return vehicle._told(dict(vehicle._given or {}) | dict(texts))
 
 
 def options(text: str) -> dict[str, Any]:
@@ -164,13 +236,18 @@ def options(text: str) -> dict[str, Any]:
     >>> report(replay(page), **options(page)) == page
     True
     """
-    found = _whole(text).get("options", {})
     try:
-        if found.keys() <= UNITS.keys():
-            return given_again(found)
-    except (AttributeError, TypeError):
-        pass
-    raise _bad("its options are none that report takes")
+        found = dict(_whole(text).get("options", {}))
+        known = found.keys() <= _UNITS.keys()
+        for name in {"outline_a", "outline_b"} & found.keys():
+            found[name] = [tuple(corner) for corner in found[name]]
+        if "limits" in found:
+            found["limits"] = {code: math.inf if limit == "inf" else limit for code, limit in found["limits"].items()}
+    except (AttributeError, TypeError, ValueError):
+        known = False
+    if not known:
+        raise _bad("its options are none that report takes")
+    return found
 
 
 def _whole(text: Any) -> Mapping[str, Any]:
@@ -181,7 +258,17 @@ def _whole(text: Any) -> Mapping[str, Any]:
             code="not_a_text",
             argument="text",
         )
-    inside = _record_in(text)
+    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
+    if text.lstrip().startswith("<"):
+        inside = unescape(text.rpartition(f'<pre id="{RECORD}">')[2].partition("</pre>")[0]) if RECORD in text else ""
+    else:
+        inside = text.rpartition(FENCE)[2].rpartition("```")[0] if FENCE in text else ""
+    if not inside.strip():
+        raise InputError(
+            "text has no record of an impact at its end; give the whole text of a report as report(...) returned it",
+            code="no_record",
+            argument="text",
+        )
     try:
         found = json.loads(inside)
     except (ValueError, RecursionError) as error:
@@ -191,107 +278,41 @@ def _whole(text: Any) -> Mapping[str, Any]:
     return found
 
 
-def _differences(told: Any, found: Any, name: str = "") -> Iterator[str]:
+def _check(recorded: Any, found: Any) -> None:
     """Results of the record that its inputs do not give, by more than another machine may round; all must be there."""
     scale = max((abs(number) for number in _floats(found)), default=0.0)
-    yield from _apart(told, found, name, max(_OFF, 1e-12 * scale))
+    differing = next(_differences(recorded, found, "", max(_OTHER_MACHINE, 1e-12 * scale)), None)
+    if differing is not None:
+        raise _bad(f"its inputs do not give its {differing}")
 
 
 def _floats(found: Any) -> Iterator[float]:
-    if isinstance(found, Mapping):
-        found = list(found.values())
-    if isinstance(found, list):
-        for part in found:
+    if isinstance(found, (Mapping, list)):
+        for part in found.values() if isinstance(found, Mapping) else found:
             yield from _floats(part)
     elif isinstance(found, float):
         yield found
 
 
-def _apart(told: Any, found: Any, name: str, off: float) -> Iterator[str]:
-    if isinstance(told, Mapping) and isinstance(found, Mapping):
-        for key in dict.fromkeys([*found, *told]):
+def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[str]:
+    if isinstance(recorded, Mapping) and isinstance(found, Mapping):
+        for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
-            if key not in told:
+            if key not in recorded:
                 yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
             elif path not in _SENTENCES:
-                yield from _apart(told[key], found[key], path, off)
-    elif isinstance(told, list) and isinstance(found, list) and len(told) == len(found):
-        for i, (one, other) in enumerate(zip(told, found, strict=True)):
-            yield from _apart(one, other, f"{name}[{i}]", off)
-    elif isinstance(told, (int, float)) and isinstance(found, float):
+                yield from _differences(recorded[key], found[key], path, off)
+    elif isinstance(recorded, list) and isinstance(found, list) and len(recorded) == len(found):
+        for i, (one, other) in enumerate(zip(recorded, found, strict=True)):
+            yield from _differences(one, other, f"{name}[{i}]", off)
+    elif isinstance(recorded, (int, float)) and isinstance(found, float):
         # JSON may hold whole numbers beyond any float.
-        if not (abs(told) <= sys.float_info.max and math.isclose(told, found, rel_tol=_OFF, abs_tol=off)):
-            yield f"{name}, {told!r}, but {found!r}"
-    elif told != found:
-        yield f"{name}, {shown(told)}, but {shown(found)}"
-
-
-def _record_in(text: str) -> str:
-    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
-    if text.lstrip().startswith("<"):
-        finder = _Finder()
-        finder.feed(text)
-        finder.close()
-        found = "".join(finder.parts)
-    else:
-        found = text.rpartition(FENCE)[2].rpartition("```")[0] if FENCE in text else ""
-    if not found.strip():
-        raise InputError(
-            "text has no record of an impact at its end; give the whole text of a report as report(...) returned it",
-            code="no_record",
-            argument="text",
-        )
-    return found
-
-
-class _Finder(HTMLParser):
-    """Collects the text of the element that holds the record."""
-
-    def __init__(self) -> None:
-        super().__init__(convert_charrefs=True)
-        self.parts: list[str] = []
-        self.inside = False
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        if tag == "pre" and ("id", RECORD) in attrs:
-            self.inside, self.parts = True, []
-
-    def handle_endtag(self, tag: str) -> None:
-        if tag == "pre":
-            self.inside = False
-
-    def handle_data(self, data: str) -> None:
-        if self.inside:
-            self.parts.append(data)
-
-
-def _told(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
-    """The vehicle with the texts it was given as, which must give its numbers."""
-    if not isinstance(texts, Mapping) or not all(isinstance(text, str) for text in texts.values()):
-        raise _bad(f"what it says of how {label} was given is no dict of texts")
-    for name, text in texts.items():
-        if name not in _NAMES or not isinstance(number := _value(vehicle, name), float):
-            raise _bad(f"{label} has no {shown(name)} that could have been given")
-        unit = unit_of(Vehicle, name.partition("[")[0]) or ""
-        reader = ArgumentReader()
-        read = reader.number(text, unit, name)
-        # A unit of another registry cannot be read here, and somebody at rest has no course.
-        if reader.problems or math.isnan(number) or read == number:
-            continue
-        apart = math.remainder(read - number, 2.0 * math.pi) if unit == "rad" else read - number
-        size = {"rad": 2.0 * math.pi, "m/s": vehicle.speed}.get(unit, abs(number))
-        if not abs(apart) <= _SAME * size:
-            raise _bad(f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} {unit}")
-    return vehicle._told(dict(texts))
-
-
-def _value(vehicle: Vehicle, name: str) -> Any:
-    """The number of an argument, or of one of the two of a place."""
-    field, _, index = name.partition("[")
-    value = getattr(vehicle, field)
-    return value[int(index[0])] if index and value is not None else value
+        if not (abs(recorded) <= sys.float_info.max and math.isclose(recorded, found, rel_tol=_OTHER_MACHINE, abs_tol=off)):
+            yield f"{name}, {recorded!r}, but {found!r}"
+    elif recorded != found:
+        yield f"{name}, {shown(recorded)}, but {shown(found)}"
 
 
 def _bad(why: str) -> InputError:

@@ -1,12 +1,14 @@
-"""The blocks as one HTML file that needs nothing from outside and prints well."""
+"""What a report is made of, and how it becomes Markdown, or one HTML file that needs nothing from outside and prints well."""
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from html import escape
 from itertools import groupby
-
-from .blocks import Block, Heading, Items, Paragraph, Picture, Record, Table, Working
+from typing import TypeAlias
 
 RECORD = "collisions-record"
 _STYLE = """\
@@ -34,6 +36,79 @@ pre { font-size: 8.5pt; line-height: 1.3; white-space: pre-wrap; overflow-wrap: 
   details pre { display: none; }
 }
 """
+FENCE = "```json\n"
+_MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~&])")
+# What would begin a list or underline a line at the start of one.
+_START = re.compile(r"^(\d*)([-+=.)])")
+# Signs that join letters; what else has no shape of its own could make a line read as another.
+_JOINERS = "\u200c\u200d"
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """The heading of a part; ``level`` 1 is the title."""
+
+    text: str
+    level: int = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """A sentence or more; ``stressed`` if it must not be read over."""
+
+    text: str
+    stressed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of what it is of, the quantity, and its value."""
+
+    head: tuple[str, str, str]
+    rows: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list, each line with what it begins with, which may be nothing."""
+
+    lines: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure as SVG, and what it shows."""
+
+    caption: str
+    svg: str
+
+
+@dataclass(frozen=True, slots=True)
+class Working:
+    """The derivation: Markdown with LaTeX, or plain text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What the report can be made again from, as JSON."""
+
+    text: str
+
+
+Block: TypeAlias = Heading | Paragraph | Table | Items | Picture | Working | Record
+
+
+def plain(text: str) -> str:
+    """A text that somebody gave, in one line and without signs that cannot be seen."""
+    return visible(" ".join(text.split()))
+
+
+def visible(text: str) -> str:
+    """A text of one line or more with a mark in place of each sign that cannot be seen."""
+    hidden = {sign for sign in set(text) if unicodedata.category(sign)[0] == "C" and sign not in _JOINERS + "\n"}
+    return "".join("\ufffd" if sign in hidden else sign for sign in text)
 
 
 def html(blocks: Sequence[Block], version: str) -> str:
@@ -51,14 +126,14 @@ def html(blocks: Sequence[Block], version: str) -> str:
         f"<style>\n{_STYLE}</style>",
         "</head>",
         "<body>",
-        *(line for block in blocks for line in _block(block)),
+        *(line for block in blocks for line in _html(block)),
         "</body>",
         "</html>",
     ]
     return "\n".join(lines) + "\n"
 
 
-def _block(block: Block) -> Iterator[str]:
+def _html(block: Block) -> Iterator[str]:
     match block:
         case Heading(text, level):
             yield f"<h{level}>{escape(text)}</h{level}>"
@@ -97,3 +172,38 @@ def _tables(table: Table) -> Iterator[str]:
         yield "</tbody>"
         yield "</table></div>"
     yield "</div>"
+
+
+def markdown(blocks: Sequence[Block]) -> str:
+    """The whole page."""
+    return "\n\n".join(_markdown(block) for block in blocks) + "\n"
+
+
+def _markdown(block: Block) -> str:
+    match block:
+        case Heading(text, level):
+            return f"{'#' * level} {_escaped(text)}"
+        case Paragraph(text, stressed):
+            return f"**{_escaped(text)}**" if stressed else _line(text)
+        case Table(head, rows):
+            lines = [head, *rows]
+            shown = [f"| {' | '.join(map(_escaped, line))} |" for line in lines]
+            return "\n".join([shown[0], "| --- | --- | --- |", *shown[1:]])
+        case Items(lines):
+            return "\n".join(
+                f"- **{_escaped(strong)}** {_escaped(text)}" if strong else f"- {_line(text)}" for strong, text in lines
+            )
+        case Picture(caption, _):
+            return _line(caption)
+        case Working(text):
+            return text.rstrip("\n")
+        case Record(text):
+            return f"{FENCE}{text}\n```"
+
+
+def _escaped(text: str) -> str:
+    return _MARKS.sub(r"\\\1", text)
+
+
+def _line(text: str) -> str:
+    return _START.sub(r"\1\\\2", _escaped(text))

@@ -9,15 +9,16 @@ from typing import Any
 
 from .. import reference
 from ..contact_effects import LeftOut, LeftOutSide
-from ..derivation import evidence as derivation
 from ..derivation import reverse
-from ..derivation.explain import answers
-from ..derivation.explain import inputs as inputs_of_impact
+from ..derivation.evidence import momentum_answers, momentum_inputs
+from ..derivation.explain import impact_answers, impact_inputs
+from ..derivation.page import HEAD, Page
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings
+from ..directions import course
 from ..errors import Status
-from ..formatting import KIND_OF, SI_UNITS
+from ..formatting import KIND_OF, SI_UNITS, percent
 from ..impact import Impact
 from ..kernels.contact_laws import LAWS
 from ..models import BY_NAME
@@ -26,30 +27,28 @@ from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
 from ..units import Input
 from ..vehicle import Vehicle
-from .blocks import Items, Sheet, Table, plain
-from .told import knowns
+from .render import Block, Heading, Items, Paragraph, Table, plain
 
-_HEAD = ("of", "quantity", "value")
-# By what the row is of: the arguments, and their kind.
-_FIELDS: dict[str, tuple[tuple[str, ...], str]] = {
-    "mass": (("mass",), "mass"),
-    "velocity along x": (("vx",), "speed"),
-    "velocity along y": (("vy",), "speed"),
-    "yaw rate": (("yaw_rate",), "yaw rate"),
-    "yaw inertia about the centre of mass": (("yaw_inertia",), "inertia"),
-    "position x of the centre of mass": (("x",), "length"),
-    "position y of the centre of mass": (("y",), "length"),
-    "heading": (("heading",), "angle"),
-    "pivot O (x, y)": (("pivot[0]", "pivot[1]"), "length"),
-}
-_CONTACT: dict[str, tuple[tuple[str, ...], str]] = {
-    "normal, direction from A into B": (("normal",), "angle"),
-    "contact point (x, y)": (("point[0]", "point[1]"), "length"),
-    "restitution e": (("restitution",), "number"),
-    "friction (bound on the impulse ratio)": (("friction",), "number"),
-    "impulse ratio": (("impulse_ratio",), "number"),
-    "critical fraction": (("critical_fraction",), "number"),
-}
+_AS_PRINTED = 1e-9  # relative: what six figures show of a number that they hold
+_DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
+_VELOCITY = {"vx": "velocity along x", "vy": "velocity along y", "speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
+# What a reverse solver may be given beside the contact: in words, and its kind.
+_KNOWN = {"energy_loss": ("energy lost", "energy"), "closing_speed": ("closing speed", "speed")}
+for _label in "ab":
+    _of = f" of {_label.upper()}"
+    for _name, _what in _VELOCITY.items():
+        _KNOWN[f"{_label}_after.{_name}"] = (
+            f"{_what}{_of} after",
+            {"course": "angle", "yaw_rate": "yaw rate"}.get(_name, "speed"),
+        )
+    _KNOWN |= {
+        f"v{_label}": (f"velocity{_of} before", "speed"),
+        f"v{_label}_after": (f"velocity{_of} after", "speed"),
+        f"speed_{_label}": (f"speed{_of} before", "speed"),
+        f"course_{_label}": (f"course{_of} before", "angle"),
+        f"delta_v_{_label}": (f"delta-V{_of}", "speed"),
+        f"ees_{_label}": (f"EES{_of}", "speed"),
+    }
 _EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
     "damage_pdof_a": ("A", "PDOF that the damage shows", "angle"),
@@ -72,6 +71,49 @@ _RANGE = (
 )
 
 
+class Sheet(Page):
+    """A page of the derivation that keeps what is put down as blocks, for the parts that a report shares with it."""
+
+    def __init__(self, page: Page) -> None:
+        super().__init__(page.system, False, page.deviations, page.ranges)
+        self.blocks: list[Block] = []
+
+    def as_given(self, value: float | None, kind: str, text: str | None) -> str:
+        """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
+        if value is None:
+            return f"given as {plain(text or '')}"
+        number = self.number(value, kind)
+        if text is not None:
+            return _given_as(number, text)
+        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
+            return number
+        printed = float(number.split()[0])
+        if abs(printed - value * self.system.scale(kind)) <= _AS_PRINTED * abs(printed):
+            return number
+        return f"{number}, exactly {value:.{_DIGITS}g} {SI_UNITS[kind]}".rstrip()
+
+    def title(self, text: str) -> None:
+        self.blocks.append(Heading(text, 1))
+
+    def heading(self, text: str) -> None:
+        self.blocks.append(Heading(text))
+
+    def say(self, text: str) -> None:
+        self.blocks.append(Paragraph(text))
+
+    def stress(self, text: str) -> None:
+        self.blocks.append(Paragraph(text, stressed=True))
+
+    def table(self, head: tuple[str, str, str], rows: Sequence[tuple[str, str, str]]) -> None:
+        self.blocks.append(Table(head, tuple(rows)))
+
+    def listed(self, lines: Sequence[str]) -> None:
+        self.blocks.append(Items(tuple(("", line) for line in lines)))
+
+    def name(self, text: str) -> str:
+        return plain(text)
+
+
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
     """An energy gain comes before anything else."""
     if impact.status == Status.ENERGY_GAIN:
@@ -85,31 +127,18 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
     """What went in, with the texts that it was given as, and why this model or how the state was found."""
     backwards = impact.reconstruction is not None
     sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
-    aside = sheet.aside()
-    inputs_of_impact(aside, impact)
     vehicles = {"A": impact.a.before, "B": impact.b.before}
     rows: list[tuple[str, str, str]] = []
-    for of, quantity, value in _rows(aside):
-        vehicle = None if of == "contact" else vehicles[of[0]]
+    for of, quantity, names, numbers, kind in impact_inputs(impact):
+        vehicle = vehicles.get(of)
         texts = (impact.inputs.given if vehicle is None else vehicle._given) or {}
-        names, kind = (_CONTACT if vehicle is None else _FIELDS).get(quantity, ((), ""))
-        written = [texts[name] for name in names if isinstance(texts.get(name), str)]
-        if written and len(written) == len(names):
-            text = plain(", ".join(written))
-            value = value if text == value else f"{value}, given as {text}"
-        elif kind == "speed" and vehicle is not None and vehicle.pivot is not None:
-            value += ", worked out from yaw rate and pivot"
-        elif kind == "speed" and texts.keys() & {"speed", "course"}:
-            value += ", worked out from speed and course"
-        elif names and not (len(names) == 1 and names[0] in texts):
-            parts = _numbers(impact, vehicle, names[0])
-            each = [sheet.as_given(float(part), kind, texts.get(name)) for name, part in zip(names, parts, strict=True)]
-            value = "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
-        rows.append((of, quantity, value))
+        name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
+        rows.append((name, quantity, _input(sheet, impact, vehicle, names, numbers, kind, texts)))
         if vehicle is not None and quantity == "mass":
-            rows += [(of, what, told) for what, told in _speed(sheet, vehicle, texts)]
-    rows += _damage(sheet, evidence)
-    sheet.table(_HEAD, rows)
+            rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
+    if impact.model != "linear_central":
+        rows.append(("contact", "law of restitution and no slip", impact.law or ""))
+    sheet.table(HEAD, [*rows, *_damage(sheet, evidence)])
     sheet.say(
         "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
         "only its direction; it stands here in the units of this page. The record has all digits."
@@ -117,9 +146,60 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact.reconstruction)
-        told = knowns(sheet, impact)
-        if told:
-            sheet.table(_HEAD, told)
+        known = _known(sheet, impact)
+        if known:
+            sheet.table(HEAD, known)
+
+
+def _input(
+    sheet: Sheet,
+    impact: Impact,
+    vehicle: Vehicle | None,
+    names: Sequence[str],
+    numbers: Sequence[float],
+    kind: str,
+    texts: Mapping[str, Any],
+) -> str:
+    """One number or both of a place, and how they were given."""
+    value = ", ".join(sheet.number(number, kind) for number in numbers)
+    written = [texts[name] for name in names if isinstance(texts.get(name), str)]
+    if len(written) == len(names):
+        return _given_as(value, ", ".join(written))
+    if kind == "speed" and vehicle is not None and vehicle.pivot is not None:
+        return f"{value}, worked out from yaw rate and pivot"
+    if kind == "speed" and texts.keys() & {"speed", "course"}:
+        return f"{value}, worked out from speed and course"
+    if "normal" in names and impact.inputs.bare_normal is not None:
+        return f"{value}, given as {impact.inputs.bare_normal:.6g} without a unit"
+    each = [sheet.as_given(float(number), kind, texts.get(name)) for name, number in zip(names, numbers, strict=True)]
+    return "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
+
+
+def _given_as(value: str, text: str) -> str:
+    return value if plain(text) == value else f"{value}, given as {plain(text)}"
+
+
+def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Speed and course, where the velocity was given by them; somebody at rest has no course but the one that was given."""
+    for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
+        if not math.isnan(value) and texts.keys() & {"speed", "course"}:
+            number = sheet.number(value, kind)
+            yield name, _given_as(number, texts.get(name, number))
+        elif name in texts:
+            yield name, plain(texts[name])
+
+
+def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
+    """The texts of what a reverse solver was given beside the contact, as rows of a table."""
+    rows = []
+    for name, text in (impact.inputs.given or {}).items():
+        if name in _KNOWN:
+            what, kind = _KNOWN[name]
+            reader = ArgumentReader()
+            read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
+            # A unit of another registry cannot be read here.
+            rows.append(("known", what, sheet.as_given(None if reader.problems else float(read), kind, text)))
+    return rows
 
 
 def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any]) -> None:
@@ -129,10 +209,10 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
         given |= {f"{name}[{at}]": part for at, part in enumerate(value)} if isinstance(value, list) else {name: value}
     sheet.heading("Inputs")
     rows = []
-    for of, what, name, number, kind in derivation.momentum_inputs(solution):
+    for of, what, name, number, kind in momentum_inputs(solution):
         text = given.get(name)
         rows.append((of, what, sheet.as_given(number, kind, text if isinstance(text, str) else None)))
-    sheet.table(_HEAD, [*rows, *_damage(sheet, evidence)])
+    sheet.table(HEAD, [*rows, *_damage(sheet, evidence)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
     sheet.say(
@@ -140,10 +220,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
         f"impulse from outside that is stated. Nothing is assumed of restitution, friction or rotation.{together}"
     )
     sheet.heading("Results")
-    aside = sheet.aside()
-    derivation.momentum(aside, solution)
-    *_, found = (block for block in aside.blocks if isinstance(block, Table))
-    sheet.blocks.append(found)
+    sheet.table(HEAD, list(momentum_answers(sheet, solution)))
     system, of_speed = sheet.system, sheet.system.scale("speed")
     rows = [("both", "condition, from the angle between the courses of the unknown speeds", f"{solution.condition:.3g}")]
     for answer, row in solution.sensitivity.items():
@@ -151,7 +228,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
             moved = f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {system.label(kind)}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
-    sheet.table(_HEAD, rows)
+    sheet.table(HEAD, rows)
 
 
 def _in_words(name: str) -> str:
@@ -169,27 +246,6 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
             read = ArgumentReader(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
             given_as = evidence[name] if isinstance(evidence[name], str) else None
             yield of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)
-
-
-def _numbers(impact: Impact, vehicle: Vehicle | None, name: str) -> tuple[Any, ...]:
-    """The number of an input, or both of a place."""
-    field = name.partition("[")[0]
-    contact = {"normal": impact.normal_angle, "point": impact.point, "restitution": impact.restitution}
-    found = getattr(vehicle, field) if vehicle is not None else contact.get(field, impact.inputs.rule_value)
-    return found if isinstance(found, tuple) else (found,)
-
-
-def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """Speed and course, where the velocity was given by them."""
-    for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
-        text = texts.get(name)
-        if math.isnan(float(value)):
-            # Somebody at rest has no course but the one that was given.
-            if text is not None:
-                yield name, plain(text)
-        elif texts.keys() & {"speed", "course"}:
-            told = sheet.number(float(value), kind)
-            yield name, told if text is None or told == plain(text) else f"{told}, given as {plain(text)}"
 
 
 def assumptions(
@@ -214,8 +270,8 @@ def assumptions(
         ("Axes:", "x and y in the road plane; angles and yaw positive counter-clockwise, seen from above."),
     ]
     for label, corners in outlines.items():
-        told = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
-        lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {told}."))
+        places = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
+        lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {places}."))
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
@@ -230,8 +286,8 @@ def assumptions(
     ]
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
-            rows += [(plain(who(index, vehicle)), what, told) for what, told in _left_out(sheet, side, impact.model, vehicle)]
-    sheet.table(_HEAD, rows)
+            rows += [(plain(who(index, vehicle)), what, text) for what, text in _left_out(sheet, side, impact.model, vehicle)]
+    sheet.table(HEAD, rows)
 
 
 def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
@@ -249,27 +305,24 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
         ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share, moved),
     ):
         if change is not None and share is not None:
-            part = "" if math.isnan(float(share)) else f" ({100.0 * float(share):.0f} percent)"
+            part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
             part = f": {why}" if math.isnan(float(change)) else part
             yield what, sheet.system.answer(float(change), "speed") + part
 
 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     """What came out, with the EES of a stated share."""
-    aside = sheet.aside()
-    answers(aside, impact)
-    rows = _rows(aside)
+    rows = list(impact_answers(sheet, impact))
     if share_a is not None:
-        reader = ArgumentReader()
-        share = reader.number(share_a, "", "share_a")
+        share = ArgumentReader().number(share_a, "", "share_a")
         for label, speed in zip("AB", impact.ees(share_a), strict=True):
-            held = f"EES, if A took up {100.0 * share:.6g} percent of the energy absorbed"
+            what = f"EES, if A took up {100.0 * share:.6g} percent of the energy absorbed"
             last = max(at for at, row in enumerate(rows) if row[0] == label) + 1
-            rows.insert(last, (label, held, sheet.system.answer(float(speed), "speed")))
+            rows.insert(last, (label, what, sheet.system.answer(float(speed), "speed")))
     rows.append(("contact", "kind", impact.kind))
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
-    sheet.table(_HEAD, [(plain(names.get(of, of)), what, told) for of, what, told in rows])
+    sheet.table(HEAD, [(plain(names.get(of, of)), what, text) for of, what, text in rows])
     if sheet.ranges:
         sheet.say("A range in brackets comes of an interval among the inputs, in which no value is said to be likelier.")
 
@@ -288,8 +341,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
         of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
-        told = f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}."
-        lines.append((f"{finding.code}{of}:", told))
+        lines.append((f"{finding.code}{of}:", f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}."))
     sheet.blocks.append(Items(tuple(lines)))
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
@@ -309,11 +361,6 @@ def sources(sheet: Sheet, found: Sequence[Finding]) -> None:
     published = "; ".join(dict.fromkeys(factor.source for factor in factors))
     lines.append(f"To compare the drag with, locked wheels on dry asphalt: {low:.2f} to {high:.2f}; {published}.")
     sheet.listed(list(dict.fromkeys(lines)))
-
-
-def _rows(aside: Sheet) -> list[tuple[str, str, str]]:
-    """The rows of the tables of a sheet."""
-    return [row for block in aside.blocks if isinstance(block, Table) for row in block.rows]
 
 
 def _amount(sheet: Sheet, value: float, unit: str) -> str:

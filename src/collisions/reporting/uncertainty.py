@@ -1,0 +1,157 @@
+"""What a propagation says of the answer on a report: the spread of each number it knows, and a table of its own."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ..derivation.explain import kinds_of_answers
+from ..derivation.page import HEAD
+from ..errors import InputError
+from ..formatting import KIND_OF, SI_UNITS, percent, with_decimals
+from ..impact import Impact
+from ..reconstruct import Fit, MomentumSolution
+from ..uncertainty import Output, Propagation
+from ..units import shown
+from .render import plain
+from .sections import Sheet
+
+# A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
+_NO_SPREAD, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
+
+
+class Spread:
+    """The outputs of a propagation that are answers, by the name of the answer."""
+
+    def __init__(self, impact: Impact | MomentumSolution | Fit, uncertainty: Propagation | None) -> None:
+        self.impact = impact
+        self.kinds = kinds_of_answers(impact)
+        self.outputs: dict[str, Output] = {}
+        names = {name.replace(".", "_"): name for name in self.kinds} | {name: name for name in self.kinds}
+        for output in () if uncertainty is None else uncertainty.outputs.values():
+            name = names.get(output.name)
+            if name is not None and output.unit in (None, SI_UNITS[self.kinds[name]]):
+                self.outputs[name] = output
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviations; what an interval leaves open has none, only ranges."""
+        found = {name: _ends_of(output.std) for name, output in self.outputs.items() if varies(output, self.kinds[name])}
+        return {name: std[0] for name, std in found.items() if len(std) == 1 and math.isfinite(std[0])}
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:
+        """What an interval among the inputs leaves open."""
+        return {name: output.interval() for name, output in self.outputs.items() if len(_ends_of(output.std)) > 1}
+
+    def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
+        """The figures of every output, what they are given, and whether they are of this answer."""
+        sheet.heading("Uncertainty, given the stated inputs")
+        for name, output in self.outputs.items():
+            self._check(sheet, name, output)
+        rows: list[tuple[str, str, str]] = []
+        for output in uncertainty.outputs.values():
+            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output, uncertainty.method)]
+        sheet.table(HEAD, rows)
+        if any(what.startswith("share of the variance") for _, what, _ in rows):
+            sheet.say(
+                "By itself an input brings its share without what it does together with others; in all, with that. "
+                "Where the shares by themselves fall short of 100 percent by more than their errors, the rest comes of inputs "
+                "together."
+            )
+        stated = [("Inputs as stated", plain(name), plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
+        sheet.table(HEAD, stated)
+        cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
+        seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
+        sheet.say(f"By {uncertainty.method}: {cases}{seed}. What the inputs leave out, these figures do.")
+        if uncertainty.failed:
+            sheet.say("Cases without an answer are left out: the figures hold given that there is one.")
+        if uncertainty.interrupted:
+            sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
+
+    def _check(self, sheet: Sheet, name: str, output: Output) -> None:
+        """The answer must lie where the propagation says it does, or one of the two is of something else."""
+        value: Any = self.impact
+        for part in name.split("."):
+            value = getattr(value, part)
+        kind, (low, high) = self.kinds[name], output.interval()
+        turns = (-1, 0, 1) if kind == "angle" else (0,)
+        off = max(_NO_SPREAD * max(abs(low), abs(high)), _NOTHING.get(kind, _NO_SPREAD))
+        if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
+            text = "none" if value is None else sheet.system.answer(float(value), kind)
+            sheet.stress(
+                f"{name} of this impact, {text}, lies outside the 95 percent interval of the propagation: are both of the same "
+                f"case?"
+            )
+
+    def _figures(self, sheet: Sheet, output: Output, method: str) -> list[tuple[str, str]]:
+        own = next((self.kinds[name] for name, answer in self.outputs.items() if answer is output), None)
+        kind = own or KIND_OF.get(output.unit or "none")
+        if kind is None:
+            return [("figures", plain(output.row()[1])), *_shares(output)]
+        mean, std, (low, high) = _ends_of(output.mean), _ends_of(output.std), output.interval()
+
+        def number(value: float) -> str:
+            return sheet.system.answer(value, kind)
+
+        if method == "interval":
+            return [("range, wherever in the intervals the truth is", f"{number(low)} to {number(high)}")]
+        if len(mean) > 1:
+            return [
+                ("mean, wherever in the intervals the truth is", f"{number(mean[0])} to {number(mean[1])}"),
+                ("range that holds 95 percent", f"{number(low)} to {number(high)}"),
+                *_shares(output),
+            ]
+        if math.isnan(std[0]):
+            return [("in the one case that has an answer, so no spread is known", number(mean[0]))]
+        if not varies(output, kind):
+            return [("the same in every case", number(mean[0]))]
+        first, second = (sheet.system.answer(end, kind, std[0]).partition(" ± ")[0] for end in (low, high))
+        unit = sheet.system.unit(kind)
+        return [
+            ("mean ± standard deviation", sheet.system.answer(mean[0], kind, std[0])),
+            ("95 percent interval", f"{first.removesuffix(unit)} to {second.removesuffix(unit)}{unit}"),
+            *_shares(output),
+        ]
+
+
+def _ends_of(figure: Any) -> tuple[float, ...]:
+    """One figure, or the ends of its range."""
+    return tuple(map(float, figure)) if isinstance(figure, tuple) else (float(figure),)
+
+
+def varies(output: Output, kind: str = "") -> bool:
+    """Whether an output is another in other cases, by more than rounding."""
+    size = max(map(abs, _ends_of(output.mean)))
+    return max(_ends_of(output.std)) > max(_NO_SPREAD * size, _NOTHING.get(kind, _NO_SPREAD))
+
+
+def _shares(output: Output) -> list[tuple[str, str]]:
+    """What each input brings of the variance, by itself and in all."""
+    try:
+        shares = output.contributions
+    except InputError:
+        return []
+    if not varies(output):
+        return []
+    whole, errors = output.total_contributions, output.contribution_standard_errors
+    rows = [
+        (
+            f"share of the variance by {plain(name)}",
+            f"{_share(_within(part), errors[name][0])} by itself, {_share(_within(whole[name]), errors[name][1])} in all",
+        )
+        for name, part in shares.items()
+    ]
+    return [*rows, ("sum of the shares by themselves", _share(sum(map(_within, shares.values()))))]
+
+
+def _share(share: float, error: float = math.nan) -> str:
+    """A share of the variance, with its standard error where that shows."""
+    if math.isnan(share):
+        return "not known"
+    return f"{with_decimals(100.0 * share, 0)} ± {percent(error)}" if error >= 0.005 else percent(share)
+
+
+def _within(share: float) -> float:
+    """A share, which sampling may put outside of 0 to 1."""
+    return share if math.isnan(share) else min(max(share, 0.0), 1.0)
