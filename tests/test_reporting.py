@@ -658,9 +658,11 @@ def test_a_number_beyond_floats_is_no_number_of_the_record():
     ],
 )  # fmt: skip
 def test_what_is_no_report_is_refused(text, code):
-    with pytest.raises(col.InputError) as caught:
-        replay(text)
-    assert caught.value.code == code
+    for read in (replay, options):
+        with pytest.raises(col.InputError) as caught:
+            read(text)
+        assert caught.value.code == code
+        assert "options are none" not in str(caught.value)
 
 
 def test_a_unit_of_another_registry_is_kept_as_it_was_written():

@@ -236,8 +236,9 @@ def options(text: str) -> dict[str, Any]:
     >>> report(replay(page), **options(page)) == page
     True
     """
+    whole = _whole(text)
     try:
-        found = dict(_whole(text).get("options", {}))
+        found = dict(whole.get("options", {}))
         known = found.keys() <= _UNITS.keys()
         for name in {"outline_a", "outline_b"} & found.keys():
             found[name] = [tuple(corner) for corner in found[name]]
