@@ -105,6 +105,8 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
         if model not in _SOLVERS:
             raise bad_record(f"its model is {shown(model)}; known are {', '.join(_SOLVERS)}")
+        if model != "solve" and found["tolerance"] is not None:
+            raise bad_record(f"only solve has a tolerance, and its model is {shown(model)}")
         status = record["results"]["status"]
         status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
