@@ -21,7 +21,7 @@ from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle
-from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, refusal_alone, run_forward
+from .common import Cases, exactly, finish, input_faults, moving, read_amounts, read_masses, run_forward
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
@@ -143,20 +143,17 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
         # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
-        still: Any = 0.0 if np.all(keep) else cases.values(np.where(keep, 0.0, np.nan))
+        still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
         for label, speed in (("a", found.va), ("b", found.vb)):
             given = {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts}
-            speed = cases.values(np.where(keep, speed, np.nan))
-            bodies.append(Vehicle(mass=numbers[f"mass_{label}"])._moved(speed, still, still)._told(given))
-        e = cases.values(np.where(keep, found.restitution, np.nan))
+            body = Vehicle(mass=numbers[f"mass_{label}"])
+            bodies.append(moving(body, (cases.where(keep, speed), still, still), given))
+        e = cases.where(keep, found.restitution)
         others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
         return Inputs("linear_central", bodies[0], bodies[1], e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
 
-    def error(index: tuple[int, ...]) -> CollisionsError:
-        if cases.shape is not None:
-            of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
-            return refusal_alone(partial(central, **of_case), status[index])
+    def refusal() -> CollisionsError:
         if status != Status.AMBIGUOUS:
             return _refusal(status, found, arrays)
         solutions = tuple(
@@ -170,8 +167,12 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
             solutions=solutions,
         )
 
+    def solve_case(index: tuple[int, ...]) -> Impact:
+        of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
+        return central(**of_case)
+
     origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
-    return finish(partial(inputs_of, found), status, origin, on_failure, error)
+    return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
 
 def _candidates(numbers: dict[str, Any], eps: float) -> list[Candidate]:

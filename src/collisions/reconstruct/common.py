@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -72,6 +73,12 @@ def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], d
     return staying, {name: text for name, text in texts.items() if name in motion}
 
 
+def moving(body: Vehicle, motion: Sequence[Any], texts: dict[str, str]) -> Vehicle:
+    """The same body in another motion, vx, vy and yaw rate, with the texts that the rest of it was given as."""
+    vx, vy, yaw_rate = motion
+    return body._moved(vx, vy, yaw_rate)._told(texts)
+
+
 def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()) -> dict[str, Any]:
     """The numbers of a contact and of both vehicles, by the names in messages; ``state`` goes with a and b, as in a_after."""
     found = {inputs.rule: inputs.rule_value, "normal[0]": inputs.normal[0], "normal[1]": inputs.normal[1]}
@@ -107,6 +114,10 @@ class Cases(NamedTuple):
         with np.errstate(over="ignore"):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
+    def where(self, keep: Any, found: Any) -> Any:
+        """The same, NaN in the cases that are not to be kept."""
+        return self.values(np.where(keep, found, np.nan))
+
     def beyond(self, found: Any) -> Any:
         """Where an answer is not finite, or would not be in the precision of the batch."""
         with np.errstate(over="ignore"):
@@ -135,7 +146,7 @@ class Cases(NamedTuple):
         self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
     ) -> Reconstruction:
         """How it was found, with closing speed and slip if they are known; the numbers are NaN but ``where`` they hold."""
-        condition, *found = (self.values(np.where(where, value, np.nan)) for value in (condition, *velocity))
+        condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
             method=method,
             known=tuple(known),
@@ -173,50 +184,50 @@ def finish(
     status: Any,
     origin: Reconstruction,
     on_failure: Any,
-    error: Callable[[tuple[int, ...]], CollisionsError],
+    refusal: Callable[[], CollisionsError],
+    solve_case: Callable[[tuple[int, ...]], Any],
 ) -> Impact:
     """The impact from the state that was found, or what ``on_failure`` wants of cases that have none.
 
-    ``inputs_of`` gives the inputs with NaN for what was looked for, but in the cases it is called with. ``error`` gives the
-    refusal of the case at an index.
+    ``inputs_of`` gives the inputs with NaN for what was looked for, but in the cases it is called with. ``refusal`` is that of
+    a single case, ``solve_case`` solves the case of a batch at an index by itself.
     """
     check_options(on_failure)
     if not isinstance(status, np.ndarray):
         if status != Status.OK and on_failure != "nan":
-            raise error(())
+            raise refusal()
         return run_forward(inputs_of, status, origin, on_failure)
     found = run_forward(inputs_of, status, origin, "nan")
-    raise_or_warn(found.status, on_failure, error)
+
+    def refusal_at(index: tuple[int, ...]) -> CollisionsError:
+        try:
+            with quietly():
+                solve_case(index)
+        except CollisionsError as problem:
+            return problem
+        # In double precision there may be none.
+        outcome = Status(int(found.status[index]))
+        return error_of(outcome, outcome.sentence)
+
+    raise_or_warn(found.status, on_failure, refusal_at)
     return found
 
 
 def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:
     """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
-    sure = np.equal(status, Status.OK)
-    impact = Impact._solved(inputs_of(sure)._changed(contact_velocity=origin.contact_velocity), on_failure=on_failure)
-    inputs = impact.inputs
-    if np.any(sure & impact.refused):
-        inputs = inputs_of(sure & np.logical_not(impact.refused))
+    found = np.equal(status, Status.OK)
+    inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
+    impact = Impact._solved(inputs, on_failure=on_failure)
+    if np.any(found & impact.refused):
+        inputs = inputs_of(found & np.logical_not(impact.refused))
     return found_by(origin, inputs, impact._raw, status)
 
 
-def raise_or_warn(
-    status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError], advice: str | None = None
-) -> None:
+def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
     """What a batch does about its refused cases."""
     if on_failure != "nan" and np.any(status > Status.ENERGY_GAIN):
         if on_failure == "raise":
             index, place = first_refused(status)
             problem = error(index)
             raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
-        warn_of_refusals(status, *([] if advice is None else [advice]))
-
-
-def refusal_alone(solve: Callable[[], Any], status: int) -> CollisionsError:
-    """The refusal of one case of a batch, from the case by itself; in double precision there may be none."""
-    try:
-        with quietly():
-            solve()
-    except CollisionsError as problem:
-        return problem
-    return error_of(status, Status(status).sentence)
+        warn_of_refusals(status)

@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError
+from ..errors import AmbiguousSolutionError, NoSolutionError
 from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
 from ..kernels.status import Status
 from ..reading import ArgumentReader
-from ..solving import error_of
+from ..solving import error_of, warn_of_refusals
 from ..units import Input, Value
-from .common import ASK_ALONE, Cases, exactly, input_faults, raise_or_warn, read_amounts, read_masses
+from .common import ASK_ALONE, Cases, exactly, input_faults, read_amounts, read_masses
 from .crossings import RestitutionOf, crossings
 
 
@@ -113,21 +113,17 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
         )
     )
 
-    def error(index: tuple[int, ...]) -> CollisionsError:
-        code = Status(int(np.asarray(status)[index]))
+    if cases.shape is None and status != Status.OK:
         text = {
             Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
             Status.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
             Status.UNDETERMINED: "restitution = 1 loses no energy, so energy_loss tells nothing of the closing speed; give a "
             "delta-V",
-        }.get(code, "these values give no finite closing speed; the ees of an infinite mass is 0")
-        return error_of(code, text)
-
-    if cases.shape is not None:
-        raise_or_warn(status, None, error, ASK_ALONE)
-    elif status != Status.OK:
-        raise error(())
-    answer: Value = cases.values(np.where(np.equal(status, Status.OK), speed, np.nan))
+        }.get(status, "these values give no finite closing speed; the ees of an infinite mass is 0")
+        raise error_of(status, text)
+    if np.any(np.not_equal(status, Status.OK)):
+        warn_of_refusals(status, ASK_ALONE)
+    answer: Value = cases.where(np.equal(status, Status.OK), speed)
     return answer
 
 

@@ -374,8 +374,7 @@ def _sensitivity(
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
         found[name] = {
-            label: known.cases.values(np.where(sure, change_of_speed(cross, wanted, other, between), np.nan))
-            for label, cross in row.items()
+            label: known.cases.where(sure, change_of_speed(cross, wanted, other, between)) for label, cross in row.items()
         }
     return found
 
@@ -383,7 +382,7 @@ def _sensitivity(
 def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
     """Says how little the answers may be worth, and where they are no impact."""
 
-    def say(where: Any, kind: type[CollisionsWarning], code: str, text: str, pick: Any = np.min, **field: Any) -> None:
+    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, *, pick: Any = np.min, **field: Any) -> None:
         if np.any(where):
             ((name, values),) = field.items()
             where, values = np.broadcast_arrays(where, values)
@@ -401,13 +400,13 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
             f"the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line (condition {{:.3g}}): "
             f"{numbers}; an in-line method may tell more"
         )
-        say(near, IllConditionedWarning, "nearly_collinear", text, np.max, condition=found["condition"])
+        say(IllConditionedWarning, near, text, "nearly_collinear", pick=np.max, condition=found["condition"])
     for name in solution.unknowns:
         text = f"{name} = {{:.6g}} m/s: backwards along its course; check the courses, or turn this one by 180 deg"
         # What rounding leaves of 0 is no motion backwards.
-        say(sure & (found[name] < -rounding), OutOfRangeWarning, "negative_speed", text, value=found[name])
+        say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", value=found[name])
     text = "the vehicles leave with {:.6g} J more than they came with, which no impact gives; check courses and speeds"
-    say(gains, EnergyGainWarning, "energy_gain", text, np.max, gain=-found["translational_energy_loss"])
+    say(EnergyGainWarning, gains, text, "energy_gain", pick=np.max, gain=-found["translational_energy_loss"])
     closing, e = found["closing_speed"], found["restitution"]
     if closing is None:
         return
@@ -415,14 +414,15 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
         "the centres do not approach along the normal, which must point from A into B: closing speed {:.6g} m/s, so there is "
         "no restitution"
     )
-    say(closing <= 0.0, OutOfRangeWarning, "separating", text, closing_speed=closing)
+    say(OutOfRangeWarning, closing <= 0.0, text, "separating", closing_speed=closing)
     slack = rounding / closing
+    below, above = e < -slack, e > 1.0 + slack
     text = (
         "the restitution of the centres along the normal is {:.4g}, outside 0 to 1: check the normal, courses and speeds, or "
         "ask reconstruct.restitution with the contact point"
     )
-    worst = np.min if np.any(e < -slack) else np.max
-    say((e < -slack) | (e > 1.0 + slack), OutOfRangeWarning, "observed_restitution", text, worst, value=e)
+    pick = np.min if np.any(below) else np.max
+    say(OutOfRangeWarning, below | above, text, "observed_restitution", pick=pick, value=e)
 
 
 def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:

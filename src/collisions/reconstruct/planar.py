@@ -26,7 +26,7 @@ from ..solving import error_of
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle
 from ..warning import warn
-from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, refusal_alone, run_forward, split_texts
+from .common import Cases, exactly, finish, input_faults, moving, numbers_by_name, read_amounts, run_forward, split_texts
 from .origins import End, Origin
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
@@ -166,7 +166,7 @@ def planar(
         return _answer(cases, end, replace(inputs, given={**reader.texts, **(inputs.given or {})}), regime, on_failure)
 
 
-def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failure: Any) -> Impact:
+def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_failure: Any) -> Impact:
     texts = dict(inputs.given or {})
     staying = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
@@ -207,15 +207,13 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failu
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         a, b = (
-            body._moved(*(cases.values(np.where(keep, part, np.nan)) for part in motion))._told(given)
+            moving(body, [cases.where(keep, part) for part in motion], given)
             for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True)
         )
-        e = inputs.restitution if end.kind == "restitution" else cases.values(np.where(keep, origin.restitution, np.nan))
+        e = inputs.restitution if end.kind == "restitution" else cases.where(keep, origin.restitution)
         return replace(inputs, a=a, b=b, restitution=e)
 
-    def error(index: tuple[int, ...]) -> CollisionsError:
-        if cases.shape is not None:
-            return refusal_alone(partial(_solve_case, cases, end, inputs, index, regime), int(status[index]))
+    def refusal() -> CollisionsError:
         stuck = status == Status.STICK_INVERSE
         # Those of a range are its ends, whichever regime was given.
         fitting = [one for one in end.origins(None if stuck else regime) if one.fits]
@@ -227,8 +225,17 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: str | None, on_failu
         )
         return _refusal(status, end, regime, [one.regime for one in fitting], solutions)
 
+    def solve_case(index: tuple[int, ...]) -> Impact:
+        def take(array: Any) -> float:
+            return cases.one(array, index)
+
+        contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
+        contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
+        return planar(part_of(inputs.a, take), part_of(inputs.b, take), regime=regime, **contact)
+
     _warn(cases, end, sure & end.pressed, nearly)
-    return finish(partial(inputs_of, found), status, origin_of(found, condition, count, sure), on_failure, error)
+    origin = origin_of(found, condition, count, sure)
+    return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
 
 def _first_that_fits(origins: Sequence[Origin]) -> Origin:
@@ -243,17 +250,6 @@ def _first_that_fits(origins: Sequence[Origin]) -> Origin:
 
     _, *parts = zip(*origins, strict=True)
     return Origin("", *map(choose, parts))
-
-
-def _solve_case(cases: Cases, end: End, inputs: Inputs, index: tuple[int, ...], regime: Any) -> Impact:
-    """One case of a batch by itself."""
-
-    def take(array: Any) -> float:
-        return cases.one(array, index)
-
-    contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
-    contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
-    return planar(part_of(inputs.a, take), part_of(inputs.b, take), regime=regime, **contact)
 
 
 def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
@@ -311,16 +307,8 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
             text = _contradiction(end, separation, slip, regime)
         case Status.INVERSE_E0:
             text = f"restitution = 0: after a plastic impact nothing is left of the closing speed; give {_instead(end)} instead"
-        case Status.IMMOVABLE:
-            text = (
-                "nothing can yield along the normal: both bodies are fixed there; correct normal or point, or give a finite "
-                "mass"
-            )
         case _:
-            text = (
-                "the contact can move in one direction only (a pinned body against a fixed one, or parallel arms), so what "
-                "would stop the slip is not defined; write friction=0, or give impulse_ratio="
-            )
+            text = Status(status).message
     return error_of(status, text, separation_speed=separation, slip_after=slip, solutions=solutions)
 
 

@@ -2,7 +2,7 @@
 
 As long as the contact keeps sliding one way, or sticks, the impulse is linear in the two speeds, and what was observed of it
 quadratic. So in each regime the candidates are roots of a quadratic, read off the forward kernel at three places, polished on
-it, and kept if the law as asked leads from them to what was observed. A share of the critical ratio makes the impulse a
+it, and taken if the law that was given leads from them to what was observed. A share of the critical ratio makes the impulse a
 quotient, with a divisor that is linear in the speeds; times its square what was observed is a quartic, read off at five places.
 """
 
@@ -30,7 +30,7 @@ _SHARE = "share"
 _NEWTON_STEPS = 3
 # Part of the speeds, and of a restitution of 1, that a derivative is taken over: exact for quadratics, to 1e-8 for quotients.
 _STEP = 1e-4
-# Part of the speeds by which a root is moved, to see whether the knowns tell it from its neighbours.
+# Part of the speeds by which a root is moved, to see whether the knowns hold there too.
 _BESIDE = 0.02
 # Where a range of speeds is looked at: five places, for what is observed along it is a quotient of quartics at most.
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
@@ -48,7 +48,7 @@ class Root(NamedTuple):
 
 
 class Scene:
-    """Two vehicles whose speeds are open, and what was observed of them.
+    """Two vehicles whose speeds are unknown, and what was observed of them.
 
     Every case is worked out in a unit of speed and a unit of mass of its own, powers of two, so that squares of what was given
     neither overflow nor vanish. ``speed_unit``, ``mass_unit`` lead back.
@@ -308,7 +308,7 @@ class Scene:
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
     def fits(self, root: Root) -> tuple[Any, Any]:
-        """Whether the law as asked leads from these speeds to what was observed, and the closing speed.
+        """Whether the law that was given leads from these speeds to what was observed, and the closing speed.
 
         The speeds of a root are themselves rounded, which moves an observation by its slope; the kernel adds the rounding of
         the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
