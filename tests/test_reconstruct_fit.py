@@ -26,7 +26,7 @@ ROW = ("o0", "o1", "o2", "o3", "o4")
 MPH, DEGREE, POUND, SLUG_FOOT = 0.44704, math.pi / 180.0, 0.45359237, 1.3558179483314004
 
 
-def asked(*arguments):
+def fitted(*arguments):
     """The fit, and the codes of the warnings it gave."""
     with warnings.catch_warnings(record=True) as given:
         warnings.simplefilter("always")
@@ -118,7 +118,7 @@ def test_linear_models_follow_the_normal_equations(seed, with_priors):
     covariance = np.linalg.inv(rows.T @ rows)
     errors = np.sqrt(np.diagonal(covariance))
 
-    found, _ = asked(linear(matrix), unknowns, {name: (v, s) for name, v, s in zip(ROW, values, sigma, strict=True)})
+    found, _ = fitted(linear(matrix), unknowns, {name: (v, s) for name, v, s in zip(ROW, values, sigma, strict=True)})
     assert np.linalg.cond(rows / np.linalg.norm(rows, axis=0)) < 10
     assert np.all(abs(np.array(list(found.values.values())) - best) <= 1e-7 * max(1.0, math.sqrt(left)) * errors)
     np.testing.assert_allclose(found.covariance, covariance, rtol=0, atol=1e-7 * np.max(np.outer(errors, errors)))
@@ -154,7 +154,7 @@ def test_one_observation_and_one_prior_by_hand():
 
 
 @pytest.mark.parametrize(
-    ("chance", "verdict", "told"),
+    ("chance", "says", "number"),
     [
         (0.9, "agrees with itself:", "0.9"),
         (0.0501, "agrees with itself:", "0.05"),
@@ -165,18 +165,18 @@ def test_one_observation_and_one_prior_by_hand():
         (0.004, "contradicts itself, the model or the stated errors:", "0.004"),
     ],
 )
-def test_a_chance_of_the_misfit_has_one_word_on_each_side_of_its_limits(chance, verdict, told):
+def test_a_chance_of_the_misfit_has_one_word_on_each_side_of_its_limits(chance, says, number):
     """Two readings of one speed, so far apart that their misfit has this chance: chi-squared of one degree of freedom by mpmath."""
     away = float(mpmath.sqrt(2) * mpmath.erfinv(1 - mpmath.mpf(chance))) * math.sqrt(2.0)
     with warnings.catch_warnings(record=True) as given:
         warnings.simplefilter("always")
         found = fit(lambda v: {"one": v, "two": v}, {"v": Interval(0, 50)}, {"one": (20.0, 1.0), "two": (20.0 + away, 1.0)})
     assert found.p_value == pytest.approx(chance, rel=1e-6)
-    assert found.statements[0] == f"the evidence {verdict} a misfit this large or larger has a chance of {told}"
-    contradicts = verdict.startswith("contradicts")
+    assert found.statements[0] == f"the evidence {says} a misfit this large or larger has a chance of {number}"
+    contradicts = says.startswith("contradicts")
     assert [one.message.code for one in given] == ["contradictory"] * contradicts
     assert found.consistent is not contradicts
-    assert all(f"has a chance of {told}, and 0.01 would pass" in str(one.message) for one in given)
+    assert all(f"has a chance of {number}, and 0.01 would pass" in str(one.message) for one in given)
 
 
 def test_a_bound_that_holds():
@@ -186,7 +186,7 @@ def test_a_bound_that_holds():
     """
     matrix = np.array([[1.0, 1.0], [1.0, -0.5]])
     values = matrix @ [3.0, 2.0]
-    found, codes = asked(linear(matrix), {"x": Interval(0.0, 1.0), "y": 0.5}, {"o0": (values[0], 0.5), "o1": (values[1], 0.5)})
+    found, codes = fitted(linear(matrix), {"x": Interval(0.0, 1.0), "y": 0.5}, {"o0": (values[0], 0.5), "o1": (values[1], 0.5)})
     column = matrix[:, 1]
     assert found.values["x"] == 1.0
     assert found.values["y"] == pytest.approx(column @ (values - matrix[:, 0]) / (column @ column), abs=1e-7)
@@ -202,7 +202,7 @@ def test_a_bound_that_holds():
 
 def test_truncation_of_a_prior_bounds_the_search():
     """The prior counts as given, not as truncated: with mean 1.0 and bounds up to 2, an observation 5 ends at 2."""
-    found, _ = asked(lambda x: {"x": x}, {"x": Normal(1.0, 2.0, truncate=(None, 2.0))}, {"x": (5.0, 2.0)})
+    found, _ = fitted(lambda x: {"x": x}, {"x": Normal(1.0, 2.0, truncate=(None, 2.0))}, {"x": (5.0, 2.0)})
     assert found.values["x"] == 2.0
     assert found.chi_squared == pytest.approx(0.25 + 2.25, abs=1e-12)
     assert found.bounds["x"] == (-math.inf, 2.0)
@@ -210,8 +210,8 @@ def test_truncation_of_a_prior_bounds_the_search():
 
 
 def test_a_start_far_too_small_is_left_behind():
-    """An energy of 100 kJ told to a tenth, sought from 1 J, where a joule changes the evidence by 1e-4 sigma."""
-    found, codes = asked(lambda energy: {"o": 1e-4 * energy}, {"energy": 1.0}, {"o": (10.0, 1.0)})
+    """An energy of 100 kJ known to a tenth, sought from 1 J, where a joule changes the evidence by 1e-4 sigma."""
+    found, codes = fitted(lambda energy: {"o": 1e-4 * energy}, {"energy": 1.0}, {"o": (10.0, 1.0)})
     assert found.values["energy"] == pytest.approx(1e5, rel=1e-7)
     assert found["energy"].standard_error == pytest.approx(1e4, rel=1e-7)
     assert codes == []
@@ -223,7 +223,7 @@ def test_a_start_far_too_small_is_left_behind():
 def test_an_intersection_comes_back():
     """Evidence made forward from 15 and 12 m/s, e = 0.1: back to within 1e-6 of the standard errors."""
     true = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.1}
-    found, codes = asked(crossing, SPEEDS | {"restitution": Uniform(0, 1)}, evidence(truth_of(crossing, **true)))
+    found, codes = fitted(crossing, SPEEDS | {"restitution": Uniform(0, 1)}, evidence(truth_of(crossing, **true)))
     for name, value in true.items():
         assert abs(found[name].value - value) <= 1e-6 * found[name].standard_error
     assert found.chi_squared < 1e-12
@@ -245,7 +245,7 @@ def test_rest_positions_with_a_drag_factor_they_share():
     drag = after["speed_a_after"] ** 2 / (2 * 9.80665 * 6.5)
     observed = {name: value for name, value in evidence(after).items() if name.startswith("course")}
     observed |= {"slack_a": (0.0, 0.3), "slack_b": (travel.speed(12.0, drag=drag) - after["speed_b_after"], 0.3)}
-    found, codes = asked(model, SPEEDS | {"drag": Normal(drag, 0.07, truncate=(0, None))}, observed)
+    found, codes = fitted(model, SPEEDS | {"drag": Normal(drag, 0.07, truncate=(0, None))}, observed)
     for name, value in (true | {"drag": drag}).items():
         assert abs(found[name].value - value) <= 1e-6 * found[name].standard_error
     # The drag factor moves both run-out speeds alike, so the impact speeds rise together.
@@ -306,16 +306,16 @@ def test_published_oblique_crash_tests(test):
         for name, value in case["published"].items()
     }
     unknowns = {"speed_a": Interval("0 mph", "80 mph"), "speed_b": Interval("0 mph", "80 mph")}
-    found, codes = asked(model, unknowns | {"restitution": Normal(case["e"], 0.02, truncate=(0, 1))}, observed)
+    found, codes = fitted(model, unknowns | {"restitution": Normal(case["e"], 0.02, truncate=(0, 1))}, observed)
     true = {"speed_a": MPH * case["speeds"][0], "speed_b": MPH * case["speeds"][1], "restitution": case["e"]}
     for name, value in true.items():
         assert abs(found[name].value - value) <= 3.0 * found[name].standard_error
     assert found.consistent
     assert codes == []
-    (held,) = found.undetermined
-    assert held.held_by_prior
+    (direction,) = found.undetermined
+    assert direction.held_by_prior
     # Four delta-Vs and yaw rates are the work of two components of one impulse: three unknowns are one too many.
-    _, codes = asked(model, unknowns | {"restitution": Uniform(0, 1)}, observed)
+    _, codes = fitted(model, unknowns | {"restitution": Uniform(0, 1)}, observed)
     assert "undetermined" in codes
 
 
@@ -330,7 +330,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
     inside = {0.95: dict.fromkeys(true, 0), 0.6827: dict.fromkeys(true, 0)}
     misfits, chances = [], []
     for _ in range(count):
-        found, _ = asked(crossing, SPEEDS | {"restitution": Uniform(0, 1)}, evidence(exact, rng))
+        found, _ = fitted(crossing, SPEEDS | {"restitution": Uniform(0, 1)}, evidence(exact, rng))
         misfits.append(found.chi_squared)
         chances.append(found.p_value)
         for coverage, hits in inside.items():
@@ -346,7 +346,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         assert abs(np.mean(np.array(chances) < share) - share) <= 3.0 * math.sqrt(share * (1.0 - share) / count)
 
 
-# --- what the evidence does not tell
+# --- what the evidence does not determine
 
 
 def central(speed_a, speed_b):
@@ -357,14 +357,14 @@ def central(speed_a, speed_b):
 DELTA_V = {"delta_v_a": ("4.8 m/s", "0.2 m/s"), "delta_v_b": ("7.2 m/s", "0.3 m/s")}
 
 
-def test_delta_v_tells_the_closing_speed_alone():
-    """In line, delta-V leaves open how fast both went: only (+1, +1) is open, and no number is made of it."""
-    found, codes = asked(central, {"speed_a": Interval(0, 40), "speed_b": Interval(-40, 40)}, DELTA_V)
+def test_delta_v_determines_only_the_closing_speed():
+    """In line, delta-V does not say how fast both went: only (+1, +1) is not determined, and no number is made of it."""
+    found, codes = fitted(central, {"speed_a": Interval(0, 40), "speed_b": Interval(-40, 40)}, DELTA_V)
     assert codes == ["undetermined"]
-    (open_,) = found.undetermined
-    assert open_.changes["speed_a"] == pytest.approx(open_.changes["speed_b"], rel=1e-6)
-    assert not open_.held_by_prior
-    assert "speed_a by +1 together with speed_b by +1" in open_.sentence
+    (direction,) = found.undetermined
+    assert direction.changes["speed_a"] == pytest.approx(direction.changes["speed_b"], rel=1e-6)
+    assert not direction.held_by_prior
+    assert "speed_a by +1 together with speed_b by +1" in direction.sentence
     assert all(math.isnan(value) for value in found.values.values())
     assert list(found.standard_errors.values()) == [math.inf, math.inf]
     assert np.isnan(found.covariance[0, 1])
@@ -377,13 +377,13 @@ def test_delta_v_tells_the_closing_speed_alone():
         assert refused.value.code == "undetermined"
 
 
-def test_a_prior_settles_what_the_evidence_leaves_open():
+def test_a_prior_settles_what_the_evidence_does_not():
     """With a standing car B known to 0.5 m/s: closing speed from both delta-Vs, and the variances add.
 
-    delta_v_a = 0.4 x 1.2 x closing and delta_v_b = 0.6 x 1.2 x closing, with errors in the same proportion: both tell a closing
+    delta_v_a = 0.4 x 1.2 x closing and delta_v_b = 0.6 x 1.2 x closing, with errors in the same proportion: both give a closing
     speed of 10 with an error of 0.2/0.48.
     """
-    found, codes = asked(central, {"speed_a": Interval(0, 40), "speed_b": Normal(0.0, 0.5)}, DELTA_V)
+    found, codes = fitted(central, {"speed_a": Interval(0, 40), "speed_b": Normal(0.0, 0.5)}, DELTA_V)
     assert codes == []
     (direction,) = found.undetermined
     assert direction.held_by_prior
@@ -394,7 +394,7 @@ def test_a_prior_settles_what_the_evidence_leaves_open():
 
 
 def test_friction_that_does_not_act_is_named():
-    """Head-on through both centres of mass nothing slips: friction is open, and the speeds are told all the same."""
+    """Head-on through both centres of mass nothing slips: friction is not determined, the speeds are."""
 
     def model(speed_a, friction):
         a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0, vx=speed_a)
@@ -403,12 +403,12 @@ def test_friction_that_does_not_act_is_named():
         return {"vx_a": impact.a.after.vx, "vx_b": impact.b.after.vx, "vy_b": impact.b.after.vy}
 
     at = truth_of(model, speed_a=14.0, friction=0.4)
-    found, codes = asked(
+    found, codes = fitted(
         model, {"speed_a": 10.0, "friction": Interval(0, 1)}, {name: (value, 0.3) for name, value in at.items()}
     )
     assert codes == ["undetermined"]
     assert [one.unknowns for one in found.undetermined] == [("friction",)]
-    assert found.undetermined[0].sentence == "friction is not determined by the evidence, and nothing else tells it"
+    assert found.undetermined[0].sentence == "friction is not determined by the evidence, nor by anything else"
     assert math.isnan(found.values["friction"])
     assert found.values["speed_a"] == pytest.approx(14.0, abs=1e-6)
     # Slopes: m_a (1 + e)/m of both; by hand.
@@ -422,7 +422,7 @@ def test_friction_that_does_not_act_is_named():
 def test_fewer_observations_than_unknowns():
     """One observation of x + y and one of z: z is answered, x and y are not."""
     matrix = [[1.0, 1.0, 0.0], [0.0, 0.0, 2.0]]
-    found, codes = asked(linear(matrix), {"x": 1.0, "y": 1.0, "z": 1.0}, {"o0": (3.0, 0.1), "o1": (4.0, 0.2)})
+    found, codes = fitted(linear(matrix), {"x": 1.0, "y": 1.0, "z": 1.0}, {"o0": (3.0, 0.1), "o1": (4.0, 0.2)})
     assert found.values["z"] == pytest.approx(2.0, abs=1e-8)
     assert found["z"].standard_error == pytest.approx(0.1, rel=1e-8)
     assert [sorted(one.unknowns) for one in found.undetermined] == [["x", "y"]]
@@ -471,7 +471,7 @@ def test_sliding_or_sticking():
     """
     unknowns = SPEEDS | {"restitution": Uniform(0, 1), "friction": Interval(0, 1)}
     observed = evidence(truth_of(crossing, speed_a=15.0, speed_b=12.0, restitution=0.1, friction=0.4))
-    with pytest.raises(col.AmbiguousSolutionError, match="friction open") as refused:
+    with pytest.raises(col.AmbiguousSolutionError, match="friction undetermined") as refused:
         fit(crossing, unknowns, observed)
     sliding, sticking = refused.value.solutions
     assert sliding.values["friction"] == pytest.approx(0.4, abs=1e-6)
@@ -481,11 +481,11 @@ def test_sliding_or_sticking():
     assert low.values["friction"] == pytest.approx(0.4, abs=1e-6)
 
 
-def test_sticking_leaves_friction_open():
+def test_sticking_leaves_friction_undetermined():
     """Evidence of a contact that stuck: friction is named, the rest answered."""
     true = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.1}
     observed = evidence(truth_of(crossing, **true, friction=0.7))
-    found, codes = asked(crossing, SPEEDS | {"restitution": Uniform(0, 1), "friction": Interval(0, 1)}, observed)
+    found, codes = fitted(crossing, SPEEDS | {"restitution": Uniform(0, 1), "friction": Interval(0, 1)}, observed)
     assert [one.unknowns for one in found.undetermined] == [("friction",)]
     assert codes == ["undetermined"]
     for name, value in true.items():
@@ -513,7 +513,7 @@ def test_few_places_where_the_model_answers():
     def model(x):
         return {"x": np.where((x > 0.7013) & (x < 0.7101), x, np.nan)}
 
-    found, _ = asked(model, {"x": Interval(0, 1)}, {"x": (0.705, 0.001)})
+    found, _ = fitted(model, {"x": Interval(0, 1)}, {"x": (0.705, 0.001)})
     assert found.values["x"] == pytest.approx(0.705, abs=1e-8)
 
 
@@ -536,7 +536,7 @@ def test_an_end_that_is_no_minimum_is_refused(model, reason):
 
 def test_a_model_that_bends_within_its_errors_warns():
     """The square of 0.5 known to 0.5: the standard error is of a straight line, and the result says that it is rough."""
-    found, codes = asked(lambda x: {"square": x**2}, {"x": Interval(0.0, 3)}, {"square": (0.25, 0.15)})
+    found, codes = fitted(lambda x: {"square": x**2}, {"x": Interval(0.0, 3)}, {"square": (0.25, 0.15)})
     assert codes == ["not_linear"]
     assert found.nonlinearity > 0.2
     assert any("rough" in sentence for sentence in found.statements)
@@ -544,7 +544,7 @@ def test_a_model_that_bends_within_its_errors_warns():
 
 def test_a_model_that_refuses_within_its_errors_warns():
     """A root known to end a standard error below the estimate."""
-    found, codes = asked(lambda x: {"x": np.where(x > 0.9, x, np.nan)}, {"x": Interval(0.0, 3)}, {"x": (1.0, 0.1)})
+    found, codes = fitted(lambda x: {"x": np.where(x > 0.9, x, np.nan)}, {"x": Interval(0.0, 3)}, {"x": (1.0, 0.1)})
     assert codes == ["not_linear"]
     assert math.isnan(found.nonlinearity)
 
@@ -561,15 +561,15 @@ def test_a_bound_within_two_errors_is_looked_at_too():
 
     Chi-squared rises there by 0.1^2 and 9.9^2, so the errors are off by |0.2/0.1 - 1| = 1 and |1.8/9.9 - 1| = 0.82.
     """
-    found, codes = asked(square, {"a": Interval(0, 1)}, {"o": (0.01, 0.1)})
+    found, codes = fitted(square, {"a": Interval(0, 1)}, {"o": (0.01, 0.1)})
     assert codes == ["not_linear"]
     assert found.nonlinearity == pytest.approx(1.0, abs=1e-6)
     assert found["a"].standard_error == pytest.approx(0.5, rel=1e-6)
 
 
 def test_an_error_wider_than_the_bounds_is_said():
-    """A straight model that tells 0.4 to 5 within 0 and 1: nothing bends, but the bounds tell more than the evidence."""
-    found, codes = asked(linear([[1.0]], "a"), {"a": Interval(0, 1)}, {"o0": (0.4, 5.0)})
+    """A straight model that gives 0.4 to 5 within 0 and 1: nothing bends, but the bounds say more than the evidence."""
+    found, codes = fitted(linear([[1.0]], "a"), {"a": Interval(0, 1)}, {"o0": (0.4, 5.0)})
     assert codes == ["told_by_bounds"]
     assert found.nonlinearity < 1e-6
     assert found.told_by_bounds == ("a",)
@@ -579,7 +579,7 @@ def test_an_error_wider_than_the_bounds_is_said():
 
 @pytest.mark.parametrize("unknown", [Interval(-1, 9), 1.0])
 def test_slopes_that_vanish_close_by_are_refused(unknown):
-    """The square of nothing, known to 0.1, off the bounds: the search ends at 2e-5, where slopes would tell an error of 3000."""
+    """The square of nothing, known to 0.1, off the bounds: the search ends at 2e-5, where slopes would give an error of 3000."""
     with pytest.raises(col.NoSolutionError, match=r"the model turns round.*give a prior of it \(a Normal\)") as refused:
         fit(square, {"a": unknown}, {"o": (0.0, 0.1)})
     assert refused.value.code == "no_convergence"
@@ -601,7 +601,7 @@ def test_a_turning_point_on_a_bound_has_a_range(model, bounds, observed, side, r
 
     The range is divided to width/32/16^4. The third is a minimum within 1e-3 of chi-squared of its bound, and is put there.
     """
-    found, codes = asked(model, {"a": Interval(*bounds)}, {"o": observed})
+    found, codes = fitted(model, {"a": Interval(*bounds)}, {"o": observed})
     width = bounds[1] - bounds[0]
     assert found.at_bounds == {"a": side}
     assert found.values["a"] == bounds[side == "high"]
@@ -649,9 +649,9 @@ def test_nearly_plastic_impacts_are_answered():
         e = rng.uniform(0.0, 0.3)
         loss, speed = 35000.0 * (1.0 - e**2) + 1500.0 * rng.standard_normal(), 10.0 + 0.3 * rng.standard_normal()
         observed = {"loss": (loss, 1500.0), "v": (speed, 0.3)}
-        found, codes = asked(plastic, {"v": Interval(0, 40), "e": Interval(0, 1)}, observed)
+        found, codes = fitted(plastic, {"v": Interval(0, 40), "e": Interval(0, 1)}, observed)
         if not found.at_bounds:
-            # Close to the bound the slopes tell little, and the answer says so.
+            # Close to the bound the slopes say little, and the answer says so.
             assert "not_linear" in codes or found["e"].standard_error < 0.05
             continue
         on_bound += 1
@@ -669,9 +669,9 @@ def test_nearly_plastic_impacts_are_answered():
     assert inside >= 0.95 * on_bound - 3.0 * math.sqrt(0.95 * 0.05 * on_bound)
 
 
-def test_a_turning_point_beside_what_stays_open():
-    """One unknown turns on its bound, another changes nothing: the first has a range, the other stays open."""
-    found, codes = asked(
+def test_a_turning_point_beside_what_nothing_determines():
+    """One unknown turns on its bound, another changes nothing: the first has a range, the other is not determined."""
+    found, codes = fitted(
         lambda a, b, v: {"o": a**2 + v + 0.0 * b},
         {"a": Interval(0, 3), "b": Interval(0, 3), "v": Normal(5, 0.1)},
         {"o": (4.9, 0.1)},
@@ -695,10 +695,10 @@ def hollows(a):
 def test_the_best_of_many_hollows_is_found():
     """One of 64 searches over 20 ended at 2.075, chi-squared 2.28; on a grid of 1e-6 the least is at 2.007, 0.02."""
     grid = np.arange(1.9, 2.1, 1e-6)
-    for error, tells in ((0.05, False), (0.02, True)):
+    for error, sharp in ((0.05, False), (0.02, True)):
         misfit = ((hollows(grid)["o"] - 0.5) / 0.01) ** 2 + ((grid - 2.0) / error) ** 2
         arguments = hollows, {"a": Interval(-10, 10)}, {"o": (0.5, 0.01), "q": (2.0, error)}
-        if tells:
+        if sharp:
             found = fit(*arguments)
             assert found.searches["around"] > 0
             assert any("few searches ended at this answer" in sentence for sentence in found.statements)
@@ -725,7 +725,7 @@ def test_the_best_of_many_hollows_is_found():
 )
 def test_bounds_far_too_wide(model, width, observed, value, error):
     """Slopes are over steps that fit the answer; 1e-6 of an error covers where the search ends, 1e-7 the slopes (see the head)."""
-    found, codes = asked(model, {"a": Interval(0, width)}, {"o": observed})
+    found, codes = fitted(model, {"a": Interval(0, width)}, {"o": observed})
     assert abs(found.values["a"] - value) <= 1e-6 * error
     assert found["a"].standard_error == pytest.approx(error, rel=1e-7)
     assert codes == []
@@ -733,7 +733,7 @@ def test_bounds_far_too_wide(model, width, observed, value, error):
 
 @pytest.mark.parametrize("start", [1.0, 0.0, 1e12])
 @pytest.mark.parametrize("true", [1e8, 3.0])
-def test_a_start_far_off_tells_the_same_errors(start, true):
+def test_a_start_far_off_has_the_same_errors(start, true):
     """An unknown and its square, each telling it to a hundredth: an error of true/100/sqrt(2), wherever the search began."""
 
     def model(a):
@@ -761,7 +761,7 @@ def around(x):
 
 def test_angles_go_round_the_circle():
     """179 and -179 degrees are 2 degrees apart: the answer is 180, each off by 1 degree."""
-    found, codes = asked(around, {"x": "150 deg"}, {"one": ("179 deg", "2 deg"), "other": ("-179 deg", "2 deg")})
+    found, codes = fitted(around, {"x": "150 deg"}, {"one": ("179 deg", "2 deg"), "other": ("-179 deg", "2 deg")})
     assert math.degrees(found.values["x"]) % 360.0 == pytest.approx(180.0, abs=1e-6)
     assert found.chi_squared == pytest.approx(0.5, abs=1e-9)
     assert found.residuals["one"].residual == pytest.approx(-DEGREE, abs=1e-8)
@@ -785,16 +785,16 @@ def test_an_angle_that_the_model_returns_as_a_quantity_goes_round_too():
     def model(x):
         return {"one": pint.application_registry.Quantity(np.degrees(around(x)["one"]), "deg")}
 
-    found, _ = asked(model, {"x": Normal(-3.1, 0.1)}, {"one": (3.1, 0.1)})
+    found, _ = fitted(model, {"x": Normal(-3.1, 0.1)}, {"one": (3.1, 0.1)})
     assert found.values["x"] == pytest.approx(-3.1 - 0.5 * (2 * math.pi - 6.2), abs=1e-7)
 
 
 def test_a_bare_angle_that_jumps_is_pointed_out():
     """Without a unit 3.1 and -3.1 are far apart; the answer says so."""
-    found, codes = asked(lambda x: {"course": x}, {"x": Normal(-3.1, 0.01)}, {"course": (3.1, 5.0)})
+    found, codes = fitted(lambda x: {"course": x}, {"x": Normal(-3.1, 0.01)}, {"course": (3.1, 5.0)})
     assert codes == ["bare_angle"]
     assert found.residuals["course"].residual == pytest.approx(6.2, abs=1e-3)
-    assert asked(lambda x: {"speed": x}, {"x": Normal(-3.1, 0.01)}, {"speed": ("3.1 m/s", "5 m/s")})[1] == []
+    assert fitted(lambda x: {"speed": x}, {"x": Normal(-3.1, 0.01)}, {"speed": ("3.1 m/s", "5 m/s")})[1] == []
 
 
 # --- what comes out
@@ -830,7 +830,7 @@ def test_units_come_back():
 
 
 def test_shown_and_read_again():
-    """Texts, table, strict JSON and pickle tell the same."""
+    """Texts, table, strict JSON and pickle say the same."""
     found, _ = simple()
     assert "x=" in repr(found)
     assert "chi_squared=" in repr(found)
@@ -859,8 +859,8 @@ def test_shown_and_read_again():
     assert refused.value.code == "bad_fraction"
 
 
-def test_an_open_fit_is_shown_and_strict_json():
-    found, _ = asked(central, {"speed_a": Interval(0, 40), "speed_b": Interval(-40, 40)}, DELTA_V)
+def test_an_undetermined_fit_is_shown_and_strict_json():
+    found, _ = fitted(central, {"speed_a": Interval(0, 40), "speed_b": Interval(-40, 40)}, DELTA_V)
     record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
     assert record["unknowns"]["speed_a"]["value"] == "nan"
     assert record["covariance"][0] == ["inf", "nan"]
@@ -883,7 +883,7 @@ def test_warnings_of_the_model_at_the_answer_are_passed_on():
         impact = col.oblique_central(a, b, 1.0, normal=0.0, impulse_ratio=-0.5, on_failure="nan")
         return {"vx_b": impact.b.after.vx}
 
-    _, codes = asked(model, {"speed_a": 10.0}, {"vx_b": (12.0, 0.5)})
+    _, codes = fitted(model, {"speed_a": 10.0}, {"vx_b": (12.0, 0.5)})
     assert codes == ["energy_gain"]
 
 
@@ -910,8 +910,8 @@ def test_slopes_keep_within_bounds_and_refusals():
     assert np.all((seen[0] >= 1.0) & (seen[0] <= 2.0))
     np.testing.assert_allclose(slopes[:2, 0], np.cos(points[:2]), rtol=0, atol=1e-9)
     assert abs(slopes[2, 0, 0] - math.cos(1.2)) < 6e-6
-    open_ = problem._replace(evaluate=np.sin)
-    np.testing.assert_allclose(open_.with_slopes(one[None])[1][0, 0], math.cos(1.0), rtol=0, atol=1e-9)
+    everywhere = problem._replace(evaluate=np.sin)
+    np.testing.assert_allclose(everywhere.with_slopes(one[None])[1][0, 0], math.cos(1.0), rtol=0, atol=1e-9)
 
 
 def test_starts_are_spread_evenly():
@@ -933,7 +933,7 @@ GOOD = ({"x": 1.0}, {"x": (1.0, 0.1)})
 RANDOM = np.random.default_rng(1)
 
 
-def test_a_few_cases_are_asked_again_alone(monkeypatch):
+def test_a_few_cases_are_called_again_alone(monkeypatch):
     """In the first call from all starts, five; the fit is the same to the bit as without them."""
     sizes = []
 
@@ -946,14 +946,14 @@ def test_a_few_cases_are_asked_again_alone(monkeypatch):
         unknowns = {"x": Interval(0, 10), "y": Normal(2, 1)}
         return fit(model, unknowns, {"a": (6.0, 0.1), "b": (1.0, 0.2), "c": (3.1, 0.3)}).to_dict(), list(sizes)
 
-    compared, asked_of = fitted()
+    compared, sizes_called = fitted()
     # The last case, the two with the extremes of the first answer, two without an answer, and the middle if there is room.
-    assert asked_of[:8] == [2, 64 * 5, 1, 1, 1, 1, 1, asked_of[7]]
-    assert asked_of[7] > 1
+    assert sizes_called[:8] == [2, 64 * 5, 1, 1, 1, 1, 1, sizes_called[7]]
+    assert sizes_called[7] > 1
     monkeypatch.setattr("collisions.uncertainty.model.check_elementwise", lambda *of: True)
-    plain, asked_of_plain = fitted()
+    plain, sizes_called_plain = fitted()
     assert plain == compared
-    assert asked_of_plain == [size for k, size in enumerate(asked_of) if not 2 <= k < 7]
+    assert sizes_called_plain == [size for k, size in enumerate(sizes_called) if not 2 <= k < 7]
 
 
 @pytest.mark.parametrize(
@@ -998,7 +998,7 @@ def test_a_few_cases_are_asked_again_alone(monkeypatch):
     ],
 )  # fmt: skip
 def test_refusals(model, unknowns, observed, kind, code, text):
-    """Class, label and what the message tells."""
+    """Class, label and what the message says."""
     with pytest.raises(kind, match=f"(?s){text}") as refused:
         fit(model, unknowns, observed)
     assert refused.value.code == code

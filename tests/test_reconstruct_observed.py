@@ -1,4 +1,4 @@
-"""What observation tells: restitution and friction from motions, in-line closing speed, energy from crush.
+"""What observations show: restitution and friction from motions, in-line closing speed, energy from crush.
 
 Forward impacts are observed and give back what they were made with; printed answers to their digits; the rest against 50 digits.
 """
@@ -165,20 +165,20 @@ def motion(scene, a, b):
 def test_restitution_needs_what_it_needs():
     """A body that turns needs a contact and a position; nothing is compared with an approach that was none."""
     a, b, turning = body(vx=10.0), body(), body(vx=2.0, yaw_rate=1.0)
-    ask = reconstruct.restitution
-    error = refusal(lambda: ask(a, b, turning, b, normal=0.0))
+    solve = reconstruct.restitution
+    error = refusal(lambda: solve(a, b, turning, b, normal=0.0))
     assert (type(error), error.code) == (col.MissingInputError, "missing_point")
     assert "a_after turns" in str(error)
     assert "point=(x, y)" in str(error)
-    error = refusal(lambda: ask(a, b, turning, b, normal=0.0, point=(1.0, 0.0)))
+    error = refusal(lambda: solve(a, b, turning, b, normal=0.0, point=(1.0, 0.0)))
     assert isinstance(error, col.MissingInputError)
     for va, code in ((-1.0, "separating"), (0.0, "no_closing")):
-        error = refusal(lambda va=va: ask(a.replace(vx=va), b, a, b, normal=0.0))
+        error = refusal(lambda va=va: solve(a.replace(vx=va), b, a, b, normal=0.0))
         assert (type(error), error.code, error.closing_speed) == (col.NoImpactError, code, va)
         assert "from A into B" in str(error)
         assert str(pickle.loads(pickle.dumps(error))) == str(error)
-    assert refusal(lambda: ask(a, b, {"vx": 1.0}, b, normal=0.0)).code == "not_a_vehicle"
-    assert refusal(lambda: ask(a, b, a, b, normal=(0.0, 0.0))).code == "zero_normal"
+    assert refusal(lambda: solve(a, b, {"vx": 1.0}, b, normal=0.0)).code == "not_a_vehicle"
+    assert refusal(lambda: solve(a, b, a, b, normal=(0.0, 0.0))).code == "zero_normal"
 
 
 def test_many_observations():
@@ -232,7 +232,7 @@ def observed(**changes):
 BOTH = [reconstruct.restitution, reconstruct.friction]
 
 
-@pytest.mark.parametrize("ask", BOTH)
+@pytest.mark.parametrize("solve", BOTH)
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
@@ -248,73 +248,73 @@ BOTH = [reconstruct.restitution, reconstruct.friction]
         ({"a_x": -2.0 - 5e-9}, ["5e-09 m apart"]),
     ],
 )
-def test_bodies_that_became_others_are_refused(ask, changes, said):
+def test_bodies_that_became_others_are_refused(solve, changes, said):
     """Rest positions with the yaw rate at separation, or another mass, answer with a number of no impact at all."""
     _, motions, place = observed(**changes)
-    error = refusal(lambda: ask(*motions, **place))
+    error = refusal(lambda: solve(*motions, **place))
     assert (type(error), error.code) == (col.InputError, "different_bodies")
     for part in (*said, "An impulse moves nothing", "position at the moment of impact, not at rest"):
         assert part in str(error)
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
 
 
-@pytest.mark.parametrize("ask", BOTH)
-def test_the_same_bodies_with_what_rounding_and_silence_leave(ask):
+@pytest.mark.parametrize("solve", BOTH)
+def test_the_same_bodies_with_what_rounding_and_silence_leave(solve):
     """1e-9 of the mass, or of the size of the scene, is the same; what was not given is not compared."""
     impact, motions, place = observed()
-    true = {reconstruct.restitution: 0.1, reconstruct.friction: abs(impact.impulse_ratio)}[ask]
-    assert ask(*motions, **place) == pytest.approx(true, rel=1e-12)
+    true = {reconstruct.restitution: 0.1, reconstruct.friction: abs(impact.impulse_ratio)}[solve]
+    assert solve(*motions, **place) == pytest.approx(true, rel=1e-12)
     # 5e-10 of the mass or of 2 m, and a yaw inertia that is unknown after: at most as much in the answer, by the lever.
     for changes in ({"a_mass": 1500.0 * (1 + 5e-10)}, {"a_x": -2.0 + 1e-9}, {"b_yaw_inertia": None}):
-        assert ask(*observed(**changes)[1], **place) == pytest.approx(true, rel=1e-8)
+        assert solve(*observed(**changes)[1], **place) == pytest.approx(true, rel=1e-8)
     a, b = body(vx=10.0, vy=2.0, x=0.0, y=1.0), body(x=3.0, y=1.0)
     end = col.oblique_central(a, b, 0.1, normal=0.0, friction=0.1)
     placed = end.a.after.replace(x=1e-17), end.b.after.replace(x=None, y=None)
-    assert ask(a, b, *placed, normal=0.0) == pytest.approx(0.1, rel=1e-13)
+    assert solve(a, b, *placed, normal=0.0) == pytest.approx(0.1, rel=1e-13)
 
 
-@pytest.mark.parametrize("ask", BOTH)
+@pytest.mark.parametrize("solve", BOTH)
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
-def test_other_bodies_in_a_batch(ask, dtype):
-    """The lane of another body is NaN and counted as contradictory, its neighbours as without it; single precision stays."""
+def test_other_bodies_in_a_batch(solve, dtype):
+    """The case of another body is NaN and counted as contradictory, its neighbours as without it; single precision stays."""
     mass = np.array([1500.0, 900.0, 1500.0, 1500.0], dtype=dtype)
     x = np.array([-2.0, -2.0, 14.0, -2.0], dtype=dtype)
     _, (a, b, after_a, after_b), place = observed()
     many = [one.replace(vx=np.full(4, one.vx, dtype=dtype)) for one in (a, b, after_a, after_b)]
     many[2] = many[2].replace(mass=mass, x=x)
     with pytest.warns(col.CollisionsWarning, match=r"2 of 4 cases were refused and are NaN \(2 contradictory\)"):
-        found = ask(*many, **place)
+        found = solve(*many, **place)
     assert found.dtype == dtype
     assert np.isnan(found).tolist() == [False, True, True, False]
     many[2] = many[2].replace(mass=1500.0, x=-2.0)
-    assert found[[0, 3]].tolist() == ask(*many, **place)[[0, 3]].tolist()
+    assert found[[0, 3]].tolist() == solve(*many, **place)[[0, 3]].tolist()
     # A single number that differs is refused for all of them, as at every reader.
-    error = refusal(lambda: ask(many[0].replace(mass=900.0), *many[1:], **place))
+    error = refusal(lambda: solve(many[0].replace(mass=900.0), *many[1:], **place))
     assert error.code == "different_bodies"
 
 
-@pytest.mark.parametrize("ask", BOTH)
-def test_refusals_name_the_vehicle_that_is_meant(ask):
+@pytest.mark.parametrize("solve", BOTH)
+def test_refusals_name_the_vehicle_that_is_meant(solve):
     """By the name of the argument, all at once; also the one without a position, and the state of a refused case."""
     a, b = body(vx=10.0), body()
-    error = refusal(lambda: ask(a, b, None, b, normal=0.0))
+    error = refusal(lambda: solve(a, b, None, b, normal=0.0))
     assert (error.code, error.fields["argument"]) == ("not_a_vehicle", "a_after")
     assert "a_after must be a Vehicle, got NoneType" in str(error)
-    text = str(refusal(lambda: ask(3, b, a, "b", normal=(0.0, 0.0))))
+    text = str(refusal(lambda: solve(3, b, a, "b", normal=(0.0, 0.0))))
     for part in ("\n- a_before must be a Vehicle, got int", "\n- b_after must be a Vehicle, got str", "\n- normal"):
         assert part in text
-    error = refusal(lambda: ask(a, b, a, body(yaw_rate=1.0), normal=0.0, point=(0.0, 0.0)))
+    error = refusal(lambda: solve(a, b, a, body(yaw_rate=1.0), normal=0.0, point=(0.0, 0.0)))
     assert (type(error), error.fields["vehicle"]) == (col.MissingInputError, "b_after")
     assert str(error).startswith("b_after has no x")
     refused = col.linear_central(b, a, 0.1, on_failure="nan")
-    error = refusal(lambda: ask(a, b, refused.b.after, refused.a.after, normal=0.0))
+    error = refusal(lambda: solve(a, b, refused.b.after, refused.a.after, normal=0.0))
     assert (type(error), error.code) == (col.InputError, "not_finite")
     assert "NaN" in str(error)
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
         ends = col.linear_central(body(vx=np.array([10.0, -10.0])), b, 0.1)
     with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*1 not_finite"):
-        found = ask(a, b, ends.a.after, ends.b.after, normal=0.0)
-    expected = {reconstruct.restitution: 0.1, reconstruct.friction: 0.0}[ask]
+        found = solve(a, b, ends.a.after, ends.b.after, normal=0.0)
+    expected = {reconstruct.restitution: 0.1, reconstruct.friction: 0.0}[solve]
     assert found == pytest.approx([expected, math.nan], rel=1e-13, nan_ok=True)
 
 
@@ -379,23 +379,23 @@ def test_friction_is_refused():
     """A pivot adds an impulse of its own; bodies must approach, and must have been pushed apart."""
     a, b = body(vx=10.0), body()
     pinned = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=2.0, y=0.0, pivot=(0.0, 0.0))
-    ask = reconstruct.friction
+    solve = reconstruct.friction
     for bodies, label in (
         ((pinned, b, a, b), "a_before"),
         ((a, pinned, a, b), "b_before"),
         ((a, b, pinned, b), "a_after"),
         ((a, b, a, pinned), "b_after"),
     ):
-        error = refusal(lambda bodies=bodies: ask(*bodies, normal=0.0))
+        error = refusal(lambda bodies=bodies: solve(*bodies, normal=0.0))
         assert (type(error), error.code) == (col.InputError, "pinned")
         assert f"{label} has a pivot" in str(error)
-    error = refusal(lambda: ask(a, b, a.replace(vx=12.0), b, normal=0.0))
+    error = refusal(lambda: solve(a, b, a.replace(vx=12.0), b, normal=0.0))
     assert (type(error), error.code) == (col.NoImpactError, "not_pushed")
     assert "from A into B" in str(error)
-    assert refusal(lambda: ask(a, b, a, b, normal=0.0)).code == "not_pushed"
-    assert refusal(lambda: ask(b, a, b, a, normal=0.0)).code == "separating"
+    assert refusal(lambda: solve(a, b, a, b, normal=0.0)).code == "not_pushed"
+    assert refusal(lambda: solve(b, a, b, a, normal=0.0)).code == "separating"
     with pytest.warns(col.CollisionsWarning, match="2 of 3 cases"):
-        many = ask(
+        many = solve(
             body(vx=np.array([10.0, -10.0, 10.0])),
             b,
             body(vx=np.array([5.0, 5.0, 20.0]), vy=-1.0),
@@ -449,18 +449,18 @@ def test_closing_speed_of_forward_impacts():
             mass_a, mass_b = mass_b, mass_a
         g, e = rng.uniform(0.1, 40), rng.uniform(0.0, 0.99)
         impact = col.linear_central(body(mass=mass_a, vx=g), body(mass=mass_b), e)
-        ask = reconstruct.inline_closing_speed
+        solve = reconstruct.inline_closing_speed
         # Promises of section 5: 4 eps of delta-V, 6 of the loss (halved by the root), and as much again on the way back;
-        # the loss does not tell the closing speed better than e tells 1 - e.
+        # the loss gives the closing speed no better than e gives 1 - e.
         for name, side, mass in (("delta_v_a", impact.a, mass_a), ("delta_v_b", impact.b, mass_b)):
             if math.isfinite(mass):
-                assert ask(mass_a, mass_b, e, **{name: side.delta_v}) == pytest.approx(g, rel=8 * EPS)
-        assert ask(mass_a, mass_b, e, energy_loss=impact.energy_loss) == pytest.approx(g, rel=8 * EPS / (1 - e))
+                assert solve(mass_a, mass_b, e, **{name: side.delta_v}) == pytest.approx(g, rel=8 * EPS)
+        assert solve(mass_a, mass_b, e, energy_loss=impact.energy_loss) == pytest.approx(g, rel=8 * EPS / (1 - e))
         share = 0.0 if math.isinf(mass_a) else 1.0 if math.isinf(mass_b) else rng.random()
         ees_a, ees_b = impact.ees(share)
         for other in (e, 0.0, lambda v: 0.3):
             # Absorbed at maximum crush, before restitution: e does not matter.
-            assert ask(mass_a, mass_b, other, ees_a=ees_a, ees_b=ees_b) == pytest.approx(g, rel=12 * EPS)
+            assert solve(mass_a, mass_b, other, ees_a=ees_a, ees_b=ees_b) == pytest.approx(g, rel=12 * EPS)
 
 
 def test_absorbed_is_not_dissipated():
@@ -513,7 +513,7 @@ def test_the_range_of_a_function_is_checked():
     ],
 )
 def test_a_function_that_gives_nonsense(function, said):
-    """An InputError that shows where it was asked and what came."""
+    """An InputError that shows where it was called and what came."""
     error = refusal(lambda: reconstruct.inline_closing_speed(1000, 1000, function, delta_v_a=1.8))
     assert (type(error), error.code) == (col.InputError, "bad_restitution")
     assert said in str(error)
@@ -557,30 +557,30 @@ def test_inline_refusals(code, arguments, known, said):
 
 
 def test_inline_batches():
-    """As alone, lane by lane; negative, NaN and impossible lanes are NaN and counted, never answered with a sign or a square."""
-    ask = reconstruct.inline_closing_speed
+    """As alone, case by case; negative, NaN and impossible cases are NaN and counted, never answered with a sign or a square."""
+    solve = reconstruct.inline_closing_speed
     mass = np.array([[900.0], [INF]])
-    found = ask(mass, 1200.0, 0.2, delta_v_b=np.array([1.0, 2.0, 3.0]))
+    found = solve(mass, 1200.0, 0.2, delta_v_b=np.array([1.0, 2.0, 3.0]))
     assert found.shape == (2, 3)
     for i in range(2):
         for j in range(3):
-            assert found[i, j] == pytest.approx(ask(float(mass[i, 0]), 1200.0, 0.2, delta_v_b=j + 1.0), rel=4 * EPS)
+            assert found[i, j] == pytest.approx(solve(float(mass[i, 0]), 1200.0, 0.2, delta_v_b=j + 1.0), rel=4 * EPS)
     for known in (
         {"delta_v_a": np.array([2.0, -2.0, np.nan])},
         {"ees_a": np.array([2.0, -2.0, np.nan]), "ees_b": 1.0},
         {"energy_loss": np.array([2.0, -2.0, np.nan])},
     ):
         with pytest.warns(col.CollisionsWarning, match="2 of 3 cases"):
-            assert np.isnan(ask(1000.0, 1000.0, 0.1, **known)).tolist() == [False, True, True]
+            assert np.isnan(solve(1000.0, 1000.0, 0.1, **known)).tolist() == [False, True, True]
     with pytest.warns(col.CollisionsWarning, match="3 of 4 cases"):
-        lanes = ask(np.array([1.0, 0.0, np.nan, INF]), 1.0, 0.1, delta_v_a=1.0)
-    assert np.isnan(lanes).tolist() == [False, True, True, True]
-    assert lanes[0] == ask(1.0, 1.0, 0.1, delta_v_a=1.0)
-    single = ask(1000.0, 1000.0, 0.1, delta_v_a=np.ones(2, np.float32))
+        found = solve(np.array([1.0, 0.0, np.nan, INF]), 1.0, 0.1, delta_v_a=1.0)
+    assert np.isnan(found).tolist() == [False, True, True, True]
+    assert found[0] == solve(1.0, 1.0, 0.1, delta_v_a=1.0)
+    single = solve(1000.0, 1000.0, 0.1, delta_v_a=np.ones(2, np.float32))
     assert single.dtype == np.float32
     assert not single.flags.writeable
     other = pint.UnitRegistry()
-    assert ask("1 t", other.Quantity(1000.0, "kg"), 0.1, delta_v_a=other.Quantity(3.6, "km/h")) == pytest.approx(
+    assert solve("1 t", other.Quantity(1000.0, "kg"), 0.1, delta_v_a=other.Quantity(3.6, "km/h")) == pytest.approx(
         2 / 1.1, rel=4 * EPS
     )
 
@@ -709,32 +709,32 @@ def test_crush_refusals(code, arguments, rest, said):
 
 
 def test_crush_in_units_and_batches():
-    """US units as in the CRASH sheets; arrays among the arguments, refused lanes NaN, single precision kept."""
-    ask = reconstruct.crush_energy
-    us = ask("60 in", ["10 in", "14 in"], "200 lbf/in", "65 lbf/in**2")
+    """US units as in the CRASH sheets; arrays among the arguments, refused cases NaN, single precision stays."""
+    solve = reconstruct.crush_energy
+    us = solve("60 in", ["10 in", "14 in"], "200 lbf/in", "65 lbf/in**2")
     # 60 (200 x 12 + 65 (100 + 140 + 196) / 6 + 200^2 / 130) inch pounds.
     assert us == pytest.approx(60 * (2400 + 65 * 436 / 6 + 4e4 / 130) * 0.45359237 * 9.80665 * 0.0254, rel=16 * EPS)
     deep = np.array([0.1, -0.1, 0.3, np.nan])
     with pytest.warns(col.CollisionsWarning, match="2 of 4 cases"):
-        many = ask(1.5, [deep, 0.2], 4e4, 6e5)
+        many = solve(1.5, [deep, 0.2], 4e4, 6e5)
     for i in (0, 2):
-        assert many[i] == pytest.approx(ask(1.5, [float(deep[i]), 0.2], 4e4, 6e5), rel=8 * EPS)
+        assert many[i] == pytest.approx(solve(1.5, [float(deep[i]), 0.2], 4e4, 6e5), rel=8 * EPS)
     assert np.isnan(many).tolist() == [False, True, False, True]
     angles = np.radians([0.0, 30.0, 90.0, 120.0])
     with pytest.warns(col.CollisionsWarning, match="2 of 4 cases"):
-        assert np.isnan(ask(1.5, [0.3, 0.2], 4e4, 6e5, force_angle=angles)).tolist() == [False, False, True, True]
+        assert np.isnan(solve(1.5, [0.3, 0.2], 4e4, 6e5, force_angle=angles)).tolist() == [False, False, True, True]
     with pytest.warns(col.CollisionsWarning, match="1 of 2 cases .*not_positive"):
-        assert np.isnan(ask(1.5, [0.3, 0.2], 4e4, np.array([6e5, 0.0]))).tolist() == [False, True]
-    single = ask([np.ones(2, np.float32)], [0.3, 0.2], 4e4, 6e5)
+        assert np.isnan(solve(1.5, [0.3, 0.2], 4e4, np.array([6e5, 0.0]))).tolist() == [False, True]
+    single = solve([np.ones(2, np.float32)], [0.3, 0.2], 4e4, 6e5)
     assert single.dtype == np.float32
-    assert single[0] == pytest.approx(ask(1.0, [0.3, 0.2], 4e4, 6e5), rel=2.0**-23)
+    assert single[0] == pytest.approx(solve(1.0, [0.3, 0.2], 4e4, 6e5), rel=2.0**-23)
 
 
 def test_an_array_is_a_profile_like_a_list():
     """What stands in a list, a tuple, an array or a Quantity of one dimension is one case, for widths as for depths."""
-    ask = reconstruct.crush_energy
+    solve = reconstruct.crush_energy
     depths, widths = [0.12, 0.25, 0.38], [0.7, 0.4]
-    even, uneven = ask(1.1, depths, 4e4, 6e5), ask(widths, depths, 4e4, 6e5)
+    even, uneven = solve(1.1, depths, 4e4, 6e5), solve(widths, depths, 4e4, 6e5)
     assert even != uneven
     for kind in (
         tuple,
@@ -743,17 +743,17 @@ def test_an_array_is_a_profile_like_a_list():
         lambda values: pint.Quantity(values, "m"),
     ):
         for found, expected in (
-            (ask(1.1, kind(depths), 4e4, 6e5), even),
-            (ask(kind(widths), depths, 4e4, 6e5), uneven),
-            (ask(kind(widths), kind(depths), 4e4, 6e5), uneven),
+            (solve(1.1, kind(depths), 4e4, 6e5), even),
+            (solve(kind(widths), depths, 4e4, 6e5), uneven),
+            (solve(kind(widths), kind(depths), 4e4, 6e5), uneven),
         ):
             assert type(found) is float
             assert found == expected
     # 100 is exact, and a centimetre is a rounding of a hundredth.
-    assert ask(1.1, pint.Quantity([12.0, 25.0, 38.0], "cm"), 4e4, 6e5) == pytest.approx(even, rel=8 * EPS)
+    assert solve(1.1, pint.Quantity([12.0, 25.0, 38.0], "cm"), 4e4, 6e5) == pytest.approx(even, rel=8 * EPS)
     rows = np.array([[0.12, 0.25, 0.38], [0.2, 0.1, 0.0]])
-    many = ask([np.array([0.7, 0.6]), 0.4], list(rows.T), 4e4, 6e5)
-    assert many.tolist() == [uneven, ask([0.6, 0.4], rows[1], 4e4, 6e5)]
+    many = solve([np.array([0.7, 0.6]), 0.4], list(rows.T), 4e4, 6e5)
+    assert many.tolist() == [uneven, solve([0.6, 0.4], rows[1], 4e4, 6e5)]
 
 
 def test_speeds_beyond_floats_are_refused():
@@ -775,7 +775,7 @@ def test_a_coordinate_nothing_needs_still_says_how_many_cases():
 
 
 @pytest.mark.parametrize(
-    ("widths", "depths", "told"),
+    ("widths", "depths", "said"),
     [
         (60, [5, 10], ["depths = 10", "widths = 60"]),
         (1.5, [12, 25], ["depths = 25"]),
@@ -787,11 +787,11 @@ def test_a_coordinate_nothing_needs_still_says_how_many_cases():
         (pint.Quantity(60, "in"), [pint.Quantity(5, "in"), np.array([10.0, 11.0])], ["depths = 11"]),
     ],
 )
-def test_crush_in_inches_or_centimetres_is_suspected(widths, depths, told):
+def test_crush_in_inches_or_centimetres_is_suspected(widths, depths, said):
     """Numbers without a unit are metres, and no car is crushed by two; one warning for each argument."""
     with pytest.warns(col.SuspectUnitsWarning) as caught:
         reconstruct.crush_energy(widths, depths, "35 kN/m", "450 kN/m**2")
-    assert [str(one.message).partition(" is read as metres")[0] for one in caught] == told
+    assert [str(one.message).partition(" is read as metres")[0] for one in caught] == said
 
 
 def test_crush_with_units_is_beyond_suspicion():

@@ -58,7 +58,7 @@ def crush_energy(
     Returns
     -------
     float or array [J]
-        Energy absorbed at maximum crush as far as the residual profile tells it; what restitution gave back is not in it. NaN
+        Energy absorbed at maximum crush as far as the residual profile shows it; what restitution gave back is not in it. NaN
         for a refused case of a batch.
 
     Raises

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError, SuspectUnitsWarning
+from ..quantities import lock
 from ..warning import warn
 from .fit_candidate import SAME_CHI_SQUARED, TWO_ERROR_RISE, Candidate, examined, with_limits
 from .fit_problem import FitInputs, read_fit_inputs
@@ -57,7 +58,7 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     model : function
         ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases for every unknown [SI] and
         answers each with an array as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``: every
-        case by itself, of which a few are asked again alone. What is known exactly is written in the model.
+        case by itself, of which a few are called again by themselves. What is known exactly is written in the model.
     unknowns : dict
         By name what is known before: a ``Normal`` (a prior that weighs in; ``truncate=`` are bounds), a ``Uniform`` or an
         ``Interval`` (bounds that weigh nothing), or a number, text or Quantity to start from (nothing known; searches start
@@ -153,7 +154,7 @@ def _search(inputs: FitInputs, problem: Problem) -> Ends:
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     """The model answers nowhere that was looked at, and why not if it says so for a single case."""
     at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
-    reason = "; call the model there with on_failure='raise' to be told why"
+    reason = "; call the model there with on_failure='raise' to see why"
     try:
         inputs.model.function(**at)
     except CollisionsError as error:
@@ -200,9 +201,9 @@ def _check_minimum(best: Candidate, ends: Ends) -> None:
         why = _WHY_NO_MINIMUM[STALLED]
     # Searches that agree in an unknown that no slope identifies, or slopes that vanish so close by that no error holds.
     if why is None and (np.any(np.isinf(best.errors) & best.agreed(ends)) or best.overstates_errors(_OVERSTATED)):
-        why = "there the model turns round, so that its slopes tell no error"
+        why = "there the model turns round, so that its slopes give no error"
         advice = (
-            "Narrow the bounds to one side of it (on a bound the rise of chi-squared tells a range), give a prior of it (a "
+            "Narrow the bounds to one side of it (on a bound the rise of chi-squared gives a range), give a prior of it (a "
             "Normal), or fewer unknowns"
         )
     if why is not None:
@@ -258,39 +259,22 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
     names = inputs.names
     units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
-    identified = np.isfinite(found.errors)
+    identified = np.isfinite(found.errors).tolist()
     over_sigma = -problem.misfit(found.outputs)
-    residuals = {
-        f"prior of {row.name}" if row.is_prior else row.name: Residual(
-            name=row.name,
-            unit=row.value.unit or inputs.model.units.get(row.name) or "",
-            observed=row.value.given_mean,
-            computed=float(computed),
-            residual=float(sigmas * row.value.given_sd),
-            sigma=row.value.given_sd,
-            over_sigma=float(sigmas),
-            is_prior=row.is_prior,
-        )
-        for row, computed, sigmas in zip(inputs.rows, inputs.computed(point[np.newaxis])[0], over_sigma, strict=True)
-    }
-    sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", ""))
+    residuals = _residuals(inputs, inputs.computed(point[np.newaxis])[0], over_sigma)
+    sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", "")).tolist()
     degrees_of_freedom = len(inputs.rows) - found.determination_of(found.free).rank
     chi_squared = float(over_sigma @ over_sigma)
-    covariance = np.array(determined.covariance)
-    covariance.setflags(write=False)
     values = np.where(identified, point, math.nan).tolist()
-    shares = [
-        dict(zip(residuals, row, strict=True)) if known else {}
-        for row, known in zip(determined.shares.tolist(), identified, strict=True)
-    ]
+    shares = [dict(zip(residuals, row, strict=True)) for row in determined.shares.tolist()]
     return Fit(
         values=Values(dict(zip(names, values, strict=True)), units),
         names=names,
         units=units,
         bounds={name: (unknown.low, unknown.high) for name, unknown in inputs.unknowns.items()},
-        covariance=covariance,
+        covariance=lock(np.array(determined.covariance)),
         residuals=residuals,
-        contributions=dict(zip(names, shares, strict=True)),
+        contributions={name: row if known else {} for name, row, known in zip(names, shares, identified, strict=True)},
         chi_squared=chi_squared,
         degrees_of_freedom=degrees_of_freedom,
         p_value=chi_squared_tail(chi_squared, degrees_of_freedom),
@@ -299,11 +283,27 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
             for held, rows in ((False, determined.unidentified), (True, determined.prior_only))
             for row in rows
         ),
-        at_bounds={name: str(side) for name, side, known in zip(names, sides, identified, strict=True) if side and known},
+        at_bounds={name: side for name, side, known in zip(names, sides, identified, strict=True) if side and known},
         reaches={names[j]: limit.value for j, limit in found.limits.items()},
         nonlinearity=found.nonlinearity,
         searches=_counted(ends, found.chi_squared) | {"around": around},
     )
+
+
+def _residuals(inputs: FitInputs, computed: Any, over_sigma: Any) -> dict[str, Residual]:
+    return {
+        f"prior of {row.name}" if row.is_prior else row.name: Residual(
+            name=row.name,
+            unit=row.value.unit or inputs.model.units.get(row.name) or "",
+            observed=row.value.given_mean,
+            computed=value,
+            residual=sigmas * row.value.given_sd,
+            sigma=row.value.given_sd,
+            over_sigma=sigmas,
+            is_prior=row.is_prior,
+        )
+        for row, value, sigmas in zip(inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True)
+    }
 
 
 def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
@@ -344,4 +344,4 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
 
 
 def _listed(values: Mapping[str, float]) -> str:
-    return ", ".join(f"{name} {'open' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())
+    return ", ".join(f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())

@@ -106,7 +106,7 @@ class FitInputs(NamedTuple):
         )
 
     def _is_angle(self, row: Stated) -> bool:
-        """Whether an observation goes round a circle, as far as the units tell."""
+        """Whether an observation goes round a circle, as far as the units show."""
         returned, observed = self.model.units.get(row.name), row.value.unit
         if row.is_prior:
             return False
@@ -130,7 +130,7 @@ def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
     rows += [Stated(name, unknown.prior, True) for name, unknown in known if unknown.prior]
     inputs = FitInputs(Model(model, {}), dict(known), tuple(rows))
     check_names(model, inputs.names, "unknowns", "bad_model")
-    # Two cases tell a model that takes arrays from one that takes numbers; one would not.
+    # Two cases, because a model that takes numbers would answer an array of one.
     inputs.computed(np.tile(inputs.numbers_of("start"), (2, 1)))
     return inputs
 

@@ -123,7 +123,7 @@ class Residual(WithUnit):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Direction:
-    """A change of the unknowns that the evidence does not tell: that of each in SI, all moving together.
+    """A change of the unknowns that the evidence does not determine: that of each in SI, all moving together.
 
     ``held_by_prior`` says whether what was stated before settles it; otherwise nothing does.
     """
@@ -139,13 +139,12 @@ class Direction:
     @property
     def sentence(self) -> str:
         """The same in words."""
-        if len(self.changes) == 1:
-            what = f"{self.unknowns[0]} is not determined by the evidence"
-        else:
-            first, *rest = self.changes
-            moves = ", ".join(f"{name} by {self.changes[name] / self.changes[first]:+.4g}" for name in rest)
-            what = f"the evidence cannot tell a change of {first} by +1 together with {moves} (SI)"
-        return what + (", which rests on what was stated before" if self.held_by_prior else ", and nothing else tells it")
+        what, *rest = self.changes
+        if rest:
+            moves = ", ".join(f"{name} by {self.changes[name] / self.changes[what]:+.4g}" for name in rest)
+            what = f"a change of {what} by +1 together with {moves} (SI)"
+        and_so = "and rests on what was stated before" if self.held_by_prior else "nor by anything else"
+        return f"{what} is not determined by the evidence, {and_so}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -160,7 +159,7 @@ class Fit(Shown):
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
     the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there. ``reaches`` has the
-    unknowns that ended on a bound on which the model turns round, so that its slopes tell no error: the value up to which
+    unknowns that ended on a bound on which the model turns round, so that its slopes give no error: the value up to which
     chi-squared rises by no more than 4 while the others are fitted again. The standard error of such an unknown is half of the
     way there, and the covariance of the others is that with it on its bound. ``searches`` counts the starts by how they ended;
     ``around`` are those among them that were added around an answer that few found.
@@ -362,7 +361,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
         else:
             yield Note(None, f"the evidence agrees with itself: {chance}")
     for direction in found.undetermined:
-        advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that tells it"
+        advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that determines it"
         if direction.held_by_prior:
             yield Note(None, direction.sentence)
         else:
@@ -379,9 +378,9 @@ def notes_of(found: Fit) -> Iterator[Note]:
     for name in found.told_by_bounds:
         yield Note(
             IllConditionedWarning,
-            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds: they tell its "
-            f"range, not the evidence",
-            "; give an observation that tells more, or a prior",
+            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds: they limit "
+            f"it, not the evidence",
+            "; give an observation that says more, or a prior",
             "told_by_bounds",
         )
     if found.searches["around"]:
@@ -391,9 +390,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
             f"may still lie between them, which narrower bounds would show",
         )
     if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
-        yield Note(
-            IllConditionedWarning, found.bend, "; sample the unknowns, or give priors that hold them closer", "not_linear"
-        )
+        yield Note(IllConditionedWarning, found.bend, "; sample the unknowns, or give closer priors", "not_linear")
 
 
 def _with_error(one: Estimate) -> str:
