@@ -288,7 +288,7 @@ def test_every_line_of_planar_momentum(which, units, equations):
 
 
 def fits():
-    """Of a line (known in closed form), with a prior, round the circle, on a bound, and with an unknown nothing tells."""
+    """Of a line (known in closed form), with a prior, round the circle, on a bound, and with an unknown that nothing determines."""
     times, places = np.array([0.0, 1.0, 2.0, 3.0]), (1.1, 2.9, 5.2, 6.8)
 
     def line(start, speed):
@@ -354,7 +354,7 @@ def test_a_bare_number_says_where_its_formula_is():
             explain(number)
         assert caught.value.code == "not_an_impact"
         for path in re.findall(r"help\(collisions\.(\w+)\.(\w+)\)", str(caught.value)):
-            assert "::" in (told := getattr(getattr(col, path[0]), path[1]).__doc__) or "A C + B C^2 / 2" in told
+            assert "::" in (text := getattr(getattr(col, path[0]), path[1]).__doc__) or "A C + B C^2 / 2" in text
 
 
 @pytest.mark.slow
@@ -565,8 +565,8 @@ def test_energy_of_both_ees_is_that_of_the_speeds():
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 0.5, 5.0])
-def test_the_choice_of_solve_is_told(tolerance):
-    """The model, what was accepted and what each cheaper model errs by, in the units asked for."""
+def test_the_choice_of_solve_is_explained(tolerance):
+    """The model, what was accepted and what each cheaper model errs by, in the units of the page."""
     impact = SCENES[f"solve {tolerance}"]
     text = explain(impact, form="text", units="metric")
     assert f"Taken: {impact.model}." in text
@@ -892,7 +892,7 @@ def test_kinetic_energies_are_worked_out_and_say_whether_they_turn():
 
 
 def test_a_kinetic_energy_that_is_not_known_is_no_check():
-    """A central model that solve took needs no yaw inertia of a body that turns; nothing tells its energy of rotation."""
+    """A central model that solve took needs no yaw inertia of a body that turns; its energy of rotation is not known."""
     a = col.Vehicle(mass=1000.0, vx=10.0, yaw_rate=0.01, x=-2.0, y=0.0)
     b = col.Vehicle(mass=900.0, x=2.0, y=0.0, yaw_inertia=1500.0)
     impact = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.0, tolerance=50.0)
@@ -942,7 +942,7 @@ def test_figures_are_as_the_notes_say():
     assert "may differ" not in notes
 
 
-def test_other_answers_are_told_of():
+def test_other_answers_are_named():
     """A delta-V and an energy that two pairs of speeds give: each of them says that there is another; a single one does not."""
     forward = crossroads(friction=0.3, normal="20 deg")
     with pytest.warns(col.OutOfRangeWarning, match="backwards along its course"):
@@ -966,7 +966,7 @@ def test_other_answers_are_told_of():
     assert "Not the only answer" not in explain(example_2())
 
 
-def test_a_letter_has_one_value(monkeypatch):
+def test_a_symbol_has_one_value(monkeypatch):
     """In plain text and in LaTeX, on every page: also at the end of deformation, where the paper has u with and without a bar."""
     seen = {}
     write = Symbol.write
@@ -982,18 +982,18 @@ def test_a_letter_has_one_value(monkeypatch):
         seen.clear()
         explain(impact)
         assert len(seen) > 4
-        for letter, values in seen.items():
-            assert len({kind for _, kind in values}) == 1, (name, letter)
+        for symbol, values in seen.items():
+            assert len({kind for _, kind in values}) == 1, (name, symbol)
             numbers = [value for value, _ in values]
             # The same number from two of the result's own attributes: by rounding.
-            assert max(numbers) - min(numbers) <= 1e-9 * (1.0 + max(map(abs, numbers))), (name, letter, values)
+            assert max(numbers) - min(numbers) <= 1e-9 * (1.0 + max(map(abs, numbers))), (name, symbol, values)
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_every_letter_of_a_forward_derivation_is_given_or_derived_before(name):
+def test_every_symbol_of_a_forward_derivation_is_given_or_derived_before(name):
     """Nothing comes from nowhere: what stands right of an equals sign was left of one before, or in a sentence, or was given."""
     if SCENES[name].reconstruction is not None:
-        pytest.skip("backwards some letters are solved for together")
+        pytest.skip("backwards some symbols are solved for together")
     text = explain(SCENES[name], form="text")
     given = {"m_A", "m_B", "e", "pi", "phi", "I_A", "I_B", "psi_A", "psi_B", "abs", "sqrt", "cos", "sin", "atan2", "mu", "f"}
     given |= {f"v_{label}{axis}" for label in "AB" for axis in "xy"} | {"v_A", "v_B"}
@@ -1012,7 +1012,7 @@ def test_every_letter_of_a_forward_derivation_is_given_or_derived_before(name):
         given.add(left)
 
 
-def test_the_place_at_the_contact_has_its_own_letter():
+def test_the_place_at_the_contact_has_its_own_symbol():
     """The scene of the review: u_Bn of the centre of mass is 7.718 m/s, the contact at the end of deformation has 8.208 m/s."""
     impact = col.eccentric(
         col.Vehicle(mass=1500, yaw_inertia=2400, vx=15, x=-2, y=0.4),
@@ -1068,9 +1068,9 @@ def test_what_is_read_out_is_derived(name, units):
             wanted[f"theta'_{label}"] = side.after.q.course.m_as(angle)
         if side.before.heading is not None:
             wanted[f"PDOF_{label}"] = side.q.pdof.m_as(angle)
-        for letter, value in wanted.items():
+        for symbol, value in wanted.items():
             # Four figures, or of what is small four decimals of the SI unit, which are two of a degree and of km/h three.
-            assert float(derived[letter]) == pytest.approx(value, rel=6e-4, abs=6e-3), (letter, label)
+            assert float(derived[symbol]) == pytest.approx(value, rel=6e-4, abs=6e-3), (symbol, label)
         assert held == (f"{label} has an infinite mass, so its delta-V is 0." in text)
 
 

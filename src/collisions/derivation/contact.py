@@ -1,4 +1,4 @@
-"""The steps that the models of an impact share: velocities, the tangential impulse, energy, and what the motions tell."""
+"""The steps that the models of an impact share: velocities, the tangential impulse, energy, and what the motions give."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
 
 
 def motions(page: Page, s: Symbols) -> None:
-    """What is read out of the motions of both vehicles, each from its definition."""
+    """What follows from the motions of both vehicles, each from its definition."""
     page.heading("Delta-V, direction of the force, and motion after")
     page.say(
         "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse on a vehicle comes from, seen "

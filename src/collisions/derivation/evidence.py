@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..formatting import KIND_OF
+from ..formatting import KIND_OF, in_words, percent
 from ..reconstruct import Fit, MomentumSolution
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
@@ -246,10 +246,9 @@ def _misfit(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
     yield "all", "chi-squared", f"{found.chi_squared:.4g}"
     freedom = "degrees of freedom (observations and priors less the unknowns they determine)"
     yield "all", freedom, str(found.degrees_of_freedom)
-    chance = "none to tell" if math.isnan(found.p_value) else f"{found.p_value:.2g}"
+    chance = in_words(found.p_value) if math.isnan(found.p_value) else f"{found.p_value:.2g}"
     yield "all", "chance of such a chi-squared or a larger one", chance
-    off = "not known" if math.isnan(found.nonlinearity) else f"{100.0 * found.nonlinearity:.0f} percent"
-    yield "all", "by how much the 95 percent intervals are off, as the model bends", off
+    yield "all", "by how much the 95 percent intervals are off, as the model bends", percent(found.nonlinearity)
 
 
 def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
@@ -284,7 +283,7 @@ def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]
     yield of, "95 percent interval", f"{low} to {high}{unit}"
     for by, share in found.contributions[name].items():
         if math.isfinite(share):  # where the model turns round on a bound, slopes share nothing
-            yield of, f"share of the variance by {page.name(by)}", f"{100.0 * share:.0f} percent"
+            yield of, f"share of the variance by {page.name(by)}", percent(share)
     correlations = found.correlation_matrix[at, at + 1 :].tolist()
     for other, correlation in zip(found.names[at + 1 :], correlations, strict=True):
         if math.isfinite(correlation):

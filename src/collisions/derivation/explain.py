@@ -130,7 +130,7 @@ def explain(
 
     Examples
     --------
-    Example 2 of the paper, as it was asked there: the restitution, and the velocity of the striking car.
+    Example 2 of the paper, which asks for the restitution, and the velocity of the striking car.
 
     >>> import collisions as col
     >>> from collisions.derivation import explain

@@ -13,11 +13,6 @@ from .symbols import Symbol
 _MOST = 12
 # The columns of most tables.
 HEAD = ("of", "quantity", "value")
-# Of an equation whose form loses the digits of the result, instead of seeming to be wrong.
-_CANCELLED = (
-    "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, worked out in a "
-    "form that keeps its digits."
-)
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
 
@@ -106,18 +101,14 @@ class Page:
         lines = [self._in_symbols(right)]
         if numbers not in (lines[0], printed):
             lines.append(numbers)
-        self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)])
-        if not fits:
-            self.say(_CANCELLED)
+        self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)], fits=fits)
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Formula = formula, in symbols, in numbers, and the value of both sides."""
         sides = (left, right)
         numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
         values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
-        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values])
-        if not fits:
-            self.say(_CANCELLED)
+        self._lines(caption, self._in_symbols(left), [self._in_symbols(right)], [" = ".join(numbers), values], fits)
 
     def collected(
         self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
@@ -169,17 +160,21 @@ class Page:
         # A little more than half a unit, for the rounding of what is just between two numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
-    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = ()) -> None:
+    def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = (), fits: bool = True) -> None:
         """The left side once, below each other what it equals, and other equations ``below``."""
         if not self.latex:
             pad = " " * (len(left) + 2)
             lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]
             self.parts.append("\n".join([f"{caption}:", *lines]))
-            return
-        lines = [f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])]
-        lines += [line.replace(" = ", " &= ", 1) for line in below]
-        if len(lines) == 1:
-            formula = lines[0].replace("&=", "=")
         else:
+            lines = [f"{left} &= {chain[0]}", *(f"&= {line}" for line in chain[1:])]
+            lines += [line.replace(" = ", " &= ", 1) for line in below]
             formula = "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
-        self.parts.append(f"{caption}:\n\n$$\n{formula}\n$$")
+            formula = formula if len(lines) > 1 else lines[0].replace("&=", "=")
+            self.parts.append(f"{caption}:\n\n$$\n{formula}\n$$")
+        if not fits:
+            # Instead of seeming to be wrong.
+            self.say(
+                "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
+                "worked out in a form that keeps its digits."
+            )
