@@ -583,6 +583,7 @@ def test_a_choice_without_an_error_says_why():
     assert "linear_central: infinite" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_plain_text_has_no_latex(name):
     """No sign of it but in a name, which stands as it was given; and no line ends in blanks."""
@@ -916,6 +917,7 @@ def test_components_of_the_normal_are_introduced():
     assert backwards.index("n_x = cos(phi)") == backwards.index("n_x")
 
 
+@pytest.mark.slow
 def test_no_fraction_is_divided_by_a_fraction():
     """The mass that the contact feels is a factor."""
     marked = explain(crossroads(col.oblique_central, friction=0.05))
@@ -966,6 +968,7 @@ def test_other_answers_are_named():
     assert "Not the only answer" not in explain(example_2())
 
 
+@pytest.mark.slow
 def test_a_symbol_has_one_value(monkeypatch):
     """In plain text and in LaTeX, on every page: also at the end of deformation, where the paper has u with and without a bar."""
     seen = {}
@@ -1048,6 +1051,7 @@ def test_what_turns_is_said_as_it_is(y, inertia, said):
     assert "misses a centre of mass" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", UNITS)
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_read_out_is_derived(name, units):

@@ -61,7 +61,9 @@ def test_there_are_examples():
     "script",
     [pytest.param(path, id=path.stem, marks=() if path.stem == "paper_examples" else pytest.mark.slow) for path in EXAMPLES],
 )
-@pytest.mark.parametrize("elsewhere", [False, True], ids=["from the root", "from elsewhere"])
+@pytest.mark.parametrize(
+    "elsewhere", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["from the root", "from elsewhere"]
+)
 def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
     """An example exits with 0 and ends in its checks, without a warning, wherever it is started."""
     done = run(script, tmp_path) if elsewhere else run(script.relative_to(ROOT), ROOT)

@@ -371,6 +371,7 @@ MODELS = ("linear_central", "oblique_central", "eccentric")
 every_model = pytest.mark.parametrize("model", MODELS)
 
 
+@pytest.mark.slow
 @examples(3)
 @given(some_of((*BODY, "pivot")), st.one_of(st.just(""), st.text(max_size=5), anything), st.integers(0, 9))
 def test_a_vehicle_of_anything(fields: dict[str, Any], name: Any, how: int) -> None:
@@ -436,6 +437,7 @@ def test_a_solver_of_any_numbers(model: str, data: Any) -> None:
         look_at_impact(impact)
 
 
+@pytest.mark.slow
 @every_model
 @examples(2)
 @given(data=st.data())

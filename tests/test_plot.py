@@ -360,6 +360,7 @@ def test_numbers_are_shown_with_units_as_well_as_they_can_be_known(system, value
 # Scene
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_velocities_and_impulses_of_the_scene_are_those_of_the_result(case):
     """Read back with the scale that is printed below the picture."""
@@ -497,6 +498,7 @@ def test_coordinates_of_a_national_grid_are_in_full():
     assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("far", [1e13, 1e17, 1e90])
 def test_a_scene_whose_digits_end_before_those_of_the_vehicles_is_not_drawn(far):
     """It had no end at 1e60 m, where nothing moves two arrows apart; the report says so in its place."""
@@ -755,6 +757,7 @@ def test_labels_do_not_hide_each_other(picture, case):
 # Momentum
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_arrows_of_the_momentum_diagram_are_the_momenta(case):
     impact, system = IMPACTS[case], UNITS[case]
@@ -876,6 +879,7 @@ def on_line(line, x, y):
     return abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) / length / math.hypot(x, y)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.parametrize("family", ["traffic", "barrier", "A pinned", "B pinned", "both pinned"])
 def test_lines_of_the_impulse_plane_are_those_of_the_reference(family, law):
@@ -1014,6 +1018,7 @@ def test_restitution_takes_its_part_of_the_time(restitution, turn):
     assert first[:, 1].max() == pytest.approx(0.5 * math.pi * impact.compression_impulse / turn, rel=2e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.0, 0.1, 0.25, 1.0])
 def test_the_pulse_that_is_drawn_is_the_one_that_left_out_assumes(restitution):
     """Bodies moved by the force in the picture, Newton's law in steps: where they are, and how far they went into each other.
@@ -1282,6 +1287,7 @@ def test_half_a_letter_in_a_name_is_drawn_as_a_sign(name):
     axes.figure.draw_without_rendering()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("mass", "speed", "duration", "argument"),
     [(1e-320, 1e-3, 0.1, "normal_impulse"), (1500.0, 1e-300, 0.1, "closing_speed"), (1500.0, 1e152, 0.1, "vx"), (1500.0, 20.0, 1e-308, "duration")],

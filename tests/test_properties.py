@@ -48,7 +48,7 @@ MODELS = [("eccentric", constraint) for constraint in CONSTRAINTS] + [
 
 
 def marks(constraint: str) -> Any:
-    """A free and a pinned body are for every run; the rest is slow."""
+    """A free and a pinned body, under the law that is the default, are for every run; the rest is slow."""
     return () if constraint in ("free", "B pinned") else pytest.mark.slow
 
 
@@ -60,7 +60,9 @@ def crossing(pairs: list[tuple[str, str]]) -> Any:
 
 PLANAR = [pair for pair in MODELS if pair[0] != "linear_central"]
 every_model = crossing(MODELS)
-every_law = pytest.mark.parametrize("law", LAWS)
+every_law = pytest.mark.parametrize(
+    "law", [pytest.param(law, marks=() if law == "brach" else pytest.mark.slow) for law in LAWS]
+)
 every_constraint = pytest.mark.parametrize("constraint", [pytest.param(name, marks=marks(name)) for name in CONSTRAINTS])
 
 
@@ -409,7 +411,7 @@ def test_a_quarter_turn_of_the_scene_changes_nothing(model: str, constraint: str
 
 
 @every_law
-@pytest.mark.parametrize("constraint", ["free", "A fixed", "B fixed"])
+@pytest.mark.parametrize("constraint", [pytest.param(name, marks=marks(name)) for name in ("free", "A fixed", "B fixed")])
 @pytest.mark.parametrize("model", ["eccentric", "oblique_central"])
 @crossed
 @given(data=st.data())
@@ -607,7 +609,7 @@ def test_friction_on_a_lever_along_the_normal_turns_the_bodies(law: str, data: A
 
 
 @every_law
-@pytest.mark.parametrize("constraint", ["free", "A fixed", "B fixed"])
+@pytest.mark.parametrize("constraint", [pytest.param(name, marks=marks(name)) for name in ("free", "A fixed", "B fixed")])
 @crossed
 @given(data=st.data())
 def test_oblique_central_equals_linear_central_in_line(constraint: str, law: str, data: Any) -> None:

@@ -279,6 +279,7 @@ def test_two_origins_and_what_decides():
                 assert distance(backwards(end, regime=one.regime), one) < 1e-8
 
 
+@pytest.mark.slow
 def test_how_often_there_are_two():
     """Sticking end states under "kudlich-slibar" with a finite friction: all two-valued; of the sliding ones some.
 

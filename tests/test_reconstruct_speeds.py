@@ -216,6 +216,7 @@ def test_no_root_is_missed(rule, pair):
     assert shown >= 6
 
 
+@pytest.mark.slow
 def test_two_roots_close_together():
     """With a share of the critical ratio, two roots may be a few percent apart and nearer: both are there."""
     found = []
@@ -296,7 +297,12 @@ def falling(closing):
 
 
 @pytest.mark.parametrize(
-    "pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_b", "ees"), ("delta_v_a", "energy_loss")]
+    "pair",
+    [
+        ("speed_a", "delta_v_b"),
+        *(pytest.param(pair, marks=pytest.mark.slow) for pair in (("speed_b", "energy_loss"), ("speed_b", "ees"))),
+        pytest.param(("delta_v_a", "energy_loss"), marks=pytest.mark.slow),
+    ],
 )
 def test_restitution_as_a_function(pair):
     """Every root has the restitution of its own closing speed, and the true one is among them."""
@@ -319,6 +325,7 @@ def low_speed(**known):
     return speeds(A, B, course_a=0.0, course_b=None, speed_b=0.0, **{**CONTACT, **known})
 
 
+@pytest.mark.slow
 def test_a_jump_of_the_function_is_no_root():
     """A table with a step has a change of sign there, but no closing speed with its own restitution."""
     above = low_speed(delta_v_a=2.0, restitution=0.4)[0].closing_speed
@@ -347,6 +354,7 @@ def test_functions_that_cannot_be_used():
     assert caught.value.code == "bad_combination"
 
 
+@pytest.mark.slow
 def test_a_function_that_leaves_the_slip_open():
     """A sliding contact with delta-V and EES: undetermined for a function as for a number."""
     impact = col.eccentric(HIT.a.before, HIT.b.before, falling(HIT.closing_speed), **CONTACT)
@@ -409,6 +417,7 @@ def test_the_slope_of_the_function_counts():
     assert function.reconstruction.condition == pytest.approx(1.0 / (1.0 - e / 1.5 / (1.0 + e) * g), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_slope_at_the_end_of_a_function():
     """Where the function ends the slope is taken to the side that is there; where it holds at one place only there is none."""
     whole = low_speed(delta_v_a=2.0, restitution=steep)[0]
@@ -567,6 +576,7 @@ def open_in_a_batch(**given):
         return speeds(A, B, **given)
 
 
+@pytest.mark.slow
 def test_a_loss_within_rounding_tells_nothing_to_a_function():
     """A constant function of 1 leaves open what the number does."""
     given = {**ALONG_AND_ACROSS, "friction": 0.5, "law": "kudlich-slibar", "energy_loss": 5e-10}

@@ -23,7 +23,11 @@ from scenes import FAMILIES, LAWS, NEAR_JAMMING, RULES, answerable, cases, draw,
 COUNT = 100
 FLAT_COUNT = 40
 GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in (*RULES, NEAR_JAMMING)]
-group = pytest.mark.parametrize(("family", "law", "rule"), GROUPS)
+# Friction in every family, and every rule in traffic, are for every run; the rest is slow.
+group = pytest.mark.parametrize(
+    ("family", "law", "rule"),
+    [pytest.param(*one, marks=() if one[0] == "traffic" or one[2] == "friction" else pytest.mark.slow) for one in GROUPS],
+)
 way = pytest.mark.parametrize("way", ["alone", "in a batch"])
 
 _READ = (

@@ -574,15 +574,21 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
     return answered, refused
 
 
-# Of the many ways to call `speeds` and `planar`, those by friction are for every run.
+# Of the many ways to call a planar solver these are for every run; the rest is slow.
+EVERY_RUN = (
+    "oblique_central, friction",
+    "eccentric, friction, brach",
+    "eccentric, critical_fraction, kudlich-slibar",
+    "eccentric, pinned, friction",
+    "solve, friction, 0.3",
+    "planar, friction, brach, restitution",
+    "planar, friction, kudlich-slibar, closing_speed",
+    "speeds, friction, speed_b, delta_v_a",
+)
+PLANAR = ("oblique_central, ", "eccentric, ", "solve, ", "planar, ", "speeds, ")
 every_call = pytest.mark.parametrize(
     "name",
-    [
-        pytest.param(
-            name, marks=pytest.mark.slow if name.startswith(("speeds, ", "planar, ")) and "friction" not in name else ()
-        )
-        for name in CALLS
-    ],
+    [pytest.param(name, marks=pytest.mark.slow if name.startswith(PLANAR) and name not in EVERY_RUN else ()) for name in CALLS],
 )
 
 

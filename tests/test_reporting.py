@@ -494,6 +494,7 @@ def test_intervals_and_local_methods():
     assert any("Not drawn: " in text for text in pictured.of("p"))
 
 
+@pytest.mark.slow
 def test_figures_show_this_impact(impacts):
     drawn = Page(report(impacts["eccentric"], units="metric", outline_a=(4.2, 1.8), outline_b=(4.0, 1.7)))
     assert drawn.tags.count("svg") == 4
@@ -884,7 +885,7 @@ def test_intervals_alone_have_no_mean():
     assert "95 percent" not in part
 
 
-@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order"])
+@pytest.mark.parametrize("method", [pytest.param("quasi_random", marks=pytest.mark.slow), "monte_carlo", "first_order"])
 def test_rounding_is_no_deviation(method):
     """Of a ratio that is always the friction: no dust for digits, no shares of nothing, and no alarm."""
     options = {} if method == "first_order" else {"samples": 64, "seed": 1}

@@ -247,7 +247,7 @@ def test_an_extreme_inside_of_several_intervals(count):
     assert found.interval()[1] == pytest.approx(truth.interval()[1], rel=1e-9)
 
 
-@pytest.mark.parametrize("count", range(1, 8))
+@pytest.mark.parametrize("count", [1, 2, 3, 4, *(pytest.param(count, marks=pytest.mark.slow) for count in (5, 6, 7))])
 def test_every_corner_is_a_place(count):
     """And there are few enough places to work out."""
     asked = set()
@@ -270,7 +270,10 @@ def test_too_many_intervals_beside_distributions():
 
 
 @pytest.mark.filterwarnings("ignore:method=:collisions.errors.OutOfRangeWarning")
-@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order", "second_order"])
+@pytest.mark.parametrize(
+    "method",
+    ["quasi_random", "first_order", *(pytest.param(name, marks=pytest.mark.slow) for name in ("monte_carlo", "second_order"))],
+)
 def test_bounds_contain_every_truth(method):
     """A rear-end impact whose restitution is only known to lie between two values: the figures of 20 truths in there, each worked
     out by itself with the same seed, lie within the bounds on them, and those of the two ends on the bounds."""

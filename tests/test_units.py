@@ -244,6 +244,7 @@ def test_an_application_registry_that_counts_in_decimal(decimal_registry):
     assert "mph" in col.explain(impact, units="us")
 
 
+@pytest.mark.slow
 def test_the_default_system_of_a_registry_changes_nothing():
     """to_base_units() follows the registry's default system; the reader names its target."""
     registry = pint.UnitRegistry(system="imperial")
