@@ -175,8 +175,8 @@ def test_a_report_made_of_what_a_report_holds_is_the_same(name, form, impacts):
     with pytest.warns(col.EnergyGainWarning) if name == "energy gain" else nullcontext():
         again = replay(page)
     assert again == impact
-    assert [side.before._given or {} for side in (again.a, again.b)] == [
-        side.before._given or {} for side in (impact.a, impact.b)
+    assert [side.before.given or {} for side in (again.a, again.b)] == [
+        side.before.given or {} for side in (impact.a, impact.b)
     ]
     assert report(again, **options) == page
 

@@ -719,7 +719,7 @@ def test_every_declared_unit_is_one_pint_knows():
 def test_texts_are_kept_for_reports(ureg):
     """What was written with a unit is kept beside the number, and follows the vehicle when other fields change."""
     vehicle = col.Vehicle(mass=" 1100 kg", vx=ureg.Quantity(50, "mph"), vy=2.0)
-    assert vehicle._given == {"mass": "1100 kg", "vx": "50.0 mile_per_hour"}
-    assert vehicle.replace(vy=3.0)._given == vehicle._given
-    assert vehicle.replace(mass=900.0)._given == {"vx": "50.0 mile_per_hour"}
-    assert col.Vehicle(mass=1.0)._given is None
+    assert vehicle.given == {"mass": "1100 kg", "vx": "50.0 mile_per_hour"}
+    assert vehicle.replace(vy=3.0).given == vehicle.given
+    assert vehicle.replace(mass=900.0).given == {"vx": "50.0 mile_per_hour"}
+    assert col.Vehicle(mass=1.0).given is None

@@ -26,7 +26,7 @@ def test_frozen_and_keyword_only():
     vehicle = col.Vehicle(mass=1.0)
     with pytest.raises(AttributeError):
         vehicle.mass = 2.0
-    for name in ("speed", "nonsense", "_given"):
+    for name in ("speed", "nonsense", "given"):
         with pytest.raises(AttributeError):
             setattr(vehicle, name, 3.0)
     with pytest.raises(TypeError):
@@ -52,7 +52,7 @@ def test_copies_and_pickles_are_equal_and_locked():
     vehicle = col.Vehicle(mass="1000 kg", vx=np.array([1.0, 2.0]), x=0, y=0, yaw_rate=0.5, yaw_inertia=1e3, pivot=None)
     for twin in (pickle.loads(pickle.dumps(vehicle)), copy.deepcopy(vehicle), copy.copy(vehicle)):
         assert twin == vehicle
-        assert twin._given == vehicle._given
+        assert twin.given == vehicle.given
         assert not twin.vx.flags.writeable
 
 
@@ -101,7 +101,7 @@ def test_from_speed_is_exact_at_quarter_turns():
     """Course 90 deg gives vx exactly 0; both ways of giving the velocity at once are refused."""
     vehicle = col.Vehicle.from_speed(mass=1.0, speed="36 km/h", course="90 deg")
     assert (vehicle.vx, vehicle.vy) == (0.0, 10.0)
-    assert vehicle._given == {"speed": "36 km/h", "course": "90 deg"}
+    assert vehicle.given == {"speed": "36 km/h", "course": "90 deg"}
     assert col.Vehicle.from_speed(mass=1.0, speed=5.0, course=(3, 4)).vx == 3.0
     assert code_of(lambda: col.Vehicle.from_speed(mass=1.0, speed=5.0, course=0.0, vx=3.0)) == "speed_twice"
     many = col.Vehicle.from_speed(mass=1.0, speed=np.array([1.0, 2.0]), course="180 deg")
@@ -112,7 +112,7 @@ def test_the_dataclass_tools_work():
     """fields, asdict and replace of the dataclasses module see the public fields and nothing else."""
     vehicle = col.Vehicle(mass="1000 kg", vx=1.0)
     assert [f.name for f in dataclasses.fields(vehicle)][:2] == ["mass", "vx"]
-    assert "_given" not in dataclasses.asdict(vehicle)
+    assert "given" not in dataclasses.asdict(vehicle)
     assert dataclasses.replace(vehicle, mass=2.0).mass == 2.0
 
 

@@ -15,6 +15,7 @@ from .kernels.elementwise import select, turning_velocity
 from .models import ECCENTRIC, MODELS
 from .quantities import hypot, numeric
 from .side import Side
+from .vehicle import moved, needed
 
 # Moments that weigh the same in time, as shares of the duration.
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
@@ -51,7 +52,7 @@ class Kick(NamedTuple):
         pull = hypot(x, y)
         if before.pivot is None:
             return cls(x, y, 0.0, x, y, pull, most)
-        arm_x, arm_y = before._need("x", "left_out") - before.pivot[0], before._need("y", "left_out") - before.pivot[1]
+        arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
         square = arm_x * arm_x + arm_y * arm_y
         # One without an inertia has no answer either.
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
@@ -76,8 +77,8 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
     # The pull need not be along the normal, which the linear model would refuse; without friction the oblique one is the same.
     carrying = {"model": "oblique_central", "law": BRACH} if impact.inputs.model == "linear_central" else {}
     moved_a, moved_b = (
-        side.before._moved(
-            side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
+        moved(
+            side.before, side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
         )
         for side, kick in zip((impact.a, impact.b), kicks, strict=True)
     )

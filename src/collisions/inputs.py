@@ -17,7 +17,7 @@ from .kernels.elementwise import RESTITUTION
 from .quantities import lock, same
 from .reading import ArgumentReader, is_whole, largest
 from .units import Value, has_unit, is_quantity, shown
-from .vehicle import DOMAINS, NAMES, Vehicle, not_a_vehicle
+from .vehicle import DOMAINS, NAMES, Vehicle, not_a_vehicle, numbers_of, vehicle_of
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
@@ -116,8 +116,7 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
     if isinstance(whole, np.ndarray):
         return take(whole)
     if isinstance(whole, Vehicle):
-        part = Vehicle._of_numbers({name: part_of(getattr(whole, name), take) for name in NAMES})
-        return part._told(whole._given)
+        return vehicle_of({name: part_of(getattr(whole, name), take) for name in NAMES}, given=whole.given)
     if isinstance(whole, Mapping):
         return {name: part_of(value, take) for name, value in whole.items()}
     if isinstance(whole, tuple):
@@ -168,7 +167,7 @@ def read_inputs(
     law_used = None if model == "linear_central" else law
     if (
         type(a) is type(b) is Vehicle
-        and a._given is b._given is None
+        and a.given is b.given is None
         and type(restitution) is type(friction) is type(normal) is float
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
@@ -208,7 +207,7 @@ def read_inputs(
     e = reader.number(restitution, "", "restitution", RESTITUTION)
     contact = None if point is None else reader.pair(point, "m", "point")
     rule, value = _tangential(reader, tangential)
-    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in vehicle._numbers())
+    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle))
     unit: Any = direction(reader, normal, "normal", chain((e, value, *(contact or ())), vehicles, beside))
     if not isinstance(law, str) or law not in LAWS:
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
@@ -216,7 +215,7 @@ def read_inputs(
     reader.close()
     # Of a vector only the direction counts.
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
-    plain = a._given is b._given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
+    plain = a.given is b.given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
     return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None), plain
 
 

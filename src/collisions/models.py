@@ -18,7 +18,7 @@ from .kernels.eccentric import eccentric, from_contact_velocity
 from .kernels.replay import printed
 from .kernels.status import Answer
 from .reading import ArgumentReader, amount
-from .vehicle import Vehicle, missing
+from .vehicle import Vehicle, missing, without_turning
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -178,7 +178,7 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
         # Element by element: beside an array without a case, a plain number still says that the body moves.
-        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and Vehicle._rests(body.yaw_rate)
+        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and without_turning(body.yaw_rate)
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
         found += [(label, name) for name in needed if getattr(body, name) is None]
     return found

@@ -13,7 +13,7 @@ from .errors import InputError, ShapeError
 from .kernels.elementwise import POSITIVE
 from .reading import ArgumentReader, warn_if_large
 from .units import has_unit, is_quantity, shown
-from .vehicle import Vehicle
+from .vehicle import Vehicle, needed
 
 # Sines of corners closer to straight than this are no dents.
 _STRAIGHT = 1e-9
@@ -32,7 +32,7 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
     whole = given.magnitude if is_quantity(given) else given
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = reader.number(given, "m", argument)
-        polygon = _polygon(reader, read, argument) if isinstance(read, np.ndarray) else None
+        polygon = _polygon(reader, read.astype(np.float64), argument) if isinstance(read, np.ndarray) else None
         return _of_likely_size(polygon, [] if is_quantity(given) else given.reshape(-1).tolist(), argument)
     if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
         count = len(reader.problems)
@@ -156,7 +156,7 @@ class Placed(NamedTuple):
 
 def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
     """The outline where the vehicle is after so many seconds of its motion."""
-    x, y, heading = (vehicle._need(name, f"outline_{label}", label) for name in ("x", "y", "heading"))
+    x, y, heading = (needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading"))
     turn = vehicle.yaw_rate * after
     if vehicle.pivot is None:
         x, y = x + vehicle.vx * after, y + vehicle.vy * after

@@ -21,7 +21,7 @@ from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
 from .units import shown
-from .vehicle import DOMAINS, NAMES, Vehicle
+from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
 FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
@@ -69,7 +69,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
 
 
 def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
-    texts = vehicle._given or {}
+    texts = vehicle.given or {}
     found: dict[str, Any] = {"name": vehicle.name}
     for name in DOMAINS:
         found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")
@@ -168,9 +168,10 @@ def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
         state |= zip(("vx", "vy"), _velocity(polar), strict=True)
     motion = [state[name] for name in _MOTION]
     if lost and not any(isinstance(part, (np.ndarray, str)) for part in motion):
-        return Vehicle._of_numbers(_NOTHING | state | dict.fromkeys(_MOTION, 0.0))._moved(*map(float, motion))
-    vehicle = Vehicle._of_numbers(_NOTHING | state)
-    return vehicle._told({**(vehicle._given or {}), **polar}) if polar else vehicle
+        vx, vy, yaw_rate = map(float, motion)
+        return moved(vehicle_of(_NOTHING | state | dict.fromkeys(_MOTION, 0.0)), vx, vy, yaw_rate)
+    vehicle = vehicle_of(_NOTHING | state)
+    return with_given(vehicle, {**(vehicle.given or {}), **polar}) if polar else vehicle
 
 
 def to_columns(impact: Any) -> dict[str, list[Any]]:

@@ -15,7 +15,7 @@ from .model_choice import ModelChoice
 from .quantities import Frozen, Quantities, attributes, derived, hypot, returns, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .units import Pair, Value
-from .vehicle import Vehicle, missing
+from .vehicle import Vehicle, missing, moved, turn_at
 
 
 class Side(Frozen):
@@ -55,14 +55,14 @@ class Side(Frozen):
     def after(self) -> Vehicle:
         """The vehicle just after separation: ready to be the start of a next impact."""
         before, (dvx, dvy, dw) = self.before, self._change()
-        return before._moved(before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
+        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
 
     @derived()
     def at_compression(self) -> Vehicle:
         """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
         before, (dvx, dvy, dw) = self.before, self._change()
         whole = 1.0 + self._inputs.restitution
-        return before._moved(before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
+        return moved(before, before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
 
     @derived("m/s")
     def delta_v(self) -> Value:
@@ -163,7 +163,7 @@ class Side(Frozen):
         broadcast({"point[0]": px, "point[1]": py, "delta_vx": self.delta_vx})
         px, py, x, y = widened((px, py, self.before.x, self.before.y), (self.delta_vx,))
         with np.errstate(all="ignore"):
-            turn_x, turn_y = self.before._turn_at(self.delta_yaw_rate, px, py, "delta_v_at", x, y)
+            turn_x, turn_y = turn_at(self.before, self.delta_yaw_rate, px, py, "delta_v_at", x, y)
             return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
@@ -181,7 +181,7 @@ class Side(Frozen):
         own = before.vx, before.vy, before.yaw_rate, before.x, before.y
         ux, uy, yaw_rate, x, y, px, py = widened((*own, *place), (self.delta_vx,))
         with np.errstate(all="ignore"):
-            turn_x, turn_y = before._turn_at(yaw_rate, px, py, "velocity_at", x, y)
+            turn_x, turn_y = turn_at(before, yaw_rate, px, py, "velocity_at", x, y)
             there = ux + turn_x, uy + turn_y, *self.delta_v_at(place)
         vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
         return vx, vy, dvx, dvy

@@ -20,16 +20,17 @@ _isfinite = math.isfinite
 _ABSENT: Any = object()
 
 
-class _Written:
-    """How the fields given with a unit were written; None if all are plain floats, which the solvers need not look at again."""
+class _AsGiven:
+    """Base that adds to the fields how they were given."""
 
-    __slots__ = ("_given",)
+    __slots__ = ("given",)
 
-    _given: dict[str, str] | None
+    given: dict[str, str] | None
+    """By field, or "speed" and "course", the text of what was given with a unit; None if all numbers were plain floats."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, eq=False, repr=False)
-class Vehicle(_Written):
+class Vehicle(_AsGiven):
     """One body in the road plane at one instant: what it weighs, where it is and how it moves.
 
     The state before an impact, and also the state after it, so that the result of one impact can be the start of the next.
@@ -167,8 +168,8 @@ class Vehicle(_Written):
         vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
-            cx, cy = direction(ArgumentReader(("course",)), course, "course", vehicle._numbers())
-            (magnitude,) = widened((magnitude,), vehicle._numbers())
+            cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle))
+            (magnitude,) = widened((magnitude,), numbers_of(vehicle))
             with np.errstate(all="ignore"):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
                 _set_vy(vehicle, lock(magnitude * cy + 0.0))
@@ -176,7 +177,7 @@ class Vehicle(_Written):
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
             texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
-            _set_given(vehicle, {**(vehicle._given or {}), **texts, **reader.texts})
+            _set_given(vehicle, {**(vehicle.given or {}), **texts, **reader.texts})
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -196,47 +197,12 @@ class Vehicle(_Written):
         numbers = {name: getattr(self, name) for name in NAMES}
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
             numbers["vx"] = numbers["vy"] = 0.0
-        vehicle = self._of_numbers(numbers, changes)
-        if self._given:
-            texts = {name: text for name, text in self._given.items() if name not in changes}
+        vehicle = vehicle_of(numbers, changes)
+        if self.given:
+            texts = {name: text for name, text in self.given.items() if name not in changes}
             if {"vx", "vy"} & changes.keys():
                 texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
-            _set_given(vehicle, {**texts, **(vehicle._given or {})})
-        return vehicle
-
-    @classmethod
-    def _of_numbers(cls, numbers: dict[str, Any], changes: dict[str, Any] | None = None) -> Vehicle:
-        """A vehicle from SI numbers that a vehicle held before, whose size is beyond suspicion, and some new values."""
-        vehicle: Vehicle = object.__new__(cls)
-        trusted = numbers.keys() - (changes or {}).keys()
-        _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
-        return vehicle
-
-    def _moved(self, vx: Any, vy: Any, yaw_rate: Any) -> Vehicle:
-        """The same body in another motion, numbers taken as they are: the way results are made."""
-        vehicle: Vehicle = object.__new__(Vehicle)
-        _set_mass(vehicle, self.mass)
-        _set_yaw_inertia(vehicle, self.yaw_inertia)
-        _set_x(vehicle, self.x)
-        _set_y(vehicle, self.y)
-        _set_heading(vehicle, self.heading)
-        _set_pivot(vehicle, self.pivot)
-        _set_name(vehicle, self.name)
-        _set_given(vehicle, None)
-        if self.pivot is not None:
-            vx, vy = turning_velocity(yaw_rate, self.x, self.y, self.pivot[0], self.pivot[1])
-        if isinstance(vx, np.ndarray):
-            _set_given(vehicle, {})
-            lock((vx, vy, yaw_rate))
-        _set_vx(vehicle, vx)
-        _set_vy(vehicle, vy)
-        _set_yaw_rate(vehicle, yaw_rate)
-        return vehicle
-
-    def _told(self, texts: dict[str, str] | None) -> Vehicle:
-        """The same vehicle, with the texts that its numbers were given as."""
-        vehicle: Vehicle = object.__new__(Vehicle)
-        vehicle.__setstate__({**self.__getstate__(), "_given": dict(texts) if texts else self._given})
+            _set_given(vehicle, {**texts, **(vehicle.given or {})})
         return vehicle
 
     @property
@@ -268,11 +234,11 @@ class Vehicle(_Written):
         MissingInputError
             The body turns and its yaw inertia was not given.
         """
-        vx, vy, yaw_rate = widened((self.vx, self.vy, self.yaw_rate), self._numbers())
+        vx, vy, yaw_rate = widened((self.vx, self.vy, self.yaw_rate), numbers_of(self))
         energy = _product(self.mass, 0.5 * (vx * vx + vy * vy))
-        if self._rests(self.yaw_rate):
+        if without_turning(self.yaw_rate):
             return energy
-        inertia = self._need("yaw_inertia", "kinetic_energy of a turning body")
+        inertia = needed(self, "yaw_inertia", "kinetic_energy of a turning body")
         return energy + _product(inertia, 0.5 * (yaw_rate * yaw_rate))
 
     @returns("m")
@@ -307,7 +273,7 @@ class Vehicle(_Written):
         polar = distance is not _ABSENT, angle is not _ABSENT
         if (any(polar) and not all(polar)) or all(polar) != (forward is _ABSENT and left is _ABSENT):
             raise InputError("give forward= and left=, or distance= and angle=", code="bad_point", argument="point")
-        x, y, heading = (self._need(name, "point") for name in ("x", "y", "heading"))
+        x, y, heading = (needed(self, name, "point") for name in ("x", "y", "heading"))
         if all(polar):
             length = reader.number(distance, "m", "distance")
             c, s = direction(reader, angle, "angle", (length, x, y, heading))
@@ -350,37 +316,11 @@ class Vehicle(_Written):
         numbers = (px, py, *own.values())
         px, py, vx, vy, yaw_rate, x, y = (v.astype(kind) if isinstance(v, np.ndarray) else v for v in numbers)
         with np.errstate(all="ignore"):
-            turn_x, turn_y = self._turn_at(yaw_rate, px, py, "velocity_at", x, y)
+            turn_x, turn_y = turn_at(self, yaw_rate, px, py, "velocity_at", x, y)
             return vx + turn_x, vy + turn_y
-
-    def _turn_at(self, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None) -> tuple[Any, Any]:
-        """What a yaw rate adds to the velocity at a scene point; ``x`` and ``y`` in place of the vehicle's own."""
-        if self._rests(yaw_rate):
-            return yaw_rate, yaw_rate
-        x, y = (self._need(name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
-        return turning_velocity(yaw_rate, px, py, x, y)
-
-    def _numbers(self) -> Iterator[Value]:
-        """Every number that it has, the coordinates of a pivot too."""
-        for name in DOMAINS:
-            if (value := getattr(self, name)) is not None:
-                yield value
-        yield from self.pivot or ()
-
-    @staticmethod
-    def _rests(yaw_rate: Any) -> bool:
-        """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
-        return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
     def _missing(self, name: str) -> MissingInputError | None:
         return None if name == "pivot" else missing(self, name, f".q.{name}")
-
-    def _need(self, name: str, purpose: str, label: str = "the vehicle") -> Any:
-        """The value of an optional field, or a MissingInputError that says what it is needed for."""
-        value = getattr(self, name)
-        if value is None:
-            raise missing(self, name, purpose, label)
-        return value
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
@@ -401,7 +341,7 @@ class Vehicle(_Written):
             yield f.name, repr(value) if f.name == "name" else show(value, f.metadata["unit"])
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in (*NAMES, "_given")}
+        return {name: getattr(self, name) for name in (*NAMES, "given")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for name, value in state.items():
@@ -420,7 +360,7 @@ NAMES = tuple(f.name for f in fields(Vehicle))
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
-_SETTERS = tuple(getattr(Vehicle, name).__set__ for name in (*NAMES, "_given"))
+_SETTERS = tuple(getattr(Vehicle, name).__set__ for name in (*NAMES, "given"))
 _set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, *_rest = _SETTERS
 _set_pivot, _set_name, _set_given = _rest
 
@@ -428,6 +368,75 @@ _set_pivot, _set_name, _set_given = _rest
 def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
     for setter, value in zip(_SETTERS, values, strict=True):
         setter(vehicle, value)
+
+
+def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, given: dict[str, str] | None = None) -> Vehicle:
+    """A vehicle from SI numbers that a vehicle held before, whose size is beyond suspicion, and some new values."""
+    vehicle: Vehicle = object.__new__(Vehicle)
+    trusted = numbers.keys() - (changes or {}).keys()
+    _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
+    if given:
+        _set_given(vehicle, given)
+    return vehicle
+
+
+def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, str] | None = None) -> Vehicle:
+    """The same body in another motion, numbers taken as they are: the way results are made."""
+    other: Vehicle = object.__new__(Vehicle)
+    _set_mass(other, vehicle.mass)
+    _set_yaw_inertia(other, vehicle.yaw_inertia)
+    _set_x(other, vehicle.x)
+    _set_y(other, vehicle.y)
+    _set_heading(other, vehicle.heading)
+    _set_pivot(other, vehicle.pivot)
+    _set_name(other, vehicle.name)
+    _set_given(other, given or None)
+    if vehicle.pivot is not None:
+        vx, vy = turning_velocity(yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1])
+    if isinstance(vx, np.ndarray):
+        _set_given(other, given or {})
+        lock((vx, vy, yaw_rate))
+    _set_vx(other, vx)
+    _set_vy(other, vy)
+    _set_yaw_rate(other, yaw_rate)
+    return other
+
+
+def with_given(vehicle: Vehicle, given: dict[str, str], name: str | None = None) -> Vehicle:
+    """The same vehicle with the texts that its numbers were given as, and perhaps another name."""
+    other: Vehicle = object.__new__(Vehicle)
+    values = {field_name: getattr(vehicle, field_name) for field_name in NAMES}
+    _fill(other, (*(values | ({} if name is None else {"name": name})).values(), given or vehicle.given))
+    return other
+
+
+def numbers_of(vehicle: Vehicle) -> Iterator[Value]:
+    """Every number that it has, the coordinates of a pivot too."""
+    for name in DOMAINS:
+        if (value := getattr(vehicle, name)) is not None:
+            yield value
+    yield from vehicle.pivot or ()
+
+
+def without_turning(yaw_rate: Any) -> bool:
+    """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
+    return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
+
+
+def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None) -> tuple[Any, Any]:
+    """What a yaw rate adds to the velocity at a scene point; ``x`` and ``y`` in place of the vehicle's own."""
+    if without_turning(yaw_rate):
+        return yaw_rate, yaw_rate
+    x, y = (needed(vehicle, name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
+    return turning_velocity(yaw_rate, px, py, x, y)
+
+
+def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> Any:
+    """The value of an optional field, or a MissingInputError that says what it is needed for."""
+    value = getattr(vehicle, name)
+    if value is None:
+        raise missing(vehicle, name, purpose, label)
+    return value
 
 
 def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:

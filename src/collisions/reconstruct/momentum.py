@@ -279,7 +279,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
         sensitivity=_sensitivity(known, found, unknown, impulse, sure),
         unknowns=(first, second),
         status=Status(status) if isinstance(status, int) else status,
-        _given=given,
+        given=given,
     )
     _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding)
     return solution

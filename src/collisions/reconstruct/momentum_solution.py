@@ -66,7 +66,7 @@ class MomentumSolution(Shown):
     outside_impulse_x: Value | None = field(default=None, metadata={"unit": "N*s"})
     outside_impulse_y: Value | None = field(default=None, metadata={"unit": "N*s"})
     # The arguments as they were given, texts and numbers, from which one case can be solved again.
-    _given: Mapping[str, Any] | None = field(default=None)
+    given: Mapping[str, Any] | None = field(default=None)
 
     _title = "Planar momentum"
 

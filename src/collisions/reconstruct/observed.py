@@ -20,7 +20,7 @@ from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
 from ..models import body_numbers
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair, Value
-from ..vehicle import DOMAINS, Vehicle, not_a_vehicle
+from ..vehicle import DOMAINS, Vehicle, needed, not_a_vehicle, numbers_of, without_turning
 from ..warning import warn
 from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
 
@@ -208,7 +208,7 @@ class _Moment(NamedTuple):
 def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> tuple[Cases, _Moment, _Moment, _Faults]:
     """The contact before and after, by the forward kernel, and what is wrong with the cases."""
     wrong = [not_a_vehicle(label, body) for label, body in bodies.items() if not isinstance(body, Vehicle)]
-    motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in body._numbers())
+    motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body))
     read, _ = read_inputs("eccentric", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
     contact = read.point
     used = {label: _numbers_at(body, contact, label, purpose) for label, body in bodies.items()}
@@ -219,7 +219,7 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in _as_given(body).items()}
     numbers |= given
     cases = Cases.of(numbers)
-    turning = {label: body.pivot is not None and not Vehicle._rests(body.yaw_rate) for label, body in bodies.items()}
+    turning = {label: body.pivot is not None and not without_turning(body.yaw_rate) for label, body in bodies.items()}
     with np.errstate(all="ignore"):
         before, after = (
             _moment(read.normal, contact or (0.0, 0.0), used[a], used[b], turning[a], turning[b])
@@ -254,7 +254,7 @@ def _as_given(body: Vehicle) -> dict[str, Any]:
 
 def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
     """The numbers of one body by name; what does not matter for its motion at the contact is filled in."""
-    if Vehicle._rests(body.yaw_rate):
+    if without_turning(body.yaw_rate):
         yaw_rate = body.yaw_rate if np.any(np.isnan(body.yaw_rate)) else 0.0
         moving = {"mass": body.mass, "yaw_inertia": np.inf, "vx": body.vx, "vy": body.vy, "yaw_rate": yaw_rate}
         return dict.fromkeys(NUMBERS, 0.0) | moving
@@ -263,7 +263,7 @@ def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[s
             f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
         )
     for name in ("x", "y"):
-        body._need(name, purpose, label)
+        needed(body, name, purpose, label)
     numbers = dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
     return numbers | {"yaw_inertia": np.inf if body.yaw_inertia is None else body.yaw_inertia}
 

@@ -23,7 +23,7 @@ from ..reconstruct import Fit, MomentumSolution, momentum
 from ..records import strict
 from ..uncertainty import Propagation
 from ..units import shown
-from ..vehicle import DOMAINS, Vehicle
+from ..vehicle import DOMAINS, Vehicle, with_given
 from .render import FENCE, RECORD
 
 _FORMAT = "collisions report 2"
@@ -66,7 +66,7 @@ def record(
     elif isinstance(impact, Fit):
         whole["fit"] = impact.to_dict()
     else:
-        whole["momentum"] = {"inputs": impact._given, "results": _results(impact)}
+        whole["momentum"] = {"inputs": impact.given, "results": _results(impact)}
     return json.dumps(whole, indent=1, allow_nan=False)
 
 
@@ -104,7 +104,7 @@ def _number(value: Any, unit: str, name: str) -> Any:
 
 def _other_texts(vehicle: Vehicle, inputs: Mapping[str, Any]) -> dict[str, str]:
     """Texts that the record of the impact does not hold, as they do not read as the number here."""
-    texts = vehicle._given or {}
+    texts = vehicle.given or {}
     return {name: text for name, text in texts.items() if _argument(inputs.get, name) != text}
 
 
@@ -117,7 +117,7 @@ def _argument(find: Callable[[str], Any], name: str) -> Any:
 
 def _results(solution: MomentumSolution) -> Any:
     """Every number of planar momentum."""
-    return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "_given"})
+    return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"})
 
 
 def replay(text: str) -> Impact | MomentumSolution:
@@ -203,7 +203,7 @@ def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
         apart = math.remainder(read - number, math.tau) if unit == "rad" else read - number
         if not reader.problems and abs(apart) > _READ_AGAIN * max(1.0, abs(number)):
             raise _bad(f"{label}.{name} was given as {shown(text)}, which is not its number, {number!r} {unit}")
-    return vehicle._told(dict(vehicle._given or {}) | dict(texts))
+    return with_given(vehicle, dict(vehicle.given or {}) | dict(texts))
 
 
 def options(text: str) -> dict[str, Any]:

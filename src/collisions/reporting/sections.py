@@ -131,7 +131,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
     rows: list[tuple[str, str, str]] = []
     for of, quantity, names, numbers, kind in impact_inputs(impact):
         vehicle = vehicles.get(of)
-        texts = (impact.inputs.given if vehicle is None else vehicle._given) or {}
+        texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
         rows.append((name, quantity, _input(sheet, impact, vehicle, names, numbers, kind, texts)))
         if vehicle is not None and quantity == "mass":
@@ -205,7 +205,7 @@ def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
 def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any]) -> None:
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
-    for name, value in (solution._given or {}).items():
+    for name, value in (solution.given or {}).items():
         given |= {f"{name}[{at}]": part for at, part in enumerate(value)} if isinstance(value, list) else {name: value}
     sheet.heading("Inputs")
     rows = []
