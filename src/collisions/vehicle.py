@@ -402,11 +402,10 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, st
     return other
 
 
-def with_given(vehicle: Vehicle, given: dict[str, str], name: str | None = None) -> Vehicle:
-    """The same vehicle with the texts that its numbers were given as, and perhaps another name."""
+def with_given(vehicle: Vehicle, given: dict[str, str]) -> Vehicle:
+    """The same vehicle with other texts that its numbers were given as."""
     other: Vehicle = object.__new__(Vehicle)
-    values = {field_name: getattr(vehicle, field_name) for field_name in NAMES}
-    _fill(other, (*(values | ({} if name is None else {"name": name})).values(), given or vehicle.given))
+    _fill(other, (*(getattr(vehicle, name) for name in NAMES), given))
     return other
 
 
