@@ -1470,3 +1470,16 @@ def test_nothing_is_left_out_of_what_has_no_answer():
     impact = col.solve(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.3, on_failure="nan")
     assert impact.refused
     assert math.isnan(col.left_out(impact, duration=0.1, drag=0.7).b.tyre_delta_v)
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32])
+def test_an_outline_of_few_digits_is_read_in_full_precision(dtype):
+    """The limits that its corners are held against are beyond such floats; overlapping corners meet as those of float64 do."""
+    corners = np.array([(2.25, 0.75), (-2.25, 0.75), (-2.25, -0.75), (2.25, -0.75)])
+    outlines = {name: corners.astype(dtype) for name in ("outline_a", "outline_b")}
+    expected = diagnose(square(), outline_a=corners, outline_b=corners)
+    assert diagnose(square(), **outlines) == expected
+    for wrong in (corners[:2], corners * math.nan):
+        with pytest.raises(col.InputError) as caught:
+            diagnose(square(), outline_a=wrong.astype(dtype))
+        assert caught.value.code == "bad_outline"
