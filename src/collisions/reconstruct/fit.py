@@ -319,7 +319,7 @@ def _warn_of(found: Fit) -> None:
     for note in {note.code: note for note in notes}.values():
         if note.warning:
             sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
-            warn(note.warning(sentences + note.what_to_do, code=note.code))
+            warn(note.warning(sentences + note.rest, code=note.code))
     for name, one in found.residuals.items():
         bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
         if bare and abs(one.residual) > math.pi:

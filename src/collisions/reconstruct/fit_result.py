@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError
 from ..quantities import OWN, Shown, derived, show
+from ..records import strict
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
@@ -285,8 +286,8 @@ class Fit(Shown):
             "undetermined": [asdict(one) | {"sentence": one.sentence} for one in self.undetermined],
             "statements": self.statements,
         }
-        strict: dict[str, Any] = _strict(record | {name: getattr(self, name) for name in plain})
-        return strict
+        written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
+        return written
 
     def __str__(self) -> str:
         rows = list(self._rows())
@@ -333,11 +334,11 @@ class Fit(Shown):
 
 
 class Note(NamedTuple):
-    """What has to be said of a fit; where it is warned of as well, by ``warning`` with a ``code``, what to do follows."""
+    """What has to be said of a fit; a ``warning`` of it has a ``code``, and after the sentence the ``rest``."""
 
     warning: type[CollisionsWarning] | None
     sentence: str
-    what_to_do: str = ""
+    rest: str = ""
     code: str = ""
 
 
@@ -397,11 +398,3 @@ def _with_error(one: Estimate) -> str:
     if not one.determined:
         return "not determined"
     return f"{one.value:.6g} +/- {one.standard_error:.3g} {one.unit}".rstrip()
-
-
-def _strict(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _strict(part) for name, part in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_strict(part) for part in value]
-    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
