@@ -15,9 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import NoSolutionError
-from . import angles
+from . import angles, normal
 from .model import Model
-from .result import Local, Shares, average, deviation
+from .result import Output, Shares, average, deviation
 from .sampling import Joint
 
 # Of a step, in standard deviations: the differences below err by its fourth power and by rounding over its square.
@@ -31,6 +31,44 @@ _NOTICED = 0.1  # standard deviations by which a local figure may differ at the 
 # model is a millionth of its fourth derivative.
 _KINK = 0.01
 _NO_DIFFERENCE = 1e-12  # of the values: what rounding may make
+
+
+class Local(Output):
+    """An output from derivatives at the mean of the inputs, whose quantiles are those of a normal, with skewness if known."""
+
+    def __init__(self, name: str, unit: str | None, mean: float, std: float, skewness: float, shares: Shares) -> None:
+        super().__init__(name, unit)
+        self._figures = mean, std
+        self.skewness = skewness
+        self._known_shares = shares
+
+    def turned(self, turns: float) -> Local:
+        """The same direction, counted by so many turns more."""
+        mean, std = self._figures
+        return Local(self.name, self.unit, mean + 2.0 * math.pi * turns, std, self.skewness, self._known_shares)
+
+    def _mean(self) -> Any:
+        return self._figures[0]
+
+    def _std(self) -> Any:
+        return self._figures[1]
+
+    def _quantile(self, p: Any) -> Any:
+        mean, std = self._figures
+        if std == 0.0:
+            return mean + 0.0 * p
+        z = normal.quantile(p)
+        if self.skewness:
+            # Cornish and Fisher's first term, which shifts the quantiles of a skew distribution, as far as it rises.
+            turn = -3.0 / self.skewness
+            z = np.maximum(z, turn) if self.skewness > 0.0 else np.minimum(z, turn)
+            with np.errstate(invalid="ignore"):
+                z = np.where(np.isinf(z), z, z + (z * z - 1.0) * (self.skewness / 6.0))
+        found = mean + std * z
+        return found if np.ndim(found) else float(found)
+
+    def _shares(self) -> Shares:
+        return self._known_shares
 
 
 class Slopes(NamedTuple):

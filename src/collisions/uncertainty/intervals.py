@@ -17,10 +17,11 @@ import numpy as np
 from ..errors import InputError, NoSolutionError
 from ..quantities import OWN, derived, returns
 from . import angles
+from .derivatives import Local
 from .designs import REPLICATES
 from .model import Model
 from .normal import power_of_two
-from .result import COVERAGE, Local, Output, Sampled, Shares
+from .result import COVERAGE, Output, Sampled, Shares
 
 COMMON_CASES = 16 * REPLICATES  # drawn ones that every place is judged by
 _BLOCK = 2**16  # cases a call
@@ -206,12 +207,8 @@ class Bounds(Output):
 
     def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
         super().__init__(name, unit)
-        self.cases = cases
-        # One turn for the means of all directions, the one that ends there, or the figures could not be compared.
-        for case in cases if cut is not None else ():
-            turns = round((float(angles.folded(case.mean, cut)) - case.mean) / (2.0 * math.pi))
-            if turns:
-                case.add_turns(turns)
+        # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
+        self.cases = cases if cut is None else [case.turned(_turns(case.mean, cut)) for case in cases]
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
@@ -265,6 +262,11 @@ class Bounds(Output):
             code="no_variance",
             argument=self.name,
         )
+
+
+def _turns(mean: float, cut: float) -> int:
+    """By how many turns a mean direction must be counted on to lie within the turn that ends at the cut."""
+    return round((float(angles.folded(mean, cut)) - mean) / (2.0 * math.pi))
 
 
 def _range(figures: Iterable[float]) -> tuple[float, float]:

@@ -16,12 +16,12 @@ from ..progress import reporter
 from ..reading import ArgumentReader, is_whole
 from ..units import shown
 from ..warning import warn
-from .derivatives import PROBES, differences, local_output, slopes
+from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distributions import Distribution, Interval, pair_hints, read_input
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names
-from .result import Local, Output, Propagation, Sampled, Shares
+from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal["first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo", "interval"]
@@ -188,29 +188,27 @@ def propagate(
 
 def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
     """Refuses what is no option, or none of this method."""
-
-    def refuse(argument: str, allowed: str, given: Any) -> None:
-        raise InputError(f"{argument} must be {allowed}, got {shown(given)}", code="bad_option", argument=argument)
-
-    def whole(value: Any, least: int) -> bool:
-        return is_whole(value) and bool(value >= least)
-
     if not isinstance(method, str) or method not in METHODS:
-        refuse("method", f"one of {', '.join(METHODS)}", method)
-    draws = method in DESIGNS
+        raise _bad_option("method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}")
     if samples is not None and tolerance is not None:
-        raise InputError("give samples= or tolerance=, not both", code="bad_option", argument="tolerance")
+        raise _bad_option("tolerance", "give samples= or tolerance=, not both")
     for name, value in (("samples", samples), ("tolerance", tolerance)):
-        if value is not None and not draws:
-            raise InputError(f"{name} is for methods that draw; method={method!r} does not", code="bad_option", argument=name)
-    if samples is not None and not (whole(samples, _LEAST_SAMPLES) and samples <= MOST_SAMPLES):
-        refuse("samples", f"a whole number from {_LEAST_SAMPLES} to {MOST_SAMPLES}", samples)
-    if seed is not None and not whole(seed, 0):
-        refuse("seed", "a whole number from 0, or None", seed)
-    if not whole(threads, 1):
-        refuse("threads", "a whole number from 1", threads)
-    if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        refuse("progress", "a function of (done, total), or True for a bar", progress)
+        if value is not None and method not in DESIGNS:
+            raise _bad_option(name, f"{name} is for methods that draw; method={method!r} does not")
+    samples_fine = samples is None or (is_whole(samples) and _LEAST_SAMPLES <= samples <= MOST_SAMPLES)
+    progress_fine = progress is None or isinstance(progress, bool) or callable(progress)
+    for name, value, fine, allowed in (
+        ("samples", samples, samples_fine, f"a whole number from {_LEAST_SAMPLES} to {MOST_SAMPLES}"),
+        ("seed", seed, seed is None or (is_whole(seed) and seed >= 0), "a whole number from 0, or None"),
+        ("threads", threads, is_whole(threads) and threads >= 1, "a whole number from 1"),
+        ("progress", progress, progress_fine, "a function of (done, total), or True for a bar"),
+    ):
+        if not fine:
+            raise _bad_option(name, f"{name} must be {allowed}, got {shown(value)}")
+
+
+def _bad_option(argument: str, text: str) -> InputError:
+    return InputError(text, code="bad_option", argument=argument)
 
 
 def _read_inputs(inputs: Any) -> dict[str, Any]:

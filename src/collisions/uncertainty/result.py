@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +19,6 @@ from . import angles
 from .designs import REPLICATES
 from .distribution import probability
 from .normal import power_of_two
-from .normal import quantile as normal_quantile
 
 COVERAGE = 0.95
 _MOST_BINS = 10000
@@ -77,11 +77,6 @@ class Output:
         if isinstance(getattr(type(self), name, None), Derived):
             raise AttributeError(f"{name} is worked out and cannot be set")
         object.__setattr__(self, name, value)
-
-    def _forget(self) -> None:
-        """Drops what was worked out."""
-        for name in [name for name in vars(self) if isinstance(getattr(type(self), name, None), (Derived, cached_property))]:
-            del vars(self)[name]
 
     @derived(OWN)
     def mean(self) -> Any:
@@ -197,52 +192,17 @@ class Output:
         raise NotImplementedError
 
 
-class Local(Output):
-    """An output from derivatives at the mean of the inputs, whose quantiles are those of a normal, with skewness if known."""
-
-    def __init__(self, name: str, unit: str | None, mean: float, std: float, skewness: float, shares: Shares) -> None:
-        super().__init__(name, unit)
-        self._figures = mean, std
-        self.skewness = skewness
-        self._known_shares = shares
-
-    def add_turns(self, turns: float) -> None:
-        """Counts a direction by so many turns more."""
-        self._figures = self._figures[0] + 2.0 * math.pi * turns, self._figures[1]
-        self._forget()
-
-    def _mean(self) -> Any:
-        return self._figures[0]
-
-    def _std(self) -> Any:
-        return self._figures[1]
-
-    def _quantile(self, p: Any) -> Any:
-        mean, std = self._figures
-        if std == 0.0:
-            return mean + 0.0 * p
-        z = normal_quantile(p)
-        if self.skewness:
-            # Cornish and Fisher's first term, which shifts the quantiles of a skew distribution, as far as it rises.
-            turn = -3.0 / self.skewness
-            z = np.maximum(z, turn) if self.skewness > 0.0 else np.minimum(z, turn)
-            with np.errstate(invalid="ignore"):
-                z = np.where(np.isinf(z), z, z + (z * z - 1.0) * (self.skewness / 6.0))
-        found = mean + std * z
-        return found if np.ndim(found) else float(found)
-
-    def _shares(self) -> Shares:
-        return self._known_shares
-
-
 class Sampled(Output):
     """An output that was sampled: one value for each case, in the order they were drawn, NaN where there was no answer."""
 
-    def __init__(self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]]) -> None:
+    def __init__(
+        self, name: str, unit: str | None, values: Any, shares: Callable[[], Mapping[str, Shares]], turns: float = 0.0
+    ) -> None:
         super().__init__(name, unit)
         self._all_shares = shares
         self._directions = values if unit == "rad" and angles.are_directions(values) else None
-        self.values = values if self._directions is None else angles.counted(values)
+        counted = values if self._directions is None else angles.counted(values)
+        self.values = counted + 2.0 * math.pi * turns if turns else counted
         self.values.setflags(write=False)
 
     @property
@@ -250,11 +210,10 @@ class Sampled(Output):
         """Cases without an answer, which the figures leave out."""
         return int(np.count_nonzero(np.isnan(self.values)))
 
-    def add_turns(self, turns: float) -> None:
-        """Counts directions by so many turns more."""
-        self.values = self.values + 2.0 * math.pi * turns
-        self.values.setflags(write=False)
-        self._forget()
+    def turned(self, turns: float) -> Sampled:
+        """The same directions, counted by so many turns more."""
+        values = self.values if self._directions is None else self._directions
+        return Sampled(self.name, self.unit, values, self._all_shares, turns)
 
     def may_wrap(self) -> bool:
         """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
@@ -294,13 +253,10 @@ class Sampled(Output):
             raise InputError(
                 f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
             )
-        try:
-            with np.errstate(all="ignore"):
-                edges = np.histogram_bin_edges(self._answered, bins)
-            apart = bool(np.all(edges[1:] > edges[:-1]))
-        except ValueError:
-            apart = False
-        if not apart:
+        with np.errstate(all="ignore"):
+            first, last = np.histogram_bin_edges(self._answered, 1)
+            edges = np.linspace(first, last, bins + 1)
+        if not np.all(edges[1:] > edges[:-1]):
             raise InputError(
                 f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
                 code="no_spread",
@@ -415,13 +371,11 @@ class Propagation:
         """Correlation of every pair of outputs, over the cases that answer both; only from sampling."""
         sampled = {name: output.values for name, output in self.outputs.items() if isinstance(output, Sampled)}
         found: dict[tuple[str, str], float] = {}
-        for i, one in enumerate(sampled):
-            for other in list(sampled)[i + 1 :]:
-                both = ~np.isnan(sampled[one]) & ~np.isnan(sampled[other])
-                pair = [values[both] / power_of_two(values[both]) for values in (sampled[one], sampled[other])]
-                with np.errstate(all="ignore"):
-                    matrix = np.corrcoef(*pair) if np.count_nonzero(both) > 1 else None
-                found[one, other] = math.nan if matrix is None else float(matrix[0, 1])
+        for one, other in combinations(sampled, 2):
+            both = ~np.isnan(sampled[one]) & ~np.isnan(sampled[other])
+            pair = [values[both] / power_of_two(values[both]) for values in (sampled[one], sampled[other])]
+            with np.errstate(all="ignore"):
+                found[one, other] = float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
         return found
 
     def to_dict(self) -> dict[str, Any]:
