@@ -208,7 +208,7 @@ class Bounds(Output):
     def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
         super().__init__(name, unit)
         # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
-        self.cases = cases if cut is None else [case.turned(_turns(case.mean, cut)) for case in cases]
+        self.cases = cases if cut is None else [_within_turn(case, cut) for case in cases]
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
@@ -264,9 +264,10 @@ class Bounds(Output):
         )
 
 
-def _turns(mean: float, cut: float) -> int:
-    """By how many turns a mean direction must be counted on to lie within the turn that ends at the cut."""
-    return round((float(angles.folded(mean, cut)) - mean) / (2.0 * math.pi))
+def _within_turn(direction: Local | Sampled, cut: float) -> Local | Sampled:
+    """A direction with its mean within the turn that ends at the cut."""
+    turns = round((float(angles.folded(direction.mean, cut)) - direction.mean) / (2.0 * math.pi))
+    return direction.turned(turns) if turns else direction
 
 
 def _range(figures: Iterable[float]) -> tuple[float, float]:

@@ -253,10 +253,13 @@ class Sampled(Output):
             raise InputError(
                 f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
             )
-        with np.errstate(all="ignore"):
-            first, last = np.histogram_bin_edges(self._answered, 1)
-            edges = np.linspace(first, last, bins + 1)
-        if not np.all(edges[1:] > edges[:-1]):
+        try:
+            with np.errstate(all="ignore"):
+                edges = np.histogram_bin_edges(self._answered, bins)
+            apart = bool(np.all(edges[1:] > edges[:-1]))
+        except ValueError:
+            apart = False
+        if not apart:
             raise InputError(
                 f"{self.name!r} has no histogram of {bins} bins, because its values do not differ by more than rounding",
                 code="no_spread",
