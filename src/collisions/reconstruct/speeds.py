@@ -248,15 +248,10 @@ def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root,
     for i in range(1, len(roots)):
         apart = sum(abs(values[k][i] - values[k][i - 1]) for k in range(2))
         fits[i] &= ~(fits[i - 1] & (apart <= ROOT_TOL * closing[i]))
-    rank = np.cumsum(fits, axis=0)
-    most = int(np.max(rank[-1])) if rank.size else 0
-    found = []
-    for k in range(1, most + 1):
-        chosen = fits & (rank == k)
-        which = np.argmax(chosen, axis=0)[np.newaxis]
-        root = Root(*(np.take_along_axis(value, which, axis=0)[0] for value in values))
-        found.append((root, np.any(chosen, axis=0)))
-    return found
+    # Those that fit come first in every case.
+    order = np.argsort(~fits, axis=0, kind="stable")
+    *values, fits = (np.take_along_axis(part, order, axis=0) for part in (*values, fits))
+    return [(Root(*(value[k] for value in values)), fits[k]) for k in range(len(roots)) if np.any(fits[k])]
 
 
 def _answers(
