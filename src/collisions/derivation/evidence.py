@@ -9,7 +9,7 @@ from ..formatting import KIND_OF, in_words, percent
 from ..reconstruct import Fit, MomentumSolution
 from .contact import pdof
 from .expressions import ZERO, Direction, Expression, Function, magnitude, signed_total, total
-from .page import HEAD, Page
+from .page import Page
 from .symbols import Symbol, delta_v
 
 # The answers of planar momentum: of what, in words, and the kind.
@@ -84,7 +84,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     m = _Momenta(solution)
     rows = [(of, what, page.number(value, kind)) for of, what, _, value, kind in momentum_inputs(solution)]
     page.heading("Given")
-    page.table(HEAD, rows)
+    page.table(rows)
     page.heading("Planar momentum")
     page.say(
         "The momentum of both vehicles together is the same before and after, along x and along y (1), (2). Nothing is assumed "
@@ -112,7 +112,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     loss = Symbol(r"\Delta E", solution.translational_energy_loss, "energy")
     page.equation("Energy of translation lost (7)", loss, signed_total(zip((1.0, 1.0, -1.0, -1.0), energies, strict=True)))
     page.heading("Answers")
-    page.table(HEAD, list(momentum_answers(page, solution)))
+    page.table(momentum_answers(page, solution))
 
 
 def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
@@ -206,13 +206,13 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
 def fit(page: Page, found: Fit) -> None:
     """How far each observation is from what the model computes, and what that says of the unknowns."""
     page.heading("Given")
-    page.table(HEAD, list(_given(page, found)))
+    page.table(_given(page, found))
     page.say(
         "Each ± is one standard error, as it was stated. The model, a function of whoever asked, is not on this page; its "
         "computed values are those at the answer."
     )
     page.heading("Misfit")
-    page.table(HEAD, list(_misfit(page, found)))
+    page.table(_misfit(page, found))
     ratios = [_residual(page, found, number, name) for number, name in enumerate(found.residuals, 1)]
     chi_squared = Symbol(r"\chi^2", found.chi_squared, "number")
     page.equation("Chi-squared, which the answer makes least", chi_squared, total(*(ratio.squared() for ratio in ratios)))
@@ -223,7 +223,7 @@ def fit(page: Page, found: Fit) -> None:
     )
     page.listed([page.name(sentence) + "." for sentence in found.statements])
     page.heading("Answers")
-    page.table(HEAD, [row for name in found.names for row in _unknown(page, found, name)])
+    page.table([row for name in found.names for row in _unknown(page, found, name)])
     page.say(
         "Each ± is one standard error and each range holds 95 percent, given the stated errors and as far as the model is "
         "straight there. They are not widened by the misfit."

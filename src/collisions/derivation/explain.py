@@ -20,7 +20,7 @@ from .contact import motions
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import Function, System
 from .models import eccentric, linear, oblique
-from .page import HEAD, Page
+from .page import Page
 from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
 
@@ -194,7 +194,7 @@ def _impact(page: Page, impact: Impact) -> None:
     _MODELS[impact.model](page, s)
     motions(page, s)
     page.heading("Answers")
-    page.table(HEAD, list(impact_answers(page, impact)))
+    page.table(impact_answers(page, impact))
 
 
 def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
@@ -228,7 +228,7 @@ def _inputs(page: Page, impact: Impact) -> None:
         rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
     if impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
-    page.table(HEAD, rows)
+    page.table(rows)
 
 
 def _normal(page: Page, s: Symbols) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
 # Figures that a line may have beyond those of the working; with these it has all that there are.
 _MOST = 12
-# The columns of most tables.
+# The columns of every table.
 HEAD = ("of", "quantity", "value")
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
@@ -47,14 +47,15 @@ class Page:
         """What must not be read over."""
         self.parts.append(f"**{text}**" if self.latex else f"!! {text}")
 
-    def table(self, head: tuple[str, str, str], rows: Sequence[tuple[str, str, str]]) -> None:
-        """A table of three columns."""
+    def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
+        """A table of what it is of, the quantity, and its value."""
+        body = list(rows)
         if self.latex:
-            lines = [f"| {' | '.join(line)} |" for line in (head, ("---", "---", "---"), *rows)]
+            lines = [f"| {' | '.join(line)} |" for line in (HEAD, ("---", "---", "---"), *body)]
         else:
-            widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+            widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
             rule = tuple("-" * width for width in widths)
-            padded = ((part.ljust(width) for part, width in zip(line, widths, strict=True)) for line in (head, rule, *rows))
+            padded = ((part.ljust(width) for part, width in zip(line, widths, strict=True)) for line in (HEAD, rule, *body))
             lines = ["  ".join(line).rstrip() for line in padded]
         self.parts.append("\n".join(lines))
 

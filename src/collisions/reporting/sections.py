@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from .. import reference
@@ -104,8 +104,8 @@ class Sheet(Page):
     def stress(self, text: str) -> None:
         self.blocks.append(Paragraph(text, stressed=True))
 
-    def table(self, head: tuple[str, str, str], rows: Sequence[tuple[str, str, str]]) -> None:
-        self.blocks.append(Table(head, tuple(rows)))
+    def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
+        self.blocks.append(Table(HEAD, tuple(rows)))
 
     def listed(self, lines: Sequence[str]) -> None:
         self.blocks.append(Items(tuple(("", line) for line in lines)))
@@ -138,7 +138,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
             rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
     if impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
-    sheet.table(HEAD, [*rows, *_damage(sheet, evidence)])
+    sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.say(
         "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
         "only its direction; it stands here in the units of this page. The record has all digits."
@@ -148,7 +148,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         reverse.what_was_known(sheet, impact.reconstruction)
         known = _known(sheet, impact)
         if known:
-            sheet.table(HEAD, known)
+            sheet.table(known)
 
 
 def _input(
@@ -212,7 +212,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
     for of, what, name, number, kind in momentum_inputs(solution):
         text = given.get(name)
         rows.append((of, what, sheet.as_given(number, kind, text if isinstance(text, str) else None)))
-    sheet.table(HEAD, [*rows, *_damage(sheet, evidence)])
+    sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
     sheet.say(
@@ -220,7 +220,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
         f"impulse from outside that is stated. Nothing is assumed of restitution, friction or rotation.{together}"
     )
     sheet.heading("Results")
-    sheet.table(HEAD, list(momentum_answers(sheet, solution)))
+    sheet.table(momentum_answers(sheet, solution))
     system, of_speed = sheet.system, sheet.system.scale("speed")
     rows = [("both", "condition, from the angle between the courses of the unknown speeds", f"{solution.condition:.3g}")]
     for answer, row in solution.sensitivity.items():
@@ -228,7 +228,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
             moved = f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {system.label(kind)}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
-    sheet.table(HEAD, rows)
+    sheet.table(rows)
 
 
 def _in_words(name: str) -> str:
@@ -287,7 +287,7 @@ def assumptions(
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
             rows += [(plain(who(index, vehicle)), what, text) for what, text in _left_out(sheet, side, impact.model, vehicle)]
-    sheet.table(HEAD, rows)
+    sheet.table(rows)
 
 
 def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
@@ -322,7 +322,7 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     rows.append(("contact", "kind", impact.kind))
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
-    sheet.table(HEAD, [(plain(names.get(of, of)), what, text) for of, what, text in rows])
+    sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
     if sheet.ranges:
         sheet.say("A range in brackets comes of an interval among the inputs, in which no value is said to be likelier.")
 

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 from ..derivation.explain import kinds_of_answers
-from ..derivation.page import HEAD
 from ..errors import InputError
 from ..formatting import KIND_OF, SI_UNITS, percent, with_decimals
 from ..impact import Impact
@@ -52,7 +51,7 @@ class Spread:
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
             rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output, uncertainty.method)]
-        sheet.table(HEAD, rows)
+        sheet.table(rows)
         if any(what.startswith("share of the variance") for _, what, _ in rows):
             sheet.say(
                 "By itself an input brings its share without what it does together with others; in all, with that. "
@@ -60,7 +59,7 @@ class Spread:
                 "together."
             )
         stated = [("Inputs as stated", plain(name), plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
-        sheet.table(HEAD, stated)
+        sheet.table(stated)
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
         sheet.say(f"By {uncertainty.method}: {cases}{seed}. What the inputs leave out, these figures do.")
