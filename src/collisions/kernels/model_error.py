@@ -11,7 +11,6 @@ from .central import oblique_central
 from .contact_laws import CRITICAL_FRACTION
 from .eccentric import eccentric
 from .elementwise import larger, select
-from .status import EPS
 
 # With ``impulse_only`` they answer with other things.
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
@@ -20,7 +19,7 @@ _oblique: Callable[..., tuple[Any, ...]] = oblique_central
 _MARGIN = 1.15
 # A lever of so many eps of the coordinates may be rounding: of angles up to a turn, of what they were made from, and of slip.
 # But not more than this, in m: in float32 far from the origin it would take a real one for rounding.
-_ROUNDING, _MOST_ROUNDING = 16.0, 1e-4
+_LEVER, _LONGEST = 16.0, 1e-4
 LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
@@ -40,12 +39,9 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless it is
     known that the bodies do not approach; beside a pivot nothing else may be lacking.
     """
-    restitution, nx, ny, tangential, px, py = given[:6]
-    bodies, tolerance = (given[6:15], given[15:24]), given[24]
+    contact, bodies, tolerance = given[:6], (given[6:15], given[15:24]), given[24]
     rule, law, known, eps = given[25:]
-    linear, oblique, closing, torques, impulse = model_errors(
-        restitution, nx, ny, tangential, px, py, *bodies, rule, law, known.pinned, eps
-    )
+    linear, oblique, closing, torques, impulse = _errors(contact, bodies, rule, law, known.pinned, eps)
     lacking: Any = False
     approach: Any = True
     if not known.all:
@@ -58,8 +54,8 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
                 lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
             elif not weighed:
                 # No torque on a body that could not turn: none on one that can.
-                lever = _ROUNDING * eps * (abs(x) + abs(y) + abs(px) + abs(py))
-                lever = select(lever < _MOST_ROUNDING, lever, _MOST_ROUNDING)
+                lever = _LEVER * eps * (abs(x) + abs(y) + abs(contact[4]) + abs(contact[5]))
+                lever = select(lever < _LONGEST, lever, _LONGEST)
                 lacking = lacking | ((torque <= lever * impulse) ^ True)
         if beside_a_pivot:
             lacking = True
@@ -74,19 +70,8 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     return select(within & (_MARGIN * linear <= tolerance), LINEAR, which), linear, oblique
 
 
-def model_errors(
-    restitution: Any,
-    nx: Any,
-    ny: Any,
-    tangential: Any,
-    px: Any,
-    py: Any,
-    body_a: tuple[Any, ...],
-    body_b: tuple[Any, ...],
-    rule: str,
-    law: str,
-    pinned: tuple[bool, bool],
-    eps: float = EPS,
+def _errors(
+    contact: tuple[Any, ...], bodies: tuple[Any, Any], rule: str, law: str, pinned: tuple[bool, bool], eps: float
 ) -> tuple[Any, Any, Any, tuple[Any, ...], Any]:
     """What the linear and the oblique model err by for the worse of both bodies; closing speed; torques on A and B; impulse.
 
@@ -94,12 +79,12 @@ def model_errors(
     torques are sizes, and so is the impulse: together with those of the impulse without slip where that decides the ratio.
     """
     answered, closing, (normal, tangential_impulse), no_slip, for_a, for_b = _eccentric(
-        restitution, nx, ny, tangential, px, py, *body_a, *body_b, rule, law, *pinned, eps, impulse_only=True
+        *contact, *bodies[0], *bodies[1], rule, law, *pinned, eps, impulse_only=True
     )
     torques: tuple[Any, ...] = (abs(for_a[2]), abs(for_b[2]))
     impulse = abs(normal) + abs(tangential_impulse)
     if rule == CRITICAL_FRACTION:
-        matters = tangential > 0.0
+        matters = contact[3] > 0.0
         torques = tuple(
             torque + select(matters, abs(body[3]), 0.0) for torque, body in zip(torques, (for_a, for_b), strict=True)
         )
@@ -107,25 +92,10 @@ def model_errors(
     beyond: Any = select(answered, inf, nan)
     if any(pinned):
         return beyond, beyond, closing, torques, impulse
-    (mass_a, _, vx_a, vy_a, spin_a, *_), (mass_b, _, vx_b, vy_b, spin_b, *_) = body_a, body_b
+    # Of a body its mass, velocity and yaw rate.
+    point_masses = *bodies[0][:1], *bodies[0][2:5], *bodies[1][:1], *bodies[1][2:5]
     central, pulls, central_normal, central_tangential = _oblique(
-        restitution,
-        nx,
-        ny,
-        tangential,
-        mass_a,
-        vx_a,
-        vy_a,
-        spin_a,
-        mass_b,
-        vx_b,
-        vy_b,
-        spin_b,
-        rule,
-        law,
-        True,
-        eps,
-        impulse_only=True,
+        *contact[:4], *point_masses, rule, law, True, eps, impulse_only=True
     )
     off_normal = normal - central_normal
     worst = []
