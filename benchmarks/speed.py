@@ -43,6 +43,7 @@ import time_resolved
 
 import collisions as col
 from collisions import models, reconstruct
+from collisions.inputs import read_inputs
 from collisions.kernels.central import linear_central as linear_kernel
 from collisions.kernels.eccentric import eccentric as eccentric_kernel
 
@@ -381,7 +382,7 @@ def parts(effort: Effort) -> dict[str, Any]:
         {
             "whole": Work("", lambda: batch_speed.library(**scene)),
             "solved": Work("", lambda: col.eccentric(**scene, on_failure="nan")),
-            "arguments": Work("", lambda: models.read("eccentric", *inputs, (friction, None, None), "brach")),
+            "arguments": Work("", lambda: read_inputs("eccentric", *inputs, (friction, None, None), "brach")),
         },
         effort.batch_rounds,
         0.0,

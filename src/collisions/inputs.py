@@ -11,13 +11,13 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from .directions import direction, from_radians
-from .errors import InputError, ShapeError
+from .errors import InputError, MissingInputError, ShapeError
 from .kernels.contact_laws import FRICTION, LAWS, RULES
 from .kernels.elementwise import RESTITUTION
 from .quantities import lock, same
 from .reading import ArgumentReader, is_whole, largest
 from .units import Value, has_unit, is_quantity, shown
-from .vehicle import DOMAINS, NAMES, Vehicle, not_a_vehicle, numbers_of, vehicle_of
+from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
@@ -159,6 +159,8 @@ def read_inputs(
 ) -> tuple[Inputs, bool]:
     """The arguments of a solver as its inputs, and whether they were plain floats, those of the vehicles too.
 
+    What the model lacks or cannot hold is refused.
+
     ``tangential`` are the values of ``RULES``, of which one must be given. Plain floats in order need no reader; anything else
     goes through it, and one error names all that cannot be used, with the ``problems`` that were found before. ``beside`` has
     the numbers that are not among these arguments, with which the normal shares its precision.
@@ -176,6 +178,7 @@ def read_inputs(
         and type(law) is str
         and law in LAWS
         and not problems
+        and (a.pivot is b.pivot is None or model == "solve" if model != "eccentric" else not missing_numbers(a, b, point))
         and (
             point is None
             or (
@@ -200,7 +203,8 @@ def read_inputs(
         found["point"] = point
         return inputs, True
     reader = ArgumentReader()
-    reader.problems.extend(problems)
+    lacks = missing_numbers(a, b, point) if model == "eccentric" else _pinned(model, a, b) if model != "solve" else ()
+    reader.problems.extend((*problems, *lacks))
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             reader.refuse(not_a_vehicle(label, vehicle))
@@ -217,6 +221,54 @@ def read_inputs(
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
     plain = a.given is b.given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
     return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None), plain
+
+
+def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
+    """Vehicle and field of what the eccentric model needs and the vehicles do not have; a fixed body needs no position."""
+    found: list[tuple[str, str]] = []
+    for label, body in (("a", a), ("b", b)):
+        if type(body) is not Vehicle or _is_complete(body):
+            continue
+        inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
+        # Element by element: beside an array without a case, a plain number still says that the body moves.
+        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and without_turning(body.yaw_rate)
+        needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
+        found += [(label, name) for name in needed if getattr(body, name) is None]
+    return found
+
+
+def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
+    """The refusals of what the eccentric model needs and was not given."""
+    if point is not None and _is_complete(a) and _is_complete(b):
+        return ()
+    found: list[InputError] = []
+    if point is None:
+        found.append(
+            MissingInputError(
+                "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
+                code="missing_point",
+                argument="point",
+            )
+        )
+    bodies = {"a": a, "b": b}
+    return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
+
+
+def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:
+    """The refusals of pinned bodies, which the central models cannot hold."""
+    return [
+        InputError(
+            f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
+            code="pinned",
+            argument="pivot",
+        )
+        for label, vehicle in (("a", a), ("b", b))
+        if getattr(vehicle, "pivot", None) is not None
+    ]
+
+
+def _is_complete(body: Any) -> bool:
+    return type(body) is Vehicle and body.yaw_inertia is not None and body.x is not None and body.y is not None
 
 
 def _beyond_a_turn(normal: Any) -> dict[str, Any]:

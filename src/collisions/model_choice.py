@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .inputs import Inputs, part_of
+from .inputs import Inputs, lacking, missing_numbers, part_of
 from .kernels.elementwise import select
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
-from .models import MODELS, lacking, missing_numbers, read_again
+from .models import MODELS, read_again
 from .progress import halves, reporter
 from .quantities import Shown, lock, same, show
 from .reading import ArgumentReader, broadcast

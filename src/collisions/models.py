@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .errors import InputError, MissingInputError
+from .errors import InputError
 from .inputs import Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
@@ -18,7 +18,7 @@ from .kernels.eccentric import eccentric, from_contact_velocity
 from .kernels.replay import printed
 from .kernels.status import Answer
 from .reading import ArgumentReader, amount
-from .vehicle import Vehicle, missing, without_turning
+from .vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -133,11 +133,10 @@ def read(
     law: Any,
     tolerance: Any = None,
 ) -> tuple[Inputs, bool]:
-    """The arguments of a solver as its inputs, refused if its model lacks or cannot hold something; see ``read_inputs``."""
+    """The arguments of a solver as its inputs, those of ``solve`` with their tolerance; see ``read_inputs``."""
     reader = ArgumentReader()
     limit = _read_tolerance(reader, tolerance) if model == "solve" else None
-    problems = (*reader.problems, *refusals(model, a, b, point))
-    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, problems)
+    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
     return (inputs, plain) if limit is None else (inputs._changed(tolerance=limit), plain and isinstance(limit, float))
 
 
@@ -170,61 +169,9 @@ def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
     return limit
 
 
-def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
-    """Vehicle and field of what the eccentric model needs and the vehicles do not have; a fixed body needs no position."""
-    found: list[tuple[str, str]] = []
-    for label, body in (("a", a), ("b", b)):
-        if type(body) is not Vehicle or _is_complete(body):
-            continue
-        inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
-        # Element by element: beside an array without a case, a plain number still says that the body moves.
-        fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and without_turning(body.yaw_rate)
-        needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
-        found += [(label, name) for name in needed if getattr(body, name) is None]
-    return found
-
-
-def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
-    """The refusals of what the eccentric model needs and was not given."""
-    if point is not None and _is_complete(a) and _is_complete(b):
-        return ()
-    found: list[InputError] = []
-    if point is None:
-        found.append(
-            MissingInputError(
-                "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
-                code="missing_point",
-                argument="point",
-            )
-        )
-    bodies = {"a": a, "b": b}
-    return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
-
-
-def refusals(model: str, a: Any, b: Any, point: Any) -> Sequence[InputError]:
-    """What a model lacks or cannot hold."""
-    if model == "eccentric":
-        return missing_numbers(a, b, point)
-    if model == "solve" or (type(a) is type(b) is Vehicle and a.pivot is b.pivot is None):
-        return ()
-    return [
-        InputError(
-            f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
-            code="pinned",
-            argument="pivot",
-        )
-        for label, vehicle in (("a", a), ("b", b))
-        if getattr(vehicle, "pivot", None) is not None
-    ]
-
-
 def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
     """The numbers of one body; one without a position has no lever that matters."""
     x, y = vehicle.x, vehicle.y
     if x is None or y is None:
         x, y = contact
     return vehicle.mass, vehicle.yaw_inertia, vehicle.vx, vehicle.vy, vehicle.yaw_rate, x, y, *(vehicle.pivot or (0.0, 0.0))
-
-
-def _is_complete(body: Any) -> bool:
-    return type(body) is Vehicle and body.yaw_inertia is not None and body.x is not None and body.y is not None

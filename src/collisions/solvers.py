@@ -6,7 +6,7 @@ from .impact import Impact, build
 from .inputs import Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose
-from .models import ECCENTRIC, LINEAR, OBLIQUE, read, refusals
+from .models import ECCENTRIC, LINEAR, OBLIQUE, read
 from .progress import Progress
 from .solving import solve_inputs
 from .units import Input, Pair
@@ -74,8 +74,7 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    pinned = refusals("linear_central", a, b, None)
-    inputs, plain = read_inputs("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH, pinned)
+    inputs, plain = read_inputs("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH)
     return build(inputs, solve_inputs(LINEAR, inputs, plain, on_failure, threads, progress))
 
 
@@ -145,8 +144,7 @@ def oblique_central(
     (3.464, -3.0, 2.0)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    pinned = refusals("oblique_central", a, b, None)
-    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law, pinned)
+    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law)
     return build(inputs, solve_inputs(OBLIQUE, inputs, plain, on_failure, threads, progress))
 
 
@@ -224,8 +222,7 @@ def eccentric(
     (3648.6, 12162)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    missing = refusals("eccentric", a, b, point)
-    inputs, plain = read_inputs("eccentric", a, b, restitution, normal, point, tangential, law, missing)
+    inputs, plain = read_inputs("eccentric", a, b, restitution, normal, point, tangential, law)
     return build(inputs, solve_inputs(ECCENTRIC, inputs, plain, on_failure, threads, progress))
 
 

@@ -19,7 +19,6 @@ from ..impact import Impact
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..kernels.status import Status
-from ..models import missing_numbers
 from ..provenance import Reconstruction
 from ..reading import ArgumentReader
 from ..solving import error_of
@@ -146,7 +145,7 @@ def planar(
         point,
         (friction, impulse_ratio, critical_fraction),
         law,
-        [*reader.problems, *missing_numbers(a_after, b_after, point)],
+        reader.problems,
         (known,),
     )
     numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")

@@ -15,7 +15,6 @@ from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
 from ..kernels.contact_laws import BRACH
 from ..kernels.status import EPS, Status
-from ..models import missing_numbers
 from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
@@ -163,7 +162,7 @@ def speeds(
         point,
         (friction, impulse_ratio, critical_fraction),
         law,
-        [*reader.problems, *missing_numbers(a, b, point)],
+        reader.problems,
         (*known.values(), *(angle.value for angle in courses.values())),
     )
     numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
