@@ -87,7 +87,7 @@ def beyond_promise(scene, answer, forward, found, condition):
 
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("family", PLACED)
+@pytest.mark.parametrize("family", [pytest.param(name, marks=pytest.mark.slow if "pinned" in name else ()) for name in PLACED])
 def test_there_and_back(family, law, rule):
     """The start comes back within the promise, or among the solutions; what is refused is what the impact has wiped out.
 
@@ -566,7 +566,9 @@ def exact_origin(a, b, e, point, ratio, digits=60):
     return closing, pn, slip_after - apart(moved)[1], slip_after, energy[0] - energy[1]
 
 
-@pytest.mark.parametrize("kind", KNOWN)
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=() if kind == "restitution" else pytest.mark.slow) for kind in KNOWN]
+)
 def test_impulse_and_energy_hold_all_digits_at_tiny_closing_speeds(kind):
     """Two cars at 60 m/s that close by 1e-10 to 1e-3 m/s: what is found is that of the floats after, against 60 digits.
 

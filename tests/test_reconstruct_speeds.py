@@ -196,6 +196,7 @@ def test_the_true_speeds_are_found(pair):
     assert answered >= 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize(
     "pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("delta_v_a", "energy_loss")], ids="-".join

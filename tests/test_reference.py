@@ -267,7 +267,7 @@ FLAT_FAMILIES = [family for family in FAMILIES if "pinned" not in family and fam
 
 @pytest.mark.parametrize("family", FLAT_FAMILIES)
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", [pytest.param(rule, marks=() if rule == "friction" else pytest.mark.slow) for rule in RULES])
 @way
 def test_oblique_central_keeps_its_promises(family: str, law: str, rule: str, way: str) -> None:
     """The oblique central model is within the planar promises, whose kappa is 1 for bodies that do not turn."""

@@ -65,7 +65,7 @@ def compare(kernel, settings, inputs, dtype, length):
                 np.testing.assert_array_equal(np.signbit(output[block][real] * 1.0), np.signbit(expected[real] * 1.0), name)
 
 
-@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("dtype", [np.float64, pytest.param(np.float32, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("kernel", "settings", "count"), list(programs()))
 def test_the_bits_are_those_of_the_kernel(kernel, settings, count, dtype):
     """Ordinary and impossible values, a last block that is short, every model, rule, law and pivot."""

@@ -108,6 +108,7 @@ def bend(x, y):
 SEEDS = 120
 
 
+@pytest.mark.slow
 @every_method
 def test_stated_standard_errors_are_the_actual_scatter(method):
     """Over 120 seeds, the variance of every figure against the mean of its stated variance, and how often t holds the truth.
