@@ -28,7 +28,7 @@ _ANSWERS = {
 }
 MOMENTUM_ANSWERS = {name: kind for name, (_, _, kind) in _ANSWERS.items()}
 _SPEEDS = tuple(_ANSWERS)[:4]
-_FULL_TURN_OFF = 1e-9 * math.tau  # an angle by the short way round differs by a whole turn, which is more than rounding
+_ANGLE_TOL = 1e-9 * math.tau  # rounding of a difference of angles; the short way round differs by a whole turn
 
 
 class _Momenta:
@@ -260,7 +260,7 @@ def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
         for latex, value in (("y", one.observed), ("f", one.computed), (r"\sigma", one.sigma), ("d", one.residual))
     )
     difference = y - f
-    if abs(difference.value - d.value) > _FULL_TURN_OFF and one.unit == "rad":
+    if abs(difference.value - d.value) > _ANGLE_TOL and one.unit == "rad":
         page.say(f"From the computed {page.shown(f)} to the stated {page.shown(y)} the short way round is {page.shown(d)}.")
         difference = d
     ratio = Symbol(f"r_{{{number}}}", one.over_sigma, "number")
