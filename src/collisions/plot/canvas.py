@@ -21,7 +21,7 @@ SIDES = ("a", "b")
 COLOURS = ("#1f5fa8", "#b3541e")
 FORCE = "#a01040"
 THIN, MINUS = "\u2009", "\u2212"  # between thousands, and before a number
-_WIDTH = 26  # letters of a name on one line
+_WIDTH = 26  # characters of a name on one line
 _MOST_DECIMALS = 6
 SMALLEST, LARGEST = 1e-100, 1e100
 

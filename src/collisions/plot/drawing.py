@@ -154,8 +154,8 @@ class Drawing:
 def _box(at: Any, size: tuple[float, float], angle: float, distance: float) -> _Box:
     """Where a text of this size lies whose edge is this far away in this direction."""
     c, s = math.cos(angle), math.sin(angle)
-    reach = min(0.5 * size[0] / max(abs(c), 1e-9), 0.5 * size[1] / max(abs(s), 1e-9)) + distance
-    x, y = at[0] + reach * c, at[1] + reach * s
+    away = min(0.5 * size[0] / max(abs(c), 1e-9), 0.5 * size[1] / max(abs(s), 1e-9)) + distance
+    x, y = at[0] + away * c, at[1] + away * s
     return x - 0.5 * size[0], y - 0.5 * size[1], x + 0.5 * size[0], y + 0.5 * size[1]
 
 

@@ -76,13 +76,13 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
         if row < len(rows) - 1:
             axes.plot([end, end], [row - 0.31, row + 1.31], color=GREY, lw=0.9, ls=":", zorder=2)
         gains = gid.startswith("lost") and value > 0.0
-        told = labels.text(abs(value), "J") + (" gained" if gains else "")
+        text = labels.text(abs(value), "J") + (" gained" if gains else "")
         axes.annotate(
-            told, (max(reached, end), row), (6, 0), textcoords="offset points", va="center", fontsize=9.5, color=INK,
+            text, (max(reached, end), row), (6, 0), textcoords="offset points", va="center", fontsize=9.5, color=INK,
             annotation_clip=False,
         )  # fmt: skip
         reached = end
-    axes.set_yticks(range(len(rows)), [text for _, text, _, _, _ in rows], parse_math=False)
+    axes.set_yticks(range(len(rows)), [name for _, name, _, _, _ in rows], parse_math=False)
     axes.invert_yaxis()
     axes.axvline(0.0, color=INK, lw=0.9, zorder=4)
     low, high = axes.get_xlim()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -97,28 +97,24 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
         ("A1", "compression", compression, 0.0, turn, rise, "///", "#d9a7b5"),
         ("A2", "restitution", restitution, turn, time, rise[::-1], "...", "#f6e9ed"),
     ):
-        told = f"{name} = {labels.text(impulse, 'N*s')}, {what}"
+        label = f"{name} = {labels.text(impulse, 'N*s')}, {what}"
         if end <= start or impulse <= 0.0:
-            axes.plot([], [], " ", label=told)
+            axes.plot([], [], " ", label=label)
             continue
-        x = (start + (end - start) * share) * in_time
-        y = heights * peak * in_force
-        axes.fill(
-            [x[0], *x, x[-1]], [0.0, *y, 0.0], fc=shade, ec=FORCE, lw=1.4, hatch=hatch, gid=name, label=told, zorder=2
-        )  # fmt: skip
+        x, y = (start + (end - start) * share) * in_time, heights * peak * in_force
+        outline = [x[0], *x, x[-1]], [0.0, *y, 0.0]
+        axes.fill(*outline, fc=shade, ec=FORCE, lw=1.4, hatch=hatch, gid=name, label=label, zorder=2)
         if end - start > 0.12 * time:
             middle = start + (end - start) * (0.64 if name == "A1" else 0.36)
             axes.text(middle * in_time, 0.3 * peak * in_force, name, ha="center", va="center", fontsize=12, zorder=5,
                       bbox={"boxstyle": "round,pad=0.25", "fc": "white", "ec": "none"})  # fmt: skip
-    mean = impact.normal_impulse / time
-    told = f"mean force {labels.text(mean, 'N')}"
-    axes.plot(
-        [0.0, time * in_time], [mean * in_force] * 2, color=INK, lw=1.4, ls=(0, (6, 3)), zorder=4, gid="mean force", label=told
-    )
-    told = f"end of compression, peak {labels.text(peak, 'N')}"
-    axes.plot(
-        [turn * in_time] * 2, [0.0, peak * in_force], color=GREY, lw=1.4, ls=":", zorder=4, gid="end of compression", label=told
-    )
+    mean_force = impact.normal_impulse / time
+    mean = mean_force * in_force
+    line: Any = {"lw": 1.4, "zorder": 4}
+    text = f"mean force {labels.text(mean_force, 'N')}"
+    axes.plot([0.0, time * in_time], [mean, mean], color=INK, ls=(0, (6, 3)), gid="mean force", label=text, **line)
+    text = f"end of compression, peak {labels.text(peak, 'N')}"
+    axes.plot([turn * in_time] * 2, [0.0, peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
     axes.set_xlabel(labels.label("time", "duration"))

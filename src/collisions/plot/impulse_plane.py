@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
-_ROUNDING = 64.0 * EPS  # relative: what differences of speeds leave of a coefficient that is 0
+_NO_YIELD = 64.0 * EPS  # relative: what differences of speeds leave of a coefficient that is 0
 
 
 def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
@@ -88,8 +88,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         """Where along_n Pn + along_t Pt is the total, within the picture."""
         size = math.hypot(along_n, along_t)
         ux, uy, foot = along_n / size, along_t / size, total / size
-        reach = 2.0 * math.hypot(right, high - low) + abs(foot)
-        x, y, dx, dy = foot * ux, foot * uy, reach * uy, -reach * ux
+        out = 2.0 * math.hypot(right, high - low) + abs(foot)
+        x, y, dx, dy = foot * ux, foot * uy, out * uy, -out * ux
         axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text, **style)
 
     line("end of compression", k_nn, k_nt, closing, "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))
@@ -98,7 +98,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         k_tt = _tangential_yield(impact)
         slip = impact.slip_before * factor
         # A contact that moves along the normal alone keeps its slip under every impulse: there is no such line.
-        slip_yields = closing * math.hypot(k_nt, k_tt) > _ROUNDING * k_nn * (closing + abs(slip))
+        slip_yields = closing * math.hypot(k_nt, k_tt) > _NO_YIELD * k_nn * (closing + abs(slip))
         if slip_yields:
             line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
         if slip_yields and impact.law == KUDLICH_SLIBAR and e > 0.0:
@@ -107,24 +107,14 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     axes.plot([0.0, normal], [0.0, tangential], color=FORCE, lw=2.4, zorder=5, gid="impulse")
     if shows_no_slip:
-        told = "no-slip impulse"
-        axes.plot(*no_slip, "D", ms=11, mfc="none", mec=INK, mew=1.5, ls="none", zorder=6, gid="no-slip impulse", label=told)
+        name = "no-slip impulse"
+        axes.plot(*no_slip, "D", ms=11, mfc="none", mec=INK, mew=1.5, ls="none", zorder=6, gid=name, label=name)
     compressed = normal / (1.0 + e), tangential / (1.0 + e)
-    axes.plot(
-        *compressed,
-        "o",
-        ms=8,
-        mfc="white",
-        mec=FORCE,
-        mew=1.8,
-        ls="none",
-        zorder=7,
-        gid="at compression",
-        label="impulse at the end of compression",
-    )
-    axes.plot(
-        *(normal, tangential), "o", ms=8, color=FORCE, ls="none", zorder=8, gid="answer", label=f"impulse: {_regime(impact)}"
-    )
+    point: Any = {"ms": 8, "mec": FORCE, "ls": "none"}
+    text = "impulse at the end of compression"
+    axes.plot(*compressed, "o", mfc="white", mew=1.8, zorder=7, gid="at compression", label=text, **point)
+    text = f"impulse: {_regime(impact)}"
+    axes.plot(normal, tangential, "o", mfc=FORCE, zorder=8, gid="answer", label=text, **point)
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
@@ -150,24 +140,15 @@ def _draw_friction(axes: Axes, impact: Impact, right: float, low: float, high: f
     mu = impact.friction
     if mu is None:
         ratio = impact.impulse_ratio
-        axes.plot(
-            [0.0, right],
-            [0.0, ratio * right],
-            color=GREY,
-            lw=1.3,
-            ls=(0, (3, 2)),
-            gid="ratio",
-            label=f"Pt/Pn = {ratio:.3g}, given",
-        )
+        text = f"Pt/Pn = {ratio:.3g}, given"
+        axes.plot([0.0, right], [0.0, ratio * right], color=GREY, lw=1.3, ls=(0, (3, 2)), gid="ratio", label=text)
         return
     if math.isinf(mu) or mu == 0.0:
         return
     axes.fill([0.0, right, right], [0.0, mu * right, -mu * right], fc=LIGHT, ec="none", alpha=0.45, zorder=0, gid="cone")
-    for sign, name in ((1.0, "+"), (-1.0, "-")):
-        text = f"friction cone (friction {mu:.3g})" if sign > 0.0 else None
-        axes.plot(
-            [0.0, right], [0.0, sign * mu * right], color=GREY, lw=1.2, ls=(0, (3, 2)), gid=f"friction {name}", label=text
-        )
+    style: Any = {"color": GREY, "lw": 1.2, "ls": (0, (3, 2))}
+    axes.plot([0.0, right], [0.0, mu * right], gid="friction +", label=f"friction cone (friction {mu:.3g})", **style)
+    axes.plot([0.0, right], [0.0, -mu * right], gid="friction -", **style)
 
 
 def _tangential_yield(impact: Impact) -> float:

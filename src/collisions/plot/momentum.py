@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
-_LANE, _APART = 0.11, 0.04
+_SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
 
 
@@ -91,22 +91,22 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
             return
         # To the right, seen along the arrow.
         side = (vector[1] / length, -vector[0] / length) if across is None else across
-        start = tail if across is None else beside(tail, across, -_LANE * longest * len(drawn))
+        start = tail if across is None else beside(tail, across, -_SIDE_BY_SIDE * longest * len(drawn))
         while across is None and any(covers(start, vector, *other, longest) for other in drawn):
             start = beside(start, side, _APART * longest)
             apart.append(gid)
         drawn.append((start, vector))
-        drawing.arrow(start, _sum([start, vector]), gid, colour=colour, style=style, width=width)
+        drawing.arrow(start, beside(start, vector), gid, colour=colour, style=style, width=width)
         middle, *others = (beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
         drawing.label(middle, tag, side, colour, *others)
-        told = f"{tag}: {text} {labels.text(length / factor, 'kg*m/s')}"
-        axes.plot([], [], color=colour, lw=width, ls=style, label=told)
+        label = f"{tag}: {text} {labels.text(length / factor, 'kg*m/s')}"
+        axes.plot([], [], color=colour, lw=width, ls=style, label=label)
 
     for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
         tail: Place = (0.0, 0.0) if when == "before" else aside
         for index, vector in enumerate(chains[when]):
             draw(tail, vector, f"{when}.{SIDES[index]}", "AB"[index] + prime, when, COLOURS[index], style)
-            tail = _sum([tail, vector])
+            tail = beside(tail, vector)
     if not open_ended:
         draw((0.0, 0.0), totals["before"], "total", "total", "before and after", INK, (0, (1, 1.2)), 1.6)
     else:
@@ -114,7 +114,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
 
     if aside != (0.0, 0.0):
         for place, gid in (((0.0, 0.0), "begin"), (totals["after"], "end")):
-            drawing.line(place, _sum([place, aside]), gid, color=GREY, lw=0.8, ls=":", zorder=1)
+            drawing.line(place, beside(place, aside), gid, color=GREY, lw=0.8, ls=":", zorder=1)
         apart.append("after")
     drawing.include((0.0, 0.0))
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
@@ -162,7 +162,7 @@ def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float
     chief = max(second, key=lambda vector: math.hypot(*vector))
     length = math.hypot(*chief)
     for step in range(_TRIED):
-        far = 0.0 if step == 0 else (step + 1) // 2 * _LANE * longest * (-1.0) ** step
+        far = 0.0 if step == 0 else (step + 1) // 2 * _SIDE_BY_SIDE * longest * (-1.0) ** step
         moved = (-far * chief[1] / length, far * chief[0] / length) if length else (0.0, 0.0)
         if not any(covers(*arrow, *other, longest) for arrow in _chain(moved, second) for other in drawn):
             return moved
@@ -175,7 +175,7 @@ def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
     for vector in vectors:
         if vector != (0.0, 0.0):
             found.append((start, vector))
-        start = _sum([start, vector])
+        start = beside(start, vector)
     return found
 
 

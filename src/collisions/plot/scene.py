@@ -192,12 +192,12 @@ def _size(known: list[Place], labels: Units, sketched: bool) -> float:
     return max(size, 4.0 * length) if sketched or size <= 1e-6 * farthest else size
 
 
-def _scale(values: list[float], factor: float, reach: float) -> float:
-    """How much one unit of length stands for: 1, 2 or 5 times a power of ten, so that the longest stays within the reach."""
+def _scale(values: list[float], factor: float, most: float) -> float:
+    """How much one unit of length stands for: 1, 2 or 5 times a power of ten, so that the longest is no more than ``most``."""
     largest = max(values) * factor
     if largest == 0.0:
         return 0.0
-    least = largest / reach
+    least = largest / most
     power = 10.0 ** math.floor(math.log10(least))
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 

@@ -82,7 +82,7 @@ def distribution(
     unit = output.unit
     factor = labels.factor(unit) if unit else 1.0
 
-    def told(value: Any) -> str:
+    def text_of(value: Any) -> str:
         return labels.text(value, unit) if unit else number(value)
 
     axes.axvspan(low * factor, high * factor, color=LIGHT, alpha=0.5, lw=0, zorder=0)
@@ -90,10 +90,10 @@ def distribution(
         100.0 * histogram.shares, histogram.edges * factor, fill=True, fc="#c9d6e6", ec=INK, lw=0.9, zorder=2, gid="histogram"
     )
     median = output.quantile(0.5)
-    span = f"{100.0 * coverage:.4g} % interval, {told(low)} to {told(high)}"
+    span = f"{100.0 * coverage:.4g} % interval, {text_of(low)} to {text_of(high)}"
     for gid, value, style, colour, text in (
-        ("mean", output.mean, "-", FORCE, f"mean {told(output.mean)}"),
-        ("median", median, (0, (1, 1.2)), INK, f"median {told(median)}"),
+        ("mean", output.mean, "-", FORCE, f"mean {text_of(output.mean)}"),
+        ("median", median, (0, (1, 1.2)), INK, f"median {text_of(median)}"),
         ("low", low, (0, (6, 3)), INK, span),
         ("high", high, (0, (6, 3)), INK, None),
     ):

@@ -118,7 +118,7 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
 
 
 def settle(fit: Fit, found: Any, given: dict[str, Any], unusable: Any, outside: str) -> Any:
-    """The value of a fit; NaN in the lanes of a batch it cannot answer, refused or warned of outside its ranges."""
+    """The value of a fit; NaN in the cases of a batch that it cannot answer, refused or warned of outside its ranges."""
     beyond: Any = False
     for name, (low, high, _) in fit.ranges.items():
         if name in given:

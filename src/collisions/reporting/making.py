@@ -5,8 +5,7 @@ from __future__ import annotations
 import io
 import re
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from importlib import import_module
 from inspect import signature
@@ -18,8 +17,6 @@ from .. import plot
 from ..contact_effects import left_out
 from ..derivation.evidence import fit
 from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
-from ..derivation.expressions import System
-from ..derivation.page import Page
 from ..diagnostics import diagnose
 from ..errors import InputError, ShapeError
 from ..formatting import UnitSystem, bad_system
@@ -34,8 +31,7 @@ from ..uncertainty.result import Sampled
 from ..units import Input, shown
 from . import sections
 from .record import EVIDENCE, plain_options, record
-from .render import Block, Paragraph, Picture, Record, Working, html, markdown, plain, visible
-from .sections import Sheet
+from .render import Html, Markdown, plain, visible
 from .uncertainty import Spread, varies
 
 Form: TypeAlias = Literal["html", "markdown"]
@@ -147,7 +143,7 @@ def report(
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
     spread = Spread(impact, uncertainty)
-    sheet = Sheet(Page(System(units), False, spread.deviations, spread.ranges))
+    sheet = (Html if form == "html" else Markdown)(units, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
     findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
     if isinstance(impact, Impact):
@@ -172,22 +168,22 @@ def report(
     readable = _readable(impact) if isinstance(impact, Impact) else impact
     if figures and (isinstance(impact, Impact) or uncertainty is not None):
         sheet.heading("Figures")
-        if form == "html":
-            sheet.blocks += _figures(readable, uncertainty, options["outline_a"], options["outline_b"], units)
+        if isinstance(sheet, Html):
+            _figures(sheet, readable, uncertainty, options)
         else:
             sheet.say("The figures are in the HTML form of this report.")
     if derivation:
         sheet.heading("Derivation")
         known = uncertainty if spread.ranges else spread.deviations
         text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=known or None)
-        sheet.blocks.append(Working(text if form == "html" else text.replace("\n## ", "\n### ").partition("\n")[2].lstrip()))
+        sheet.working(text)
     if findings is not None:
         sections.sources(sheet, findings)
     sheet.say(f"Worked out by collisions {__version__}.")
     sheet.heading("Record")
     unusual = {name: value for name, value in options.items() if value != _USUAL[name]}
-    sheet.blocks.append(Record(record(impact, __version__, unusual, uncertainty)))
-    return html(sheet.blocks, __version__) if form == "html" else markdown(sheet.blocks)
+    sheet.record(record(impact, __version__, unusual, uncertainty))
+    return sheet.whole(__version__)
 
 
 _USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
@@ -258,43 +254,35 @@ def _readable(impact: Impact) -> Impact:
     return whole
 
 
-def _figures(
-    impact: Any, uncertainty: Propagation | None, outline_a: Any, outline_b: Any, units: UnitSystem
-) -> Iterator[Block]:
+def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options: Mapping[str, Any]) -> None:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
         import_module("matplotlib.figure")
     except ImportError:
-        yield Paragraph("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
+        sheet.say("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
         return
+    units = options["units"]
     if isinstance(impact, Impact):
-        yield from _of_impact(impact, outline_a, outline_b, units)
+        outlines = {name: options[name] for name in ("outline_a", "outline_b")}
+        _draw(sheet, "scene", "The scene from above at the moment of impact.", plot.scene, impact, units=units, **outlines)
+        if impact.model != "linear_central":
+            _draw(sheet, "momentum", "Momentum before and after, head to tail.", plot.momentum, impact, units=units)
+            caption = "Normal and tangential impulse, with the lines that decide them."
+            _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
+        _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
     for number, output in enumerate(() if uncertainty is None else uncertainty.outputs.values(), 1):
         name = plain(output.name)
         if not varies(output):
-            yield Paragraph(f"{name}: no figures, because it is the same in every case.")
+            sheet.say(f"{name}: no figures, because it is the same in every case.")
             continue
         if isinstance(output, Sampled):
             caption = f"{name}: the cases drawn, given the stated inputs."
-            yield _drawn(f"distribution-{number}", caption, partial(plot.distribution, output, units=units))
+            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units)
         caption = f"{name}: the share of its variance that each input brings, by itself and in all."
-        yield _drawn(f"contributions-{number}", caption, partial(plot.contributions, output, units=units))
+        _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units)
 
 
-def _of_impact(impact: Impact, outline_a: Any, outline_b: Any, units: UnitSystem) -> Iterator[Block]:
-    scene = partial(plot.scene, impact, units=units, outline_a=outline_a, outline_b=outline_b)
-    yield _drawn("scene", "The scene from above at the moment of impact.", scene)
-    if impact.model != "linear_central":
-        yield _drawn("momentum", "Momentum before and after, head to tail.", partial(plot.momentum, impact, units=units))
-        yield _drawn(
-            "impulse-plane",
-            "Normal and tangential impulse, with the lines that decide them.",
-            partial(plot.impulse_plane, impact, units=units),
-        )
-    yield _drawn("energy", "Where the kinetic energy went.", partial(plot.energy, impact, units=units))
-
-
-def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:
+def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, **options: Any) -> None:
     """One figure, drawn with nobody's settings but these; a sentence where its numbers give none."""
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
@@ -307,14 +295,15 @@ def _drawn(name: str, caption: str, draw: Callable[..., Any]) -> Block:
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         figure = Figure(figsize=_SIZES.get(name, _SIZE), layout="constrained")
         try:
-            draw(axes=figure.add_subplot())
+            draw(shown, axes=figure.add_subplot(), **options)
         except InputError as error:
-            return Paragraph(f"{caption} Not drawn: {error}.")
+            sheet.say(f"{caption} Not drawn: {error}.")
+            return
         for text in figure.findobj(Text):
             text.set_text(visible(text.get_text()))
         target = io.StringIO()
         figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
-    return Picture(caption, _standalone(target.getvalue(), name, caption))
+    sheet.picture(caption, _standalone(target.getvalue(), name, caption))
 
 
 def _standalone(svg: str, name: str, caption: str) -> str:

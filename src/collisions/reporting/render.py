@@ -1,14 +1,17 @@
-"""What a report is made of, and how it becomes Markdown, or one HTML file that needs nothing from outside and prints well."""
+"""The sheet that a report is written on: Markdown, or one HTML file that needs nothing from outside and prints well."""
 
 from __future__ import annotations
 
+import math
 import re
 import unicodedata
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from itertools import groupby
-from typing import TypeAlias
+
+from ..derivation.expressions import System
+from ..derivation.page import HEAD, Page
+from ..formatting import SI_UNITS
 
 RECORD = "collisions-record"
 _STYLE = """\
@@ -42,62 +45,8 @@ _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~&])")
 _START = re.compile(r"^(\d*)([-+=.)])")
 # Signs that join letters; what else has no shape of its own could make a line read as another.
 _JOINERS = "\u200c\u200d"
-
-
-@dataclass(frozen=True, slots=True)
-class Heading:
-    """The heading of a part; ``level`` 1 is the title."""
-
-    text: str
-    level: int = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Paragraph:
-    """A sentence or more; ``stressed`` if it must not be read over."""
-
-    text: str
-    stressed: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """Rows of what it is of, the quantity, and its value."""
-
-    head: tuple[str, str, str]
-    rows: tuple[tuple[str, str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Items:
-    """A list, each line with what it begins with, which may be nothing."""
-
-    lines: tuple[tuple[str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A figure as SVG, and what it shows."""
-
-    caption: str
-    svg: str
-
-
-@dataclass(frozen=True, slots=True)
-class Working:
-    """The derivation: Markdown with LaTeX, or plain text."""
-
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class Record:
-    """What the report can be made again from, as JSON."""
-
-    text: str
-
-
-Block: TypeAlias = Heading | Paragraph | Table | Items | Picture | Working | Record
+_AS_PRINTED = 1e-9  # relative: what six figures show of a number that they hold
+_DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
 
 
 def plain(text: str) -> str:
@@ -111,94 +60,148 @@ def visible(text: str) -> str:
     return "".join("\ufffd" if sign in hidden else sign for sign in text)
 
 
-def html(blocks: Sequence[Block], version: str) -> str:
-    """The whole file."""
-    title = next(block.text for block in blocks if isinstance(block, Heading))
-    lines = [
-        "<!DOCTYPE html>",
-        '<html lang="en">',
-        "<head>",
-        '<meta charset="utf-8">',
-        """<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">""",
-        '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f'<meta name="generator" content="collisions {escape(version)}">',
-        f"<title>{escape(title)}</title>",
-        f"<style>\n{_STYLE}</style>",
-        "</head>",
-        "<body>",
-        *(line for block in blocks for line in _html(block)),
-        "</body>",
-        "</html>",
-    ]
-    return "\n".join(lines) + "\n"
+class Sheet(Page):
+    """A page of the derivation as a report has it: without equations, and with lists, pictures and a record."""
+
+    def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
+        super().__init__(System(units), False, deviations, ranges)
+        self.blocks: list[str] = []
+
+    def name(self, text: str) -> str:
+        return plain(text)
+
+    def as_given(self, value: float | None, kind: str, text: str | None) -> str:
+        """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
+        if value is None:
+            return f"given as {plain(text or '')}"
+        number = self.number(value, kind)
+        if text is not None:
+            return given_as(number, text)
+        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
+            return number
+        printed = float(number.split()[0])
+        if abs(printed - value * self.system.scale(kind)) <= _AS_PRINTED * abs(printed):
+            return number
+        return f"{number}, exactly {value:.{_DIGITS}g} {SI_UNITS[kind]}".rstrip()
+
+    def listed(self, lines: Sequence[str]) -> None:
+        self.items([("", line) for line in lines])
+
+    def items(self, lines: Sequence[tuple[str, str]]) -> None:
+        """A list, each line with what it begins with, which may be nothing."""
+        raise NotImplementedError
+
+    def working(self, text: str) -> None:
+        """The derivation, as it is written in this form."""
+        raise NotImplementedError
+
+    def record(self, text: str) -> None:
+        """What the report can be made again from, as JSON."""
+        raise NotImplementedError
+
+    def whole(self, version: str) -> str:
+        """The whole report, made by this version of the package."""
+        raise NotImplementedError
 
 
-def _html(block: Block) -> Iterator[str]:
-    match block:
-        case Heading(text, level):
-            yield f"<h{level}>{escape(text)}</h{level}>"
-        case Paragraph(text, stressed):
-            yield f'<p class="stressed">{escape(text)}</p>' if stressed else f"<p>{escape(text)}</p>"
-        case Table():
-            yield from _tables(block)
-        case Items(lines):
-            yield "<ul>"
-            for strong, text in lines:
-                yield f"<li><strong>{escape(strong)}</strong> {escape(text)}</li>" if strong else f"<li>{escape(text)}</li>"
-            yield "</ul>"
-        case Picture(caption, svg):
-            yield "<figure>"
-            yield svg
-            yield f"<figcaption>{escape(caption)}</figcaption>"
-            yield "</figure>"
-        case Working(text):
-            yield f"<pre>{escape(text)}</pre>"
-        case Record(text):
-            yield "<details>"
-            yield "<summary>Record with all digits (not printed)</summary>"
-            yield f'<pre id="{RECORD}">{escape(text)}</pre>'
-            yield "</details>"
+def given_as(value: str, text: str) -> str:
+    """A number as it is printed, and as it was given."""
+    return value if plain(text) == value else f"{value}, given as {plain(text)}"
 
 
-def _tables(table: Table) -> Iterator[str]:
-    """One table for each of what the rows are of, side by side where there is room."""
-    yield '<div class="tables">'
-    for of, rows in groupby(table.rows, key=lambda row: row[0]):
-        yield "<div><table>"
-        yield f"<caption>{escape(of)}</caption>"
-        yield "<tbody>"
-        for _, quantity, value in rows:
-            yield f'<tr><th scope="row">{escape(quantity)}</th><td>{escape(value)}</td></tr>'
-        yield "</tbody>"
-        yield "</table></div>"
-    yield "</div>"
+class Html(Sheet):
+    """One HTML file."""
+
+    def title(self, text: str) -> None:
+        self._title = escape(text)
+        self.blocks.append(f"<h1>{self._title}</h1>")
+
+    def heading(self, text: str) -> None:
+        self.blocks.append(f"<h2>{escape(text)}</h2>")
+
+    def say(self, text: str) -> None:
+        self.blocks.append(f"<p>{escape(text)}</p>")
+
+    def stress(self, text: str) -> None:
+        self.blocks.append(f'<p class="stressed">{escape(text)}</p>')
+
+    def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
+        """One table for each of what the rows are of, side by side where there is room."""
+        lines = ['<div class="tables">']
+        for of, parts in groupby(rows, key=lambda row: row[0]):
+            lines += ["<div><table>", f"<caption>{escape(of)}</caption>", "<tbody>"]
+            lines += [f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>' for _, what, value in parts]
+            lines += ["</tbody>", "</table></div>"]
+        self.blocks += [*lines, "</div>"]
+
+    def items(self, lines: Sequence[tuple[str, str]]) -> None:
+        starts = [f"<strong>{escape(start)}</strong> " if start else "" for start, _ in lines]
+        texts = [f"<li>{start}{escape(text)}</li>" for start, (_, text) in zip(starts, lines, strict=True)]
+        self.blocks += ["<ul>", *texts, "</ul>"]
+
+    def picture(self, caption: str, svg: str) -> None:
+        """A figure as SVG, and what it shows."""
+        self.blocks += ["<figure>", svg, f"<figcaption>{escape(caption)}</figcaption>", "</figure>"]
+
+    def working(self, text: str) -> None:
+        self.blocks.append(f"<pre>{escape(text)}</pre>")
+
+    def record(self, text: str) -> None:
+        summary = "<summary>Record with all digits (not printed)</summary>"
+        self.blocks += ["<details>", summary, f'<pre id="{RECORD}">{escape(text)}</pre>', "</details>"]
+
+    def whole(self, version: str) -> str:
+        lines = [
+            "<!DOCTYPE html>",
+            '<html lang="en">',
+            "<head>",
+            '<meta charset="utf-8">',
+            """<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">""",
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f'<meta name="generator" content="collisions {escape(version)}">',
+            f"<title>{self._title}</title>",
+            f"<style>\n{_STYLE}</style>",
+            "</head>",
+            "<body>",
+            *self.blocks,
+            "</body>",
+            "</html>",
+        ]
+        return "\n".join(lines) + "\n"
 
 
-def markdown(blocks: Sequence[Block]) -> str:
-    """The whole page."""
-    return "\n\n".join(_markdown(block) for block in blocks) + "\n"
+class Markdown(Sheet):
+    """Markdown, whose figures are left to the HTML form."""
 
+    def title(self, text: str) -> None:
+        self.blocks.append(f"# {_escaped(text)}")
 
-def _markdown(block: Block) -> str:
-    match block:
-        case Heading(text, level):
-            return f"{'#' * level} {_escaped(text)}"
-        case Paragraph(text, stressed):
-            return f"**{_escaped(text)}**" if stressed else _line(text)
-        case Table(head, rows):
-            lines = [head, *rows]
-            shown = [f"| {' | '.join(map(_escaped, line))} |" for line in lines]
-            return "\n".join([shown[0], "| --- | --- | --- |", *shown[1:]])
-        case Items(lines):
-            return "\n".join(
-                f"- **{_escaped(strong)}** {_escaped(text)}" if strong else f"- {_line(text)}" for strong, text in lines
-            )
-        case Picture(caption, _):
-            return _line(caption)
-        case Working(text):
-            return text.rstrip("\n")
-        case Record(text):
-            return f"{FENCE}{text}\n```"
+    def heading(self, text: str) -> None:
+        self.blocks.append(f"## {_escaped(text)}")
+
+    def say(self, text: str) -> None:
+        self.blocks.append(_line(text))
+
+    def stress(self, text: str) -> None:
+        self.blocks.append(f"**{_escaped(text)}**")
+
+    def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
+        first, *lines = (f"| {' | '.join(map(_escaped, row))} |" for row in (HEAD, *rows))
+        self.blocks.append("\n".join([first, "| --- | --- | --- |", *lines]))
+
+    def items(self, lines: Sequence[tuple[str, str]]) -> None:
+        texts = (f"**{_escaped(start)}** {_escaped(text)}" if start else _line(text) for start, text in lines)
+        self.blocks.append("\n".join(f"- {text}" for text in texts))
+
+    def working(self, text: str) -> None:
+        """Below a heading of the report, without the title."""
+        self.blocks.append(text.replace("\n## ", "\n### ").partition("\n")[2].strip("\n"))
+
+    def record(self, text: str) -> None:
+        self.blocks.append(f"{FENCE}{text}\n```")
+
+    def whole(self, version: str) -> str:
+        return "\n\n".join(self.blocks) + "\n"
 
 
 def _escaped(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from .. import reference
@@ -12,7 +12,6 @@ from ..contact_effects import LeftOut, LeftOutSide
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
-from ..derivation.page import HEAD, Page
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings
@@ -27,10 +26,8 @@ from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution
 from ..units import Input
 from ..vehicle import Vehicle
-from .render import Block, Heading, Items, Paragraph, Table, plain
+from .render import Sheet, given_as, plain
 
-_AS_PRINTED = 1e-9  # relative: what six figures show of a number that they hold
-_DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
 _VELOCITY = {"vx": "velocity along x", "vy": "velocity along y", "speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
 # What a reverse solver may be given beside the contact: in words, and its kind.
 _KNOWN = {"energy_loss": ("energy lost", "energy"), "closing_speed": ("closing speed", "speed")}
@@ -69,49 +66,6 @@ _RANGE = (
     reference.RESTITUTION_OBLIQUE,
     reference.RESTITUTION_SMALL_OVERLAP,
 )
-
-
-class Sheet(Page):
-    """A page of the derivation that keeps what is put down as blocks, for the parts that a report shares with it."""
-
-    def __init__(self, page: Page) -> None:
-        super().__init__(page.system, False, page.deviations, page.ranges)
-        self.blocks: list[Block] = []
-
-    def as_given(self, value: float | None, kind: str, text: str | None) -> str:
-        """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
-        if value is None:
-            return f"given as {plain(text or '')}"
-        number = self.number(value, kind)
-        if text is not None:
-            return _given_as(number, text)
-        if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
-            return number
-        printed = float(number.split()[0])
-        if abs(printed - value * self.system.scale(kind)) <= _AS_PRINTED * abs(printed):
-            return number
-        return f"{number}, exactly {value:.{_DIGITS}g} {SI_UNITS[kind]}".rstrip()
-
-    def title(self, text: str) -> None:
-        self.blocks.append(Heading(text, 1))
-
-    def heading(self, text: str) -> None:
-        self.blocks.append(Heading(text))
-
-    def say(self, text: str) -> None:
-        self.blocks.append(Paragraph(text))
-
-    def stress(self, text: str) -> None:
-        self.blocks.append(Paragraph(text, stressed=True))
-
-    def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
-        self.blocks.append(Table(HEAD, tuple(rows)))
-
-    def listed(self, lines: Sequence[str]) -> None:
-        self.blocks.append(Items(tuple(("", line) for line in lines)))
-
-    def name(self, text: str) -> str:
-        return plain(text)
 
 
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
@@ -164,7 +118,7 @@ def _input(
     value = ", ".join(sheet.number(number, kind) for number in numbers)
     written = [texts[name] for name in names if isinstance(texts.get(name), str)]
     if len(written) == len(names):
-        return _given_as(value, ", ".join(written))
+        return given_as(value, ", ".join(written))
     if kind == "speed" and vehicle is not None and vehicle.pivot is not None:
         return f"{value}, worked out from yaw rate and pivot"
     if kind == "speed" and texts.keys() & {"speed", "course"}:
@@ -175,16 +129,12 @@ def _input(
     return "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
 
 
-def _given_as(value: str, text: str) -> str:
-    return value if plain(text) == value else f"{value}, given as {plain(text)}"
-
-
 def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """Speed and course, where the velocity was given by them; somebody at rest has no course but the one that was given."""
     for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
         if not math.isnan(value) and texts.keys() & {"speed", "course"}:
             number = sheet.number(value, kind)
-            yield name, _given_as(number, texts.get(name, number))
+            yield name, given_as(number, texts.get(name, number))
         elif name in texts:
             yield name, plain(texts[name])
 
@@ -275,7 +225,7 @@ def assumptions(
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
-    sheet.blocks.append(Items(tuple(lines)))
+    sheet.items(lines)
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
     bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
     but = ", except the bound" if bounded else ""
@@ -342,7 +292,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
         lines.append((f"{finding.code}{of}:", f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}."))
-    sheet.blocks.append(Items(tuple(lines)))
+    sheet.items(lines)
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
 

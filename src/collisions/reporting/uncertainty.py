@@ -12,8 +12,7 @@ from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Output, Propagation
 from ..units import shown
-from .render import plain
-from .sections import Sheet
+from .render import Sheet, plain
 
 # A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
 _NO_SPREAD, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
