@@ -38,9 +38,7 @@ class Origin(NamedTuple):
 class End:
     """The state after, and what the kernel says of the contact there."""
 
-    def __init__(
-        self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float = EPS
-    ) -> None:
+    def __init__(self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float) -> None:
         self.numbers = numbers
         self.kind, self.rule, self.law, self.pinned = kind, rule, law, pinned
         self.known, self.bound = numbers[kind], numbers[rule]
