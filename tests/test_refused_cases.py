@@ -462,7 +462,9 @@ def outputs(found: Any, name: str = "") -> Iterator[tuple[str, Any]]:
             yield from outputs(part, f"{name}[{i}]")
     elif isinstance(found, (col.Impact, Side)) or is_dataclass(found):
         kind = type(found)
-        given = [f.name for f in fields(found) if not f.name.startswith("_")] if is_dataclass(found) else []
+        given = (
+            [f.name for f in fields(found) if not f.name.startswith("_") and f.name != "given"] if is_dataclass(found) else []
+        )
         for key in (*given, *attributes(kind), *(["model"] if isinstance(found, col.ModelChoice) else [])):
             try:
                 value = getattr(found, key)
