@@ -82,26 +82,7 @@ def crush_energy(
     60500
     """
     reader = ArgumentReader()
-    crush = _profile(reader, depths, "depths")
-    if isinstance(depths, np.ndarray) or is_quantity(depths):
-        reader.close()
-    if not isinstance(crush, list) or len(crush) < 2:
-        got = type(depths).__name__ + (f" of {len(crush)}" if isinstance(crush, list) else "")
-        raise ShapeError(
-            f"depths must be a list or an array of at least two depths, got {got}; write [0.2, 0.35, 0.1]",
-            code="bad_shape",
-            argument="depths",
-        )
-    whole = gaps = _profile(reader, widths, "widths")
-    if not isinstance(gaps, list):
-        gaps = [whole / (len(crush) - 1)] * (len(crush) - 1)
-    elif len(gaps) != len(crush) - 1:
-        raise ShapeError(
-            f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
-            f"in all, or the whole width alone; of many cases, a list of one array for each gap",
-            code="bad_shape",
-            argument="widths",
-        )
+    crush, whole, gaps = _profiles(reader, depths, widths)
     a = amount(reader, stiffness_a, "N/m", "stiffness_a")
     b = reader.number(stiffness_b, "N/m**2", "stiffness_b")
     if isinstance(b, float) and b <= 0.0:
@@ -164,6 +145,31 @@ def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_
     bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
     if bare and of_all(bare) > limit:
         warn_if_large(None, max(bare), 0.0, name, "metres", "cm", "in")
+
+
+def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[Any], Any, list[Any]]:
+    """The depths, the widths as they were given, and the width of each gap."""
+    crush = _profile(reader, depths, "depths")
+    if isinstance(depths, np.ndarray) or is_quantity(depths):
+        reader.close()
+    if not isinstance(crush, list) or len(crush) < 2:
+        got = type(depths).__name__ + (f" of {len(crush)}" if isinstance(crush, list) else "")
+        raise ShapeError(
+            f"depths must be a list or an array of at least two depths, got {got}; write [0.2, 0.35, 0.1]",
+            code="bad_shape",
+            argument="depths",
+        )
+    whole = gaps = _profile(reader, widths, "widths")
+    if not isinstance(gaps, list):
+        gaps = [whole / (len(crush) - 1)] * (len(crush) - 1)
+    elif len(gaps) != len(crush) - 1:
+        raise ShapeError(
+            f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
+            f"in all, or the whole width alone; of many cases, a list of one array for each gap",
+            code="bad_shape",
+            argument="widths",
+        )
+    return crush, whole, gaps
 
 
 def _profile(reader: ArgumentReader, value: Any, name: str) -> Any:
