@@ -1,4 +1,4 @@
-"""How sure an answer is: what is known of every input, and what follows for what is asked."""
+"""How sure an answer is: what is known of every input, and what follows for every output."""
 
 from .distributions import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from .propagation import propagate

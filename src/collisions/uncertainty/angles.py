@@ -10,13 +10,13 @@ import numpy as np
 _TURN = 2.0 * math.pi
 _EMPTY = 0.25 * _TURN  # less than this is no gap to cut in, where only some of many places were looked at
 _OPPOSITE = _TURN / 16.0  # on either side of the point opposite the mean
-_ROUNDING = 1e-9
+_ANGLE_TOL = 1e-9  # rounding of an angle
 _NEAR_PI = 2.0
 
 
 def are_directions(angles: Any) -> bool:
     """Whether all lie from -pi to pi, as a course and a PDOF do; a rotation of more than that counts its turns."""
-    return not np.any(np.abs(angles) > math.pi * (1.0 + _ROUNDING))
+    return not np.any(np.abs(angles) > math.pi * (1.0 + _ANGLE_TOL))
 
 
 def counted(angles: Any) -> Any:
@@ -37,10 +37,10 @@ def counted(angles: Any) -> Any:
     first = np.arange(1, angles.shape[-1] + 1)
     change = np.where(first < count, summed - mean * first + math.pi * first * (1.0 - first / count), 0.0)
     best = np.argmin(change, axis=-1, keepdims=True)
-    moved = np.take_along_axis(change, best, -1) < -_ROUNDING * count
+    moved = np.take_along_axis(change, best, -1) < -_ANGLE_TOL * count
     last = np.where(moved, np.take_along_axis(ordered, best, -1), -math.inf)
     mean = mean + np.where(moved, (best + 1) * _TURN / count, 0.0)
-    down = np.where(mean > math.pi + _ROUNDING, 1.0, np.where(mean <= -math.pi + _ROUNDING, -1.0, 0.0))
+    down = np.where(mean > math.pi + _ANGLE_TOL, 1.0, np.where(mean <= -math.pi + _ANGLE_TOL, -1.0, 0.0))
     turns = np.where(angles <= last, 1.0, 0.0) - down
     return np.where(turns == 0.0, angles, angles + _TURN * turns)
 
@@ -56,7 +56,7 @@ def cut(angles: Any) -> float | None:
     if gaps[widest] < _EMPTY:
         return None
     where = float(found[widest] + 0.5 * gaps[widest])
-    return where + _TURN if float(np.mean(folded(found, where))) <= -math.pi + _ROUNDING else where
+    return where + _TURN if float(np.mean(folded(found, where))) <= -math.pi + _ANGLE_TOL else where
 
 
 def folded(angles: Any, where: float | None) -> Any:

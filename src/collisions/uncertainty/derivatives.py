@@ -120,7 +120,7 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
         curvature = np.diag((16.0 * (above + below) - (two_above + two_below)) / (12.0 * step**2))
         for (i, j), (mm, mp, pm, pp) in zip(pairs, values[1 + 4 * count :].reshape(-1, 4), strict=True):
             curvature[i, j] = curvature[j, i] = ((pp - pm) - (mp - mm)) / (4.0 * step[i] * step[j])
-        # What the rounding of the values alone can make is no curvature.
+        # What rounding of the values can make by itself is no curvature.
         curvature[np.abs(curvature) * np.outer(step, step) < 8.0 * rounding] = 0.0
         found[name] = Slopes(float(values[0]), gradient, curvature)
     return found, len(at)
@@ -137,14 +137,16 @@ def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, secon
     # What the fourth moments have beyond those of a normal, whose own part is in the trace.
     excess = np.array([one.kurtosis for one in inputs]) - 3.0
     correlated = joint.correlations()
-    bent, diagonal = curvature @ correlated, np.diag(curvature)
+    product, diagonal = curvature @ correlated, np.diag(curvature)
     skewed = gradient * diagonal * skewness + 0.25 * diagonal**2 * excess
     variance = float(gradient @ correlated @ gradient)
-    variance += 0.5 * float(np.trace(bent @ bent)) + float(np.sum(skewed))
+    variance += 0.5 * float(np.trace(product @ product)) + float(np.sum(skewed))
     third = float(np.sum(skewness * gradient**3)) + 1.5 * float(np.sum(gradient**2 * diagonal * excess))
-    third += 3.0 * float(gradient @ correlated @ curvature @ correlated @ gradient) + float(np.trace(bent @ bent @ bent))
+    third += 3.0 * float(gradient @ correlated @ curvature @ correlated @ gradient) + float(
+        np.trace(product @ product @ product)
+    )
     variance = max(variance, 0.0)
-    mean, std = value + scale * (0.5 * float(np.trace(bent))), scale * math.sqrt(variance)
+    mean, std = value + scale * (0.5 * float(np.trace(product))), scale * math.sqrt(variance)
     if not (math.isfinite(mean) and math.isfinite(std)):
         raise NoSolutionError(
             f"{name!r} or its derivatives are too large for a float64; look for a wrong unit or a slipped digit",

@@ -58,7 +58,7 @@ class Extremes(NamedTuple):
 
     values: dict[str, tuple[float, float]]
     places: list[dict[str, float]]
-    asked: int
+    samples: int
     failed: int
     wrapped: tuple[str, ...]
     cuts: dict[str, float | None]
@@ -102,7 +102,7 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
     wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
-    return Extremes(found, listed, places.asked, places.failed, wrapped, places.cuts)
+    return Extremes(found, listed, places.samples, places.failed, wrapped, places.cuts)
 
 
 class _Places:
@@ -114,7 +114,7 @@ class _Places:
         self.low, self.high = (np.array([bounds[name][end] for name in bounds]) for end in (0, 1))
         self.common = common
         self.cases = max((len(values) for values in common.values()), default=1)
-        self.asked = self.failed = 0
+        self.samples = self.failed = 0
         self.cuts: dict[str, float | None] = {}
 
     def at(self, shares: Any) -> Any:
@@ -134,7 +134,7 @@ class _Places:
         values |= {name: np.tile(drawn, len(at)) for name, drawn in self.common.items()}
         count = len(at) * self.cases
         found = self.model(values, count)
-        self.asked += count
+        self.samples += count
         self.failed += int(np.count_nonzero(np.any([np.isnan(one) for one in found.values()], axis=0)))
         return {name: self._counted(name, one.reshape(len(at), -1)) for name, one in found.items()}
 

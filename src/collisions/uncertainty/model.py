@@ -18,7 +18,7 @@ from .distributions import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
-_CASES = 5  # asked again: a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
+_COMPARED_CASES = 5  # asked again: a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
 # Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
 # differently for one case. What is less than this changes no figure that anyone reads, whatever it comes from.
 _UNNOTICED = 1e-6
@@ -124,12 +124,12 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
 
 
 def check_elementwise(
-    ask: Callable[[Mapping[str, Any]], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
+    answer: Callable[[Mapping[str, Any]], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
 ) -> bool:
     """Refuses a model that answers one case otherwise than among others; False if these cases cannot show it.
 
-    ``ask`` takes a case as arrays of one. Cases that are all the same show nothing, those without an answer little, and those
-    in rising order no sort.
+    ``answer`` takes a case as arrays of one. Cases that are all the same show nothing, those without an answer little, and
+    those in rising order no sort.
     """
     if not any(np.any(column != column[0]) for column in values.values()):
         return False
@@ -139,7 +139,7 @@ def check_elementwise(
         listed = ", ".join(f"{name} = {float(value[0]):.9g}" for name, value in case.items())
         answered = any(not math.isnan(column[i]) for column in answers.values())
         try:
-            found = ask(case)
+            found = answer(case)
         except Exception as error:
             if not answered:
                 continue
@@ -149,12 +149,12 @@ def check_elementwise(
             ) from error
         compared |= answered
         for name, column in answers.items():
-            among, alone = float(column[i]), float(found[name][0])
-            if not _agree(among, alone, column):
-                among_text, alone_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (among, alone))
+            batched, single = float(column[i]), float(found[name][0])
+            if not _agree(batched, single, column):
+                batched_text, single_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (batched, single))
                 raise _bad_model(
-                    f"model mixes cases: among {len(column)} cases it answers {name!r} with {among_text} for {listed}, and "
-                    f"with {alone_text} for that case alone. Every case must be worked out by itself. In place of what is "
+                    f"model mixes cases: among {len(column)} cases it answers {name!r} with {batched_text} for {listed}, and "
+                    f"with {single_text} for that case alone. Every case must be worked out by itself. In place of what is "
                     f"taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the whole "
                     f"array, write a number into the model, or numpy.where. Random numbers drawn in the model do this too: "
                     f"give what is random as an argument of its own, with its distribution",
@@ -173,21 +173,21 @@ def _revealing_cases(answers: Mapping[str, Any]) -> list[int]:
         refused += missing[[0, -1]].tolist() if missing.size else []
         if missing.size < column.size:
             found += [int(np.nanargmax(column)), int(np.nanargmin(column))]
-    return list(dict.fromkeys([*found[:3], *refused[:2], count // 2]))[:_CASES]
+    return list(dict.fromkeys([*found[:3], *refused[:2], count // 2]))[:_COMPARED_CASES]
 
 
-def _agree(among: float, alone: float, answers: Any) -> bool:
-    """Whether the answer to a case is the same among others and alone, but for what rounding or convergence explains."""
-    if math.isnan(among) or math.isnan(alone):
-        return math.isnan(among) and math.isnan(alone)
-    away = abs(among - alone)
-    if angles.are_directions(np.array([among, alone])):
+def _agree(batched: float, single: float, answers: Any) -> bool:
+    """Whether the answer to a case is the same in a batch and by itself, but for what rounding or convergence explains."""
+    if math.isnan(batched) or math.isnan(single):
+        return math.isnan(batched) and math.isnan(single)
+    away = abs(batched - single)
+    if angles.are_directions(np.array([batched, single])):
         away = min(away, abs(away - 2.0 * math.pi))  # a direction may come out at either end of its turn
     if away == 0.0:
         return True
     with np.errstate(all="ignore"):
         low, high = np.nanquantile(answers, (0.25, 0.75))
-        return bool(away <= _ROUNDINGS * max(abs(among), abs(alone)) + (_UNNOTICED * high - _UNNOTICED * low))
+        return bool(away <= _ROUNDINGS * max(abs(batched), abs(single)) + (_UNNOTICED * high - _UNNOTICED * low))
 
 
 def _bad_model(text: str, **fields: Any) -> InputError:

@@ -65,7 +65,7 @@ def quantile(p: Any) -> Any:
     if not 0.0 < p < 1.0:
         return -math.inf if p == 0.0 else math.inf if p == 1.0 else math.nan
     root = math.sqrt(-math.log(min(p, 1.0 - p)))
-    distance = _near(root) if root <= _NEAR else _far(root)
+    distance = _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6) if root <= _NEAR else _ratio(_FAR_TOP, _FAR_BOTTOM, root - _NEAR)
     return distance if p > 0.5 else -distance
 
 
@@ -116,21 +116,13 @@ def _quantiles(p: Any) -> Any:
         if places.size:
             outer = flat[places]
             root = np.sqrt(-np.log(np.minimum(outer, 1.0 - outer)))
-            distance = _near(root)
+            distance = _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6)
             far = np.flatnonzero(root > _NEAR)
             if far.size:
-                distance[far] = _far(root[far])
+                distance[far] = _ratio(_FAR_TOP, _FAR_BOTTOM, root[far] - _NEAR)
                 distance[np.isinf(root)] = np.inf
             found[places] = np.copysign(distance, offset[places])
     return found.reshape(p.shape)
-
-
-def _near(root: Any) -> Any:
-    return _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6)
-
-
-def _far(root: Any) -> Any:
-    return _ratio(_FAR_TOP, _FAR_BOTTOM, root - _NEAR)
 
 
 def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:

@@ -40,7 +40,7 @@ class Run:
     """The outputs of one run, how it went, and what there is to warn of."""
 
     outputs: Mapping[str, Local | Sampled]
-    asked: int
+    samples: int
     failed: int
     interrupted: bool = False
     unreached: bool = False
@@ -164,26 +164,27 @@ def propagate(
         else partial(_sampled, method, joint, int(samples or _SAMPLES), tolerance, seed, int(threads))
     )
     places: list[dict[str, float]] = [{}]
-    asked, failed, cuts = 0, 0, {}
+    count, failed, cuts = 0, 0, {}
     if intervals:
         searched = extremes(whole, intervals, _evenly_drawn(joint, seed, COMMON_CASES))
-        places, asked, failed, cuts = searched.places, searched.asked, searched.failed, searched.cuts
+        places, count, failed, cuts = searched.places, searched.samples, searched.failed, searched.cuts
     runs = _run_at(places, whole, run, reporter(progress))
+    samples_run = sum(one.samples for one in runs)
     outputs: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
         cases = [one.outputs[name] for one in runs if name not in one.unanswered]
         if not cases:
             raise NoSolutionError(
-                f"the model has no answer for {name!r} in any of {sum(one.asked for one in runs)} cases; call it with the mean "
-                f"of the inputs to see why",
+                f"the model has no answer for {name!r} in any of {samples_run} cases; call it with the mean of the inputs "
+                f"to see why",
                 code="all_failed",
                 output=name,
             )
         outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
-    asked, failed = asked + sum(one.asked for one in runs), failed + sum(one.failed for one in runs)
-    _warn(method, runs, len(places), asked, failed)
+    count, failed = count + samples_run, failed + sum(one.failed for one in runs)
+    _warn(method, runs, len(places), count, failed)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
-    return Propagation(method, stated, outputs, asked, failed, None if method in LOCAL else seed, interrupted)
+    return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted)
 
 
 def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
@@ -257,7 +258,7 @@ def _run_at(
 
     def overall(done: int, total: int) -> None:
         """Progress of one of several runs, as that of all of them."""
-        before = sum(one.asked for one in runs)
+        before = sum(one.samples for one in runs)
         if report is not None:
             report(before + done, before + (len(places) - len(runs)) * total)
 
@@ -276,11 +277,11 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
     """A run by derivatives at the mean: of so few cases that there is no progress to report."""
     second = method == "second_order"
     with np.errstate(all="ignore"):
-        found, asked = slopes(model, joint, second)
+        found, count = slopes(model, joint, second)
         outputs = {name: local_output(name, model.units[name], joint, slope, second) for name, slope in found.items()}
         # Always the same points: a local result is not random.
         differing, failed = differences(model, _evenly_drawn(joint, 0, PROBES), outputs)
-    return Run(outputs, asked + PROBES, failed, differing=differing)
+    return Run(outputs, count + PROBES, failed, differing=differing)
 
 
 def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
@@ -361,19 +362,19 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
         for name, values in found.values.items()
     }
     outputs: dict[str, Output] = {name: Bounds(name, model.units[name], cases) for name, cases in ends.items()}
-    run = Run({name: cases[0] for name, cases in ends.items()}, found.asked, found.failed, wrapped=found.wrapped)
-    _warn("interval", [run], 1, found.asked, found.failed)
-    return Propagation("interval", dict(stated), outputs, found.asked, found.failed)
+    run = Run({name: cases[0] for name, cases in ends.items()}, found.samples, found.failed, wrapped=found.wrapped)
+    _warn("interval", [run], 1, found.samples, found.failed)
+    return Propagation("interval", dict(stated), outputs, found.samples, found.failed)
 
 
-def _warn(method: str, runs: Sequence[Run], places: int, asked: int, failed: int) -> None:
+def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int) -> None:
     """Warns of what was left out of all cases, what was not reached, and what a local method does not know."""
     if method in LOCAL:
         _warn_if_not_local(method, runs, failed)
     elif failed:
         warn(
             OutOfRangeWarning(
-                f"{failed} of {asked} cases had no answer ({failed / asked:.2%}) and are left out: the figures hold given "
+                f"{failed} of {count} cases had no answer ({failed / count:.2%}) and are left out: the figures hold given "
                 f"that there is one. If such inputs cannot be, say so with truncate=",
                 code="failed_cases",
                 failed=failed,
@@ -382,7 +383,7 @@ def _warn(method: str, runs: Sequence[Run], places: int, asked: int, failed: int
     if any(run.unreached for run in runs):
         warn(
             CollisionsWarning(
-                f"{max(run.asked for run in runs)} cases do not bring the standard errors below the tolerance; this is what "
+                f"{max(run.samples for run in runs)} cases do not bring the standard errors below the tolerance; this is what "
                 f"they give",
                 code="tolerance_not_reached",
             )
@@ -391,7 +392,7 @@ def _warn(method: str, runs: Sequence[Run], places: int, asked: int, failed: int
     if done < places:
         rest = f" at {done} of {places} places between the bounds: they say nothing of the rest" if places > 1 else ""
         warn(
-            CollisionsWarning(f"interrupted after {asked} cases; the figures are theirs{rest}", code="interrupted", done=asked)
+            CollisionsWarning(f"interrupted after {count} cases; the figures are theirs{rest}", code="interrupted", done=count)
         )
     wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
     bare = tuple(name for name in wrapped if not runs[0].outputs[name].unit)

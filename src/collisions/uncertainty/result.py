@@ -301,8 +301,8 @@ class Sampled(Output):
         at = np.quantile(found, share)
         # Of points that lie evenly the shares can all be the same, and the quantile still lies anywhere between two of them.
         error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
-        reach = max(error, math.sqrt(share * (1.0 - share) / found.size))
-        low, high = max(0.0, share - reach), min(1.0, share + reach)
+        width = max(error, math.sqrt(share * (1.0 - share) / found.size))
+        low, high = max(0.0, share - width), min(1.0, share + width)
         ends = np.quantile(found, (low, high))
         return error * float(ends[1] - ends[0]) / (high - low)
 
@@ -337,7 +337,7 @@ class Propagation:
     inputs : dict
         What was stated: distributions, intervals, and fixed values.
     samples : int
-        Cases the model was asked for.
+        Cases the model was called with.
     failed : int
         Cases among them without an answer to at least one output, such as no impact at all: left out of the figures, which
         hold given that there is an answer.
