@@ -20,8 +20,8 @@ from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
-from ..vehicle import Vehicle
-from .common import Cases, exactly, finish, input_faults, moving, read_amounts, read_masses, run_forward
+from ..vehicle import Vehicle, moved
+from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
@@ -148,7 +148,7 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
         for label, speed in (("a", found.va), ("b", found.vb)):
             given = {name: texts[key] for name, key in (("mass", f"mass_{label}"), ("vx", f"v{label}")) if key in texts}
             body = Vehicle(mass=numbers[f"mass_{label}"])
-            bodies.append(moving(body, (cases.where(keep, speed), still, still), given))
+            bodies.append(moved(body, cases.where(keep, speed), still, still, given))
         e = cases.where(keep, found.restitution)
         others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
         return Inputs("linear_central", bodies[0], bodies[1], e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
@@ -209,8 +209,8 @@ def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float
     """Sum over what was given of the change of the speeds before, in closing speeds, by its own relative change."""
     total = np.zeros(())
     for name, value in numbers.items():
-        moved = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps)
-        change = sum(abs(np.choose(which, [one[i] for one in moved]) - found[i]) for i in range(2))
+        beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps)
+        change = sum(abs(np.choose(which, [one[i] for one in beside]) - found[i]) for i in range(2))
         total = total + np.where(np.isinf(value), 0.0, change)
     condition = total / (_STEP * abs(found.closing))
     return np.where(np.isfinite(condition), condition, np.inf)

@@ -21,7 +21,7 @@ from ..provenance import Reconstruction
 from ..quantities import lock
 from ..reading import ArgumentReader, amount, broadcast
 from ..solving import check_options, error_of, first_refused, warn_of_refusals
-from ..vehicle import Vehicle, moved
+from ..vehicle import Vehicle
 from ..warning import quietly
 
 # The forward kernel, called with the numbers of two bodies in this order.
@@ -71,12 +71,6 @@ def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], d
     texts = body.given or {}
     staying = {name: text for name, text in texts.items() if name not in motion}
     return staying, {name: text for name, text in texts.items() if name in motion}
-
-
-def moving(body: Vehicle, motion: Sequence[Any], texts: dict[str, str]) -> Vehicle:
-    """The same body in another motion, vx, vy and yaw rate, with the texts that the rest of it was given as."""
-    vx, vy, yaw_rate = motion
-    return moved(body, vx, vy, yaw_rate, texts)
 
 
 def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()) -> dict[str, Any]:

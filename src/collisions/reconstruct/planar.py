@@ -23,9 +23,9 @@ from ..provenance import Reconstruction
 from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input, Pair, shown
-from ..vehicle import Vehicle
+from ..vehicle import Vehicle, moved
 from ..warning import warn
-from .common import Cases, exactly, finish, input_faults, moving, numbers_by_name, read_amounts, run_forward, split_texts
+from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .origins import End, Origin
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
@@ -206,7 +206,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
         a, b = (
-            moving(body, [cases.where(keep, part) for part in motion], given)
+            moved(body, *(cases.where(keep, part) for part in motion), given=given)
             for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True)
         )
         e = inputs.restitution if end.kind == "restitution" else cases.where(keep, origin.restitution)

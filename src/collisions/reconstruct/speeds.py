@@ -19,9 +19,9 @@ from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair
-from ..vehicle import Vehicle
+from ..vehicle import Vehicle, moved
 from ..warning import warn
-from .common import ASK_ALONE, Cases, exactly, input_faults, moving, numbers_by_name, read_amounts, run_forward, split_texts
+from .common import ASK_ALONE, Cases, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .crossings import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
 
@@ -273,7 +273,7 @@ def _answers(
         for label, body, speed, given in zip("ab", (inputs.a, inputs.b), root[:2], staying, strict=True):
             speed = speed * scene.speed_unit
             vx, vy = (cases.where(keep, speed * scene.numbers[f"course_{label}[{i}]"] + 0.0) for i in range(2))
-            bodies.append(moving(body, (vx, vy, body.yaw_rate), given))
+            bodies.append(moved(body, vx, vy, body.yaw_rate, given))
         e = inputs.restitution if function is None else cases.values(root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
