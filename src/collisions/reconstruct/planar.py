@@ -205,12 +205,12 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
         return cases.provenance("planar", (end.kind, end.rule), condition, count, origin.contact_velocity, where)
 
     def inputs_of(origin: Origin, keep: Any) -> Inputs:
-        a, b = (
-            moved(body, *(cases.where(keep, part) for part in motion), given=given)
-            for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True)
-        )
+        bodies = []
+        for body, motion, given in zip((inputs.a, inputs.b), origin.motions, staying, strict=True):
+            vx, vy, yaw_rate = (cases.where(keep, part) for part in motion)
+            bodies.append(moved(body, vx, vy, yaw_rate, given))
         e = inputs.restitution if end.kind == "restitution" else cases.where(keep, origin.restitution)
-        return replace(inputs, a=a, b=b, restitution=e)
+        return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
     def refusal() -> CollisionsError:
         stuck = status == Status.STICK_INVERSE
