@@ -227,21 +227,21 @@ def _in_blocks(
     outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
     # By the id of a value what its cases are cut from: an array that is looked at more than once is cut once.
     values = chain(*(work.inputs for work in works), *(check.values for check in checks))
-    lanes = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
+    columns = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
     numbers = None if which is None else flat(which, shape)
     prepared = [_prepared(work, size, kinds, np.dtype(dtype)) for work in works]
     # A thread keeps the scratch of every model, and of several an output of a block, and has at a time the inputs of a block.
-    gathered = 0 if which is None else sum(not isinstance(lane, float) for lane in lanes.values()) + len(works)
+    gathered = 0 if which is None else sum(not isinstance(column, float) for column in columns.values()) + len(works)
     length = block_length(size, threads, sum(scratch for _, scratch in prepared) + gathered * np.dtype(dtype).itemsize)
-    stretch = length * len(works)
+    per_block = length * len(works)
     mine = threading.local()
 
     def solve(start: int) -> int:
-        block = slice(start, min(start + stretch, size))
+        block = slice(start, min(start + per_block, size))
         if not hasattr(mine, "runs"):
             mine.runs = [make(length) for make, _ in prepared]
-            mine.room = None if which is None else aligned(min(stretch, size), np.float64)
-        cut = {key: _part(lane, block, dtype) for key, lane in lanes.items()}
+            mine.room = None if which is None else aligned(min(per_block, size), np.float64)
+        cut = {key: _part(column, block, dtype) for key, column in columns.items()}
         inputs = [[cut[id(value)] for value in work.inputs] for work in works]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
@@ -254,7 +254,7 @@ def _in_blocks(
         refuse(faults, answers)
         return block.stop - block.start
 
-    each_block(solve, range(0, size, stretch), size, threads, progress)
+    each_block(solve, range(0, size, per_block), size, threads, progress)
     return outputs
 
 
@@ -282,7 +282,7 @@ def _run_by_model(
             at += some.size
             if some.size:
                 wanted = here if in_order else some
-                run([_gathered(lane, wanted) for lane in given], [None if one is None else one[here] for one in answers])
+                run([_gathered(column, wanted) for column in given], [None if one is None else one[here] for one in answers])
     if not in_order:
         place = np.empty_like(order)
         place[order] = np.arange(order.size)
@@ -292,11 +292,11 @@ def _run_by_model(
                 answer[...] = answer.take(place, out=moved, mode="clip")
 
 
-def _gathered(lane: Any, some: Any) -> Any:
+def _gathered(column: Any, some: Any) -> Any:
     """Some cases of a block, which all are inside: to have numpy look takes as long as to gather them."""
-    if isinstance(lane, float):
-        return lane
-    return lane[some] if isinstance(some, slice) else lane.take(some, mode="clip")
+    if isinstance(column, float):
+        return column
+    return column[some] if isinstance(some, slice) else column.take(some, mode="clip")
 
 
 def _prepared(work: Work, size: int, kinds: tuple[Any, ...], dtype: Any) -> tuple[Callable[[int], Run], int]:
@@ -354,11 +354,11 @@ def _report(counts: Any, size: int, progress: Progress | None) -> None:
             progress(done, size)
 
 
-def _part(lane: Any, block: slice, dtype: Any) -> Any:
+def _part(column: Any, block: slice, dtype: Any) -> Any:
     """The cases of a block, in the precision of the batch; a plain number as it is."""
-    if isinstance(lane, float):
-        return lane
-    part = lane[block]
+    if isinstance(column, float):
+        return column
+    part = column[block]
     return part if part.dtype == dtype else part.astype(dtype)
 
 

@@ -139,9 +139,9 @@ def oblique_central(
     uy = vy_b - vy_a
     closing = -(nx * ux + ny * uy)
     slip = nx * uy - ny * ux
-    kept = LAWS[law].sticking_slip(restitution)
+    sticking_slip = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
-    no_slip_t = 0.0 - (1.0 - kept) * slip
+    no_slip_t = 0.0 - (1.0 - sticking_slip) * slip
     sticks, ratio, _, pulls = RULES[rule].decide(tangential, change_n, no_slip_t)
     change_t = select(sticks, no_slip_t, ratio * change_n)
     normal = effective_mass * change_n
@@ -151,9 +151,11 @@ def oblique_central(
         return (closing > 0.0) & (work - work == 0.0) & (immovable ^ True), pulls, normal, impulse_t
 
     beyond_sticking = change_t - no_slip_t
-    slip_after = kept * slip + beyond_sticking
+    slip_after = sticking_slip * slip + beyond_sticking
     # At rest after sticking, so that the sum is the slip before, to the bit.
-    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
+    slip_sum = (
+        select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
+    )
     mobility = normal * change_n + impulse_t * change_t if dissipates(rule, law) else 0.0
     loss_n, loss_t, loss, gains = energy_losses(
         restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps

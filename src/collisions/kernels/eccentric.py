@@ -112,9 +112,9 @@ def eccentric(
     regular = determinant > threshold
 
     # The impulse that ends with the slip a sticking contact keeps.
-    kept = LAWS[law].sticking_slip(restitution)
+    sticking_slip = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
-    change_t = 0.0 - (1.0 - kept) * slip
+    change_t = 0.0 - (1.0 - sticking_slip) * slip
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
@@ -138,9 +138,11 @@ def eccentric(
         return answered, closing, (normal, impulse_t), (no_slip_n, no_slip_t), for_a, for_b
 
     beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
-    slip_after = kept * slip + beyond_sticking
+    slip_after = sticking_slip * slip + beyond_sticking
     # At rest after sticking, so that the sum is the slip before, to the bit.
-    slip_sum = select(sticks, (1.0 + kept) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
+    slip_sum = (
+        select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
+    )
     mobility: Any = 0.0
     if dissipates(rule, law):
         mobility = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b

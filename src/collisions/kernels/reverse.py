@@ -153,7 +153,7 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
 
 
 class Term(NamedTuple):
-    """One body before or after; ``speed`` is None where it is asked for, ``course`` None for a body at rest."""
+    """One body before or after; ``speed`` is None where it is unknown, ``course`` None for a body at rest."""
 
     sign: float
     mass: Any
