@@ -956,3 +956,14 @@ def test_frozen_and_pickled():
     batch = pickle.loads(pickle.dumps(crossing(mass_a=np.array([1000.0, 1200.0]))))
     assert not batch.speed_a.flags.writeable
     assert not batch.sensitivity["speed_a"]["course_b"].flags.writeable
+
+
+def test_sensitivities_of_a_batch_are_equal_by_value():
+    """Not as arrays are, which have no truth value."""
+    knowns = {"course_b": 1.5, "course_a_after": 0.5, "course_b_after": 0.7, "speed_a_after": 10.0, "speed_b_after": 8.0}
+    one, twin = (reconstruct.momentum(1000.0, 1200.0, course_a=np.array([0.0, 0.1]), **knowns).sensitivity for _ in range(2))
+    single = reconstruct.momentum(1000.0, 1200.0, course_a=0.0, **knowns).sensitivity
+    assert one == twin
+    assert one.__ne__(twin) is False
+    assert one != single
+    assert single != one

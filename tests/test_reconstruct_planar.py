@@ -699,3 +699,13 @@ def test_a_refused_answer_of_two_barriers_is_read_again():
     )
     assert impact.status.label == "immovable"
     assert col.Impact.from_dict(impact.to_dict()) == impact
+
+
+@pytest.mark.parametrize("wrong", ["<)", {"value": 1.0}, None, 3.0])
+def test_a_restitution_that_is_no_number_is_refused_beside_float32_too(wrong):
+    """The precision of the normal is not asked of what could not be read."""
+    end = dict(APART) | {"normal": np.array([0.1, 0.2], dtype=np.float32)}
+    end = {name: value for name, value in end.items() if name not in ("closing_speed", "energy_loss")} | {"restitution": wrong}
+    with pytest.raises(col.InputError) as caught:
+        planar(**end)
+    assert "restitution" in str(caught.value)

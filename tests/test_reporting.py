@@ -1238,3 +1238,20 @@ def test_options_that_an_answer_has_no_part_for_are_refused(name):
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", name)
     with pytest.raises(col.InputError, match="standard errors of its unknowns"):
         report(fitted(), uncertainty=spread("own", method="first_order"))
+
+
+@pytest.mark.parametrize("outline", [np.array([[0, 4], [200, 0]]), np.zeros((4, 2)), [(1.0, 2.0)]])
+def test_an_outline_of_momentum_is_refused_whatever_it_is(outline):
+    """An array is not compared with what is usual."""
+    found = reconstruct.momentum(
+        1000.0,
+        1200.0,
+        course_a=0.0,
+        course_b=1.5,
+        course_a_after=0.5,
+        course_b_after=0.7,
+        speed_a_after=10.0,
+        speed_b_after=8.0,
+    )
+    with pytest.raises(col.InputError, match="outline_a is for an Impact"):
+        report(found, outline_a=outline)

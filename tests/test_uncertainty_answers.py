@@ -1016,3 +1016,11 @@ def test_correlations_and_errors_do_not_depend_on_the_size_of_the_numbers(size):
     # The same points: only roundings differ, and they are divided by the small error that they are a part of.
     assert found["z"].mean_standard_error == pytest.approx(size * plain.mean_standard_error, rel=1e-6)
     assert found["z"].std_standard_error == pytest.approx(size * plain.std_standard_error, rel=1e-6)
+
+
+def test_histograms_are_equal_by_value():
+    """Not as arrays are, which have no truth value."""
+    found = propagate(lambda x: {"y": x}, {"x": Uniform(0, 1)}, method="monte_carlo", samples=64, seed=1)["y"]
+    assert found.histogram(3) == found.histogram(3)
+    assert found.histogram(3).__ne__(found.histogram(3)) is False
+    assert found.histogram(3) != found.histogram(4)

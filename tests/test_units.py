@@ -723,3 +723,12 @@ def test_texts_are_kept_for_reports(ureg):
     assert vehicle.replace(vy=3.0).given == vehicle.given
     assert vehicle.replace(mass=900.0).given == {"vx": "50.0 mile_per_hour"}
     assert col.Vehicle(mass=1.0).given is None
+
+
+@pytest.mark.parametrize("text", ["50 percent/s", "5 deg*percent/s"])
+def test_a_proportion_in_a_yaw_rate_is_not_said_to_count_turns(text):
+    """As Hz does."""
+    with pytest.raises(col.UnitsError, match="percent has no place in it"):
+        col.Vehicle(mass=1.0, yaw_rate=text)
+    with pytest.raises(col.UnitsError, match="Hz counts turns"):
+        col.Vehicle(mass=1.0, yaw_rate="3 Hz")

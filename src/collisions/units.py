@@ -278,7 +278,7 @@ def _out_of_place(quantity: Any, unit: str) -> str:
     angles = {name: turned * power for name, power in units.items() if (turned := _radians(registry, name))}
     strange = [] if wanted and list(angles.values()) == [wanted] else list(angles)
     strange += [name for name in units if _is_count(registry, name) or (unit == "" and registry.Unit(name).dimensionless)]
-    if strange and unit == "rad/s" and _is_count(registry, strange[0]):
+    if strange and unit == "rad/s" and not registry.Unit(strange[0]).dimensionless:
         return "; Hz counts turns: write 'deg/s', 'rad/s' or 'turn/s'"
     return f"; {strange[0]} has no place in it, though pint takes it for a number" if strange else ""
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import MissingInputError
 from ..kernels.status import Status
-from ..quantities import Shown, derived
+from ..quantities import Shown, derived, same
 from ..units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
@@ -24,6 +24,12 @@ class Sensitivity(dict[str, dict[str, Value]]):
     def q(self) -> dict[str, dict[str, Any]]:
         """The same with units, per degree where the input is an angle."""
         return {answer: {name: self._quantity(name, value) for name, value in row.items()} for answer, row in self.items()}
+
+    def __eq__(self, other: object) -> bool:
+        return same(self, other) if isinstance(other, Mapping) else NotImplemented
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
 
     @staticmethod
     def _quantity(name: str, value: Any) -> Any:

@@ -146,7 +146,7 @@ def planar(
         (friction, impulse_ratio, critical_fraction),
         law,
         reader.problems,
-        (known,),
+        () if kind == "restitution" else (known,),
     )
     numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")
     shares = (inputs.rule_value > 0.0) & (inputs.rule_value < 1.0)

@@ -181,12 +181,17 @@ def report(
         sections.sources(sheet, findings)
     sheet.say(f"Worked out by collisions {__version__}.")
     sheet.heading("Record")
-    unusual = {name: value for name, value in options.items() if value != _USUAL[name]}
+    unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
     sheet.record(record(impact, __version__, unusual, uncertainty))
     return sheet.whole(__version__)
 
 
 _USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
+
+
+def _is_usual(name: str, value: Any) -> bool:
+    """Whether an option was left as it is by default; what cannot be compared, such as an array, was not."""
+    return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
 def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple[list[str], dict[str, Any]]:
@@ -220,7 +225,7 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
         )
     kind = type(impact)
     for name in _OTHER_PARTS.get(kind, ()):
-        if options[name] != _USUAL[name]:
+        if not _is_usual(name, options[name]):
             refuse(
                 name,
                 f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself",

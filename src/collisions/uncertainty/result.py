@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import OWN, Derived, Quantities, derived, returns, show, table
+from ..quantities import OWN, Derived, Quantities, derived, returns, same, show, table
 from ..reading import is_whole
 from ..units import shown
 from . import angles
@@ -42,6 +42,12 @@ class Histogram(NamedTuple):
     edges: Any
     shares: Any
     standard_errors: Any
+
+    def __eq__(self, other: object) -> bool:
+        return same(tuple(self), tuple(other)) if isinstance(other, Histogram) else NotImplemented
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
 
 
 class Output:
