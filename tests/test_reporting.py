@@ -773,10 +773,22 @@ def test_what_a_reverse_solver_was_told_stands_on_its_report(solver):
     assert report(again, form="markdown") == page
 
 
-def test_texts_that_no_reverse_solver_was_given_are_refused():
-    page = report(told_backwards()["speeds"], form="markdown")
-    with pytest.raises(col.InputError, match="it has no 'tyres' that could have been given"):
-        replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update(tyres="4")))
+@pytest.mark.parametrize(
+    ("solver", "name", "text", "said"),
+    [
+        ("central", "vb_after", "40 mph", "vb_after was given as '40 mph', but the velocity of B after is 16.540"),
+        ("planar", "closing_speed", "10 m/s", "closing_speed was given as '10 m/s'"),
+        ("planar", "a_after.vx", "1 m/s", "a_after.vx was given as '1 m/s'"),
+        ("speeds", "course_b", "-80 deg", "course_b was given as '-80 deg'"),
+        ("speeds", "delta_v_a", "6 m/s", "delta_v_a was given as '6 m/s'"),
+        ("speeds", "energy_loss", "6 J", "energy_loss was given as '6 J'"),
+        ("speeds", "tyres", "4", "it has no 'tyres' that could have been given"),
+    ],
+)
+def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text, said):
+    page = report(told_backwards()[solver], form="markdown")
+    with pytest.raises(col.InputError, match=re.escape(said)):
+        replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update({name: text})))
 
 
 def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():

@@ -25,6 +25,7 @@ from ..uncertainty import Propagation
 from ..units import shown
 from ..vehicle import DOMAINS, Vehicle, with_given
 from .render import FENCE, RECORD
+from .sections import contradicted
 
 _FORMAT = "collisions report 2"
 # The options that make another page, and the unit in which one is read; None for what is no number.
@@ -139,8 +140,8 @@ def replay(text: str) -> Impact | MomentumSolution:
     Raises
     ------
     InputError
-        No report with a record, or a record that cannot be read, or whose inputs do not give its results; or the report of a
-        ``Fit``, whose model is code.
+        No report with a record, or a record that cannot be read, whose inputs do not give its results, or whose texts and
+        numbers differ; or the report of a ``Fit``, whose model is code.
 
     Examples
     --------
@@ -168,6 +169,8 @@ def replay(text: str) -> Impact | MomentumSolution:
     except CollisionsError as error:
         raise _bad(str(error)) from error
     _check(found["impact"]["results"], impact.to_dict()["results"])
+    for contradiction in contradicted(impact):
+        raise _bad(contradiction)
     texts = found.get("other_texts")
     if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:
         raise _bad("it does not say how else a and b were given")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from operator import attrgetter
 from typing import Any
 
 from .. import reference
@@ -29,23 +30,27 @@ from ..vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
 _VELOCITY = {"vx": "velocity along x", "vy": "velocity along y", "speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
-# What a reverse solver may be given beside the contact: in words, and its kind.
-_KNOWN = {"energy_loss": ("energy lost", "energy"), "closing_speed": ("closing speed", "speed")}
+# What a reverse solver may be given beside the contact: in words, its kind, and where the answer has it, which may be nowhere.
+_KNOWN: dict[str, tuple[str, str, str]] = {
+    "energy_loss": ("energy lost", "energy", "energy_loss"),
+    "closing_speed": ("closing speed", "speed", "closing_speed"),
+}
 for _label in "ab":
     _of = f" of {_label.upper()}"
     for _name, _what in _VELOCITY.items():
-        _KNOWN[f"{_label}_after.{_name}"] = (
-            f"{_what}{_of} after",
-            {"course": "angle", "yaw_rate": "yaw rate"}.get(_name, "speed"),
-        )
+        _kind = {"course": "angle", "yaw_rate": "yaw rate"}.get(_name, "speed")
+        _KNOWN[f"{_label}_after.{_name}"] = f"{_what}{_of} after", _kind, f"{_label}.after.{_name}"
     _KNOWN |= {
-        f"v{_label}": (f"velocity{_of} before", "speed"),
-        f"v{_label}_after": (f"velocity{_of} after", "speed"),
-        f"speed_{_label}": (f"speed{_of} before", "speed"),
-        f"course_{_label}": (f"course{_of} before", "angle"),
-        f"delta_v_{_label}": (f"delta-V{_of}", "speed"),
-        f"ees_{_label}": (f"EES{_of}", "speed"),
+        f"v{_label}": (f"velocity{_of} before", "speed", f"{_label}.before.vx"),
+        f"v{_label}_after": (f"velocity{_of} after", "speed", f"{_label}.after.vx"),
+        f"speed_{_label}": (f"speed{_of} before", "speed", f"{_label}.before.speed"),
+        f"course_{_label}": (f"course{_of} before", "angle", f"{_label}.before.course"),
+        f"delta_v_{_label}": (f"delta-V{_of}", "speed", f"{_label}.delta_v"),
+        f"ees_{_label}": (f"EES{_of}", "speed", ""),
     }
+# A reverse solver comes out at what it was given within this, relative to the speeds or energies of the impact; end states
+# that still approach by up to a hundredth of the closing speed are taken to stay together.
+_COMES_OUT, _TOGETHER = 1e-6, 0.02
 _EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
     "damage_pdof_a": ("A", "PDOF that the damage shows", "angle"),
@@ -144,12 +149,41 @@ def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
     rows = []
     for name, text in (impact.inputs.given or {}).items():
         if name in _KNOWN:
-            what, kind = _KNOWN[name]
-            reader = ArgumentReader()
-            read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
-            # A unit of another registry cannot be read here.
-            rows.append(("known", what, sheet.as_given(None if reader.problems else float(read), kind, text)))
+            what, kind, _ = _KNOWN[name]
+            rows.append(("known", what, sheet.as_given(_read(text, name), kind, text)))
     return rows
+
+
+def _read(text: str, name: str) -> float | None:
+    """The number of a text; None where its unit is of another registry."""
+    reader = ArgumentReader()
+    kind = _KNOWN[name][1]
+    read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
+    return None if reader.problems else float(read)
+
+
+def contradicted(impact: Impact) -> Iterator[str]:
+    """What a reverse solver was given, by its text, that is not what the impact has."""
+    sides = (impact.a, impact.b)
+    speeds = impact.closing_speed + sum(state.speed for side in sides for state in (side.before, side.after))
+    turning = sum(abs(side.before.yaw_rate) + abs(side.after.yaw_rate) for side in sides)
+    together = _TOGETHER if impact.restitution == 0.0 else 0.0
+    allowed = {
+        "speed": _COMES_OUT * speeds + together * impact.closing_speed,
+        "energy": _COMES_OUT * (abs(impact.energy_absorbed) + abs(impact.energy_loss)),
+        "yaw rate": _COMES_OUT * turning + _TOGETHER,
+        "angle": _COMES_OUT + together,
+    }
+    for name, text in (impact.inputs.given or {}).items():
+        what, kind, path = _KNOWN.get(name, ("", "", ""))
+        read = _read(text, name) if path else None
+        if read is None:
+            continue
+        number = attrgetter(path)(impact)
+        # Of a speed that came out backwards the course is the opposite one; somebody at rest has none.
+        apart = math.remainder(read - number, math.pi) if kind == "angle" else read - number
+        if abs(apart) > allowed[kind]:
+            yield f"{name} was given as {text!r}, but the {what} is {number!r} {SI_UNITS[kind]}"
 
 
 def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any]) -> None:
