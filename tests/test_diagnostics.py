@@ -1074,6 +1074,7 @@ def ordinary(rng, kind):
     return impact, {"outline_a": (long[0], wide[0]), "outline_b": (long[1], wide[1])}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["side", "rear"])
 def test_no_finding_is_always_there(kind):
     """None on more than a third of ordinary impacts, and on a good part of them none at all; before, two were on four in ten."""

@@ -471,6 +471,7 @@ def test_values_are_continuous_across_the_stick_slide_switch(law: str) -> None:
 # --- The reference itself --------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("law", LAWS)
 def test_sixty_digits_are_enough(family: str, law: str) -> None:

@@ -603,6 +603,7 @@ def test_every_output_of_a_refused_case(name: str) -> None:
     assert refused
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None, derandomize=True, database=None)
 @given(st.data(), st.sampled_from(sorted(CALLS)))
 def test_some_cases_beside_single_numbers(data: Any, name: str) -> None:

@@ -96,6 +96,7 @@ def test_bits_in_reverse():
     assert found.tolist() == [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875, 0.0625]
 
 
+@pytest.mark.slow
 @every_design
 def test_uniform_and_independent(name):
     """Shares of 20 equal classes by chi-squared, and no row goes with another, nor one sequence with the next.
