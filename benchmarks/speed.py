@@ -43,6 +43,7 @@ import time_resolved
 
 import collisions as col
 from collisions import models, reconstruct
+from collisions.impact import solved
 from collisions.inputs import read_inputs
 from collisions.kernels.central import linear_central as linear_kernel
 from collisions.kernels.eccentric import eccentric as eccentric_kernel
@@ -268,7 +269,7 @@ def batch_works(effort: Effort) -> dict[str, Work]:
     def by(which: Any) -> Any:
         """``solve`` where the model of every case is known before."""
         known = replace(choice, _which=which)
-        return lambda: nine(col.Impact._solved(inputs, on_failure="nan", choice=known))
+        return lambda: nine(solved(inputs, on_failure="nan", choice=known))
 
     alone = {
         f"solve_all_{model}": Work(

@@ -1,6 +1,7 @@
 """Impact: its attributes, records that can be solved again, columns for a table, and states that chain."""
 
 import copy
+import dataclasses
 import gc
 import json
 import math
@@ -13,6 +14,7 @@ import pytest
 
 import collisions as col
 from collisions import reconstruct
+from collisions.impact import solved
 from collisions.quantities import attributes
 from collisions.reporting import replay
 from collisions.side import Side
@@ -354,8 +356,8 @@ def test_a_case_of_solve_is_answered_by_its_own_model():
     a, b = A.replace(vx=np.array([20.0, 9.0]), x=-1.0), B.replace(x=2.0)
     contact = {"normal": 0.1, "point": (1.0, 0.3), "friction": 0.2}
     choice = col.required_model(a, b, 0.1, tolerance=np.array([99.0, 0.0]), **contact)
-    inputs = col.solve(a, b, 0.1, tolerance=99.0, **contact).inputs._changed(a=a.replace(vy=5.0))
-    many = col.Impact._solved(inputs, choice=choice)
+    inputs = col.solve(a, b, 0.1, tolerance=99.0, **contact).inputs
+    many = solved(dataclasses.replace(inputs, a=a.replace(vy=5.0)), choice=choice)
     assert list(many.model) == ["linear_central", "eccentric"]
     for place in (0, 1, -1):
         one = many.case(place)
@@ -476,7 +478,7 @@ def test_inputs_are_what_was_asked():
         inputs.restitution = 0.2
     same_numbers = col.eccentric(a, b, 0.1, normal=impact.normal, point=(1.0, 0.3), friction=0.2).inputs
     assert same_numbers == inputs
-    assert same_numbers != inputs._changed(restitution=0.2)
+    assert same_numbers != dataclasses.replace(inputs, restitution=0.2)
     assert pickle.loads(pickle.dumps(inputs)) == inputs
     with pytest.raises(TypeError):
         hash(inputs)

@@ -14,6 +14,7 @@ import pint
 import pytest
 
 import collisions as col
+from collisions.impact import solved
 from collisions.kernels.batch import BLOCK
 
 MODELS = ("linear_central", "oblique_central", "eccentric")
@@ -141,7 +142,7 @@ def test_a_tolerance_of_zero_is_the_full_model():
     assert impact.model == "eccentric"
     assert "tolerance of 0" in impact.choice.reason
     full = col.eccentric(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5)
-    assert impact._raw == full._raw
+    assert impact.answer == full.answer
 
 
 def test_a_delta_v_test_alone_would_throw_the_rotation_away():
@@ -532,7 +533,7 @@ def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
         for name, errors in few.choice.errors.items():
             assert errors.dtype == dtype
             np.testing.assert_array_equal(whole.choice.errors[name][part], errors)
-        for mine, other in zip(whole._raw, few._raw, strict=True):
+        for mine, other in zip(whole.answer, few.answer, strict=True):
             assert mine.dtype == other.dtype
             assert not mine.flags.writeable
             np.testing.assert_array_equal(mine[part], other)
@@ -581,7 +582,7 @@ def test_two_threads_share_the_scratch_that_a_batch_may_take():
     """Each has that of all three models, and the inputs and answers of a block: 8 MiB together, as on one thread."""
     a, b, contact = large(80 * BLOCK)
     first = col.solve(a, b, **contact)
-    again = partial(col.Impact._solved, first.inputs, threads=2, choice=first.choice)
+    again = partial(solved, first.inputs, threads=2, choice=first.choice)
     again()
     tracemalloc.start()
     try:

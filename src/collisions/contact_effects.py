@@ -11,7 +11,7 @@ import numpy as np
 from . import pulse
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
-from .impact import Impact
+from .impact import Impact, part_of_impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, lock, numeric
@@ -217,7 +217,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
         # What is to be said of its cases was said of the impact.
         with quietly():
-            some = impact._part(cut, on_failure="nan")
+            some = part_of_impact(impact, cut, on_failure="nan")
         for name, value in _estimated(some, cut(time), cut(pull), cut(unusable)).items():
             if name not in whole:
                 whole[name] = None if value is None else np.empty(size, dtype=dtype)

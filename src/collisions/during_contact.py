@@ -9,10 +9,10 @@ import numpy as np
 
 from . import pulse
 from .directions import from_radians
-from .impact import Impact
+from .impact import Impact, solve_changed
 from .kernels.contact_laws import BRACH
 from .kernels.elementwise import select, turning_velocity
-from .models import ECCENTRIC, MODELS
+from .models import ECCENTRIC
 from .quantities import hypot, numeric
 from .side import Side
 from .vehicle import moved, needed
@@ -82,7 +82,7 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
         )
         for side, kick in zip((impact.a, impact.b), kicks, strict=True)
     )
-    again = impact._again(a=moved_a, b=moved_b, restitution=impact.restitution * (closing / faster), **carrying)
+    again = solve_changed(impact, a=moved_a, b=moved_b, restitution=impact.restitution * (closing / faster), **carrying)
     return [
         hypot(kick.x + (new.delta_vx - old.delta_vx) / part, kick.y + (new.delta_vy - old.delta_vy) / part)
         for old, new, kick in zip((impact.a, impact.b), (again.a, again.b), kicks, strict=True)
@@ -93,7 +93,7 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
     """How far delta-V of each vehicle moves when the geometry is the one of later in the contact; None without a geometry."""
     if point is None:
         return [None] * 2
-    placed = True if impact.choice is None else impact.choice._which == MODELS.index(ECCENTRIC)
+    placed = True if impact.choice is None else impact.choice.model == ECCENTRIC.name
     if placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):
@@ -126,7 +126,8 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
         places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
         bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
     on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
-    again = impact._again(
+    again = solve_changed(
+        impact,
         a=bodies[0],
         b=bodies[1],
         point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),

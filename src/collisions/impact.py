@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
-from .inputs import Inputs, OnFailure, index_of, part_of
+from .inputs import Inputs, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import FRICTION, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
-from .model_choice import ModelChoice, solve_least
+from .model_choice import ModelChoice, part_of_choice, solve_least, where_answered
 from .models import model_of, read_again
-from .provenance import Reconstruction
+from .provenance import Reconstruction, origin_where_answered
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .side import Side
@@ -42,7 +42,8 @@ class Impact(Frozen):
     inputs: Inputs
     """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
-    _raw: Any
+    answer: Any
+    """What the kernel answered: a status and numbers by name."""
 
     def __init__(self) -> None:
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
@@ -55,12 +56,12 @@ class Impact(Frozen):
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self.inputs, self._raw, 0, vars(self).get("choice"))
+        return Side(self.inputs, self.answer, 0, vars(self).get("choice"))
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self.inputs, self._raw, 1, vars(self).get("choice"))
+        return Side(self.inputs, self.answer, 1, vars(self).get("choice"))
 
     @derived()
     def model(self) -> Any:
@@ -167,7 +168,7 @@ class Impact(Frozen):
 
         NaN, as it is not defined, for a contact with one degree of freedom: two parallel arms, or a gate against a wall.
         """
-        normal, tangential = self._output("no_slip_normal"), self._output("no_slip_tangential")
+        normal, tangential = self.answer.no_slip_normal, self.answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
         with np.errstate(invalid="ignore"):
             without_end = numeric(tangential).copysign(math.inf, tangential) + 0.0 * normal
@@ -271,7 +272,7 @@ class Impact(Frozen):
 
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
-        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self._raw.sticks
+        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self.answer.sticks
         if isinstance(sticks, np.ndarray):
             if rule != FRICTION:
                 found = np.full(sticks.shape, "given", dtype="U12")
@@ -292,46 +293,27 @@ class Impact(Frozen):
     @derived()
     def status(self) -> Any:
         """Outcome: a Status, whose ``sentence`` explains it; in a batch an array of its codes."""
-        code = self._raw.status
+        code = self.answer.status
         return code if isinstance(code, np.ndarray) else Status(code)
 
     @derived()
     def ok(self) -> Any:
         """Whether the case was answered without an energy gain."""
-        return self._raw.status == Status.OK
+        return self.answer.status == Status.OK
 
     @derived()
     def refused(self) -> Any:
         """Whether the case was refused, so that its numbers are NaN."""
-        return self._raw.status > Status.ENERGY_GAIN
+        return self.answer.status > Status.ENERGY_GAIN
 
     def _output(self, name: str) -> Value:
-        value: Value = getattr(self._raw, name)
+        value: Value = getattr(self.answer, name)
         return value
 
     def _answered(self, value: Any) -> Value:
         """A value worked out from inputs alone, NaN where the case was refused."""
         answered: Value = select(self.refused, math.nan, value)
         return answered
-
-    @classmethod
-    def _solved(
-        cls,
-        inputs: Inputs,
-        plain: bool = False,
-        on_failure: Any = None,
-        threads: Any = 1,
-        progress: Any = None,
-        choice: ModelChoice | None = None,
-    ) -> Impact:
-        """The answer to the inputs; ``plain`` as for ``solve_inputs``, ``choice`` that of a model that was chosen before."""
-        if inputs.model != "solve":
-            return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
-
-        raw, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
-        impact = build(inputs, raw)
-        vars(impact)["choice"] = choice._where_answered(impact.refused)
-        return impact
 
     def again(self, **changes: Any) -> Impact:
         """Solve it again by the same solver with some of its arguments changed.
@@ -377,21 +359,7 @@ class Impact(Frozen):
         changed |= {"rule": rules[0], "rule_value": changes[rules[0]]} if rules else {}
         same_as_before = takes - changes.keys() - (RULES.keys() if rules else set())
         given = {name: text for name, text in (inputs.given or {}).items() if name.partition("[")[0] in same_as_before}
-        return self._solved(read_again(inputs._changed(**changed, given=given, contact_velocity=None)))
-
-    def _again(self, **changes: Any) -> Impact:
-        """The answer of the same model to the same inputs with some of them changed, NaN where it is refused.
-
-        What is to be said of refused cases and of energy was said of the impact itself.
-        """
-        with quietly():
-            return self._solved(self.inputs._changed(**changes, given=None), on_failure="nan", choice=self.choice)
-
-    def _with(self, a: Vehicle, b: Vehicle) -> Impact:
-        """The same answer with vehicles that differ in name or in how their numbers were given."""
-        impact = build(self.inputs._changed(a=a, b=b), self._raw)
-        vars(impact).update({name: getattr(self, name) for name in ("reconstruction", "choice")})
-        return impact
+        return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
@@ -426,15 +394,7 @@ class Impact(Frozen):
                 f"see what would decide",
                 code=status.label,
             )
-        return self._part(lambda value: np.broadcast_to(value, self.status.shape)[place].item())
-
-    def _part(self, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
-        """Some cases of a batch, solved again: those that ``take`` takes of every array."""
-        origin = self.reconstruction
-        inputs = read_again(self.inputs._part(take), found=origin is not None)
-        choice = None if self.choice is None else self.choice._part(take, inputs)
-        impact = self._solved(inputs, on_failure=on_failure, choice=choice)
-        return impact if origin is None else found_by(part_of(origin, take), inputs, impact._raw, take(self.status))
+        return part_of_impact(self, lambda value: np.broadcast_to(value, self.status.shape)[place].item())
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
@@ -449,10 +409,10 @@ class Impact(Frozen):
 
         inputs, on_failure, origin, status = from_record(record)
         try:
-            impact = cls._solved(inputs, on_failure=on_failure)
+            impact = solved(inputs, on_failure=on_failure)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {inputs.model}") from error
-        return impact if origin is None else found_by(origin, inputs, impact._raw, status)
+        return impact if origin is None else found_by(origin, inputs, impact.answer, status)
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
@@ -463,10 +423,10 @@ class Impact(Frozen):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):
             return NotImplemented
-        return self.inputs == other.inputs and all(map(same, self._raw, other._raw))
+        return self.inputs == other.inputs and all(map(same, self.answer, other.answer))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.inputs, self._raw, {name: getattr(self, name) for name in ("reconstruction", "choice")})
+        return _rebuild, (self.inputs, self.answer, {name: getattr(self, name) for name in ("reconstruction", "choice")})
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -491,8 +451,50 @@ def build(inputs: Inputs, raw: Any) -> Impact:
     impact: Impact = object.__new__(Impact)
     found = impact.__dict__
     found["inputs"] = inputs
-    found["_raw"] = raw
+    found["answer"] = raw
     return impact
+
+
+def solved(
+    inputs: Inputs,
+    plain: bool = False,
+    on_failure: Any = None,
+    threads: Any = 1,
+    progress: Any = None,
+    choice: ModelChoice | None = None,
+) -> Impact:
+    """The answer to the inputs; ``plain`` as for ``solve_inputs``, ``choice`` that of a model that was chosen before."""
+    if inputs.model != "solve":
+        return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
+    answer, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
+    impact = build(inputs, answer)
+    vars(impact)["choice"] = where_answered(choice, impact.refused)
+    return impact
+
+
+def solve_changed(impact: Impact, **changes: Any) -> Impact:
+    """The answer of the same model to the same inputs with some of them changed, taken as they are; NaN where it is refused.
+
+    What is to be said of refused cases and of energy was said of the impact itself.
+    """
+    with quietly():
+        return solved(replace(impact.inputs, **changes, given=None), on_failure="nan", choice=impact.choice)
+
+
+def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
+    """The same answer with vehicles that differ in name or in how their numbers were given."""
+    other = build(replace(impact.inputs, a=a, b=b), impact.answer)
+    vars(other).update({name: getattr(impact, name) for name in ("reconstruction", "choice")})
+    return other
+
+
+def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
+    """Some cases of a batch, solved again: those that ``take`` takes of every array."""
+    origin = impact.reconstruction
+    inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
+    choice = None if impact.choice is None else part_of_choice(impact.choice, take, inputs)
+    part = solved(inputs, on_failure=on_failure, choice=choice)
+    return part if origin is None else found_by(part_of(origin, take), inputs, part.answer, take(impact.status))
 
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:
@@ -503,7 +505,7 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
     elif code > Status.ENERGY_GAIN and status != Status.OK:
         code = Status(status)
     impact = build(inputs, raw._replace(status=lock(code)))
-    vars(impact)["reconstruction"] = origin._where_answered(code)
+    vars(impact)["reconstruction"] = origin_where_answered(origin, code)
     return impact
 
 

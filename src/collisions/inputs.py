@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass
 from itertools import chain
 from typing import Any, Literal, TypeAlias
 
@@ -73,33 +73,6 @@ class Inputs:
         normal = None if self.given is None else self.given.get("normal")
         return None if isinstance(normal, str) else normal
 
-    def _changed(self, **changes: Any) -> Inputs:
-        """The same question with some of it changed, taken as it is."""
-        return replace(self, **changes)
-
-    def _numbers(self) -> dict[str, Any]:
-        """Every number by the name the caller knows it by."""
-        found = {"restitution": self.restitution, self.rule: self.rule_value}
-        found |= {f"normal[{i}]": part for i, part in enumerate(self.normal)}
-        found |= {f"point[{i}]": part for i, part in enumerate(self.point or ())}
-        found |= {f"contact_velocity[{i}]": part for i, part in enumerate(self.contact_velocity or ())}
-        for label, vehicle in (("a", self.a), ("b", self.b)):
-            found |= {f"{label}.{name}": getattr(vehicle, name) for name in DOMAINS}
-            found |= {f"{label}.pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
-        return found
-
-    def _part(self, take: Callable[[Any], Any]) -> Inputs:
-        """The question put to some cases: those that ``take`` takes of every array."""
-
-        def taken(label: str, value: Any) -> Any:
-            try:
-                return part_of(value, take)
-            except InputError as error:
-                who = f"{label} ({value.name})" if value.name else label
-                raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
-
-        return Inputs(**{name: taken(name, value) for name, value in vars(self).items()})
-
     def __eq__(self, other: object) -> bool:
         """Whether it is the same question; how a number was written does not make it another."""
         if not isinstance(other, Inputs):
@@ -109,6 +82,31 @@ class Inputs:
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked."""
         vars(self).update(lock(state))
+
+
+def named_numbers(inputs: Inputs) -> dict[str, Any]:
+    """Every number of the inputs by the name the caller knows it by."""
+    found = {"restitution": inputs.restitution, inputs.rule: inputs.rule_value}
+    found |= {f"normal[{i}]": part for i, part in enumerate(inputs.normal)}
+    found |= {f"point[{i}]": part for i, part in enumerate(inputs.point or ())}
+    found |= {f"contact_velocity[{i}]": part for i, part in enumerate(inputs.contact_velocity or ())}
+    for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
+        found |= {f"{label}.{name}": getattr(vehicle, name) for name in DOMAINS}
+        found |= {f"{label}.pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
+    return found
+
+
+def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
+    """The inputs of some cases: those that ``take`` takes of every array."""
+
+    def taken(label: str, value: Any) -> Any:
+        try:
+            return part_of(value, take)
+        except InputError as error:
+            who = f"{label} ({value.name})" if value.name else label
+            raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
+
+    return Inputs(**{name: taken(name, value) for name, value in vars(inputs).items()})
 
 
 def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .inputs import Inputs, lacking, missing_numbers, part_of
+from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.elementwise import select
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
@@ -88,12 +88,6 @@ class ModelChoice(Shown):
     # Which of the models, by number.
     _which: Any
 
-    def _where_answered(self, refused: Any) -> ModelChoice:
-        """The same without the errors of cases that turned out to have no answer."""
-        if not np.any(refused):
-            return self
-        return replace(self, errors={name: select(refused, math.nan, error) for name, error in self.errors.items()})
-
     def __post_init__(self) -> None:
         object.__setattr__(self, "errors", ByModel(self.errors, "m/s"))
         object.__setattr__(self, "missing", ByModel(self.missing))
@@ -114,19 +108,11 @@ class ModelChoice(Shown):
                 yield f"{prefix}missing.{name}", ", ".join(needed)
         yield prefix + "tolerance", show(self.tolerance, "m/s")
 
-    def _part(self, take: Any, inputs: Inputs) -> ModelChoice:
-        """The choice for some cases of a batch, or for one of them, with a reason that is about these."""
-        part: ModelChoice = part_of(self, take)
-        errors = part.errors
-        missing = self.missing[_ECCENTRIC]
-        reason = _reason(inputs, part.tolerance, part._which, errors[_LINEAR], errors[_OBLIQUE], missing, bool(missing))
-        return replace(part, reason=reason)
-
 
 def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
     """The choice of a model, and where the eccentric one is required and lacks something."""
     tolerance: Any = inputs.tolerance
-    shape = None if plain else broadcast({"tolerance": tolerance, **inputs._numbers()})
+    shape = None if plain else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
     missing = tuple(f"{label}.{name}" for label, name in lacking(inputs.a, inputs.b))
     missing += () if inputs.point is not None else ("point",)
     which, linear, oblique = _predicted(inputs, tolerance, missing, shape, threads, progress)
@@ -143,6 +129,22 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
         _which=which,
     )
     return choice, lacks
+
+
+def where_answered(choice: ModelChoice, refused: Any) -> ModelChoice:
+    """The same without the errors of cases that turned out to have no answer."""
+    if not np.any(refused):
+        return choice
+    return replace(choice, errors={name: select(refused, math.nan, error) for name, error in choice.errors.items()})
+
+
+def part_of_choice(choice: ModelChoice, take: Any, inputs: Inputs) -> ModelChoice:
+    """The choice for some cases of a batch, or for one of them, with a reason that is about these."""
+    part: ModelChoice = part_of(choice, take)
+    errors = part.errors
+    missing = choice.missing[_ECCENTRIC]
+    reason = _reason(inputs, part.tolerance, part._which, errors[_LINEAR], errors[_OBLIQUE], missing, bool(missing))
+    return replace(part, reason=reason)
 
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
@@ -176,14 +178,14 @@ def solve_least(
     which = choice._which
     if not isinstance(which, np.ndarray):
         return solve_inputs(MODELS[which], inputs, plain, on_failure, threads, report, carrying=True), choice
-    shape = broadcast({"which": which, **inputs._numbers()}) or ()
+    shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
     models, numbers = (used, None) if len(used) == 1 else (MODELS, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
 
     def one(take: Any) -> Any:
-        case = read_again(inputs._part(take))
-        return solve_least(case, False, None, 1, None, chosen._part(take, case))
+        case = read_again(part_of_inputs(inputs, take))
+        return solve_least(case, False, None, 1, None, part_of_choice(chosen, take, case))
 
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)

@@ -137,7 +137,7 @@ def read(
     reader = ArgumentReader()
     limit = _read_tolerance(reader, tolerance) if model == "solve" else None
     inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
-    return (inputs, plain) if limit is None else (inputs._changed(tolerance=limit), plain and isinstance(limit, float))
+    return (inputs, plain) if limit is None else (replace(inputs, tolerance=limit), plain and isinstance(limit, float))
 
 
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
@@ -150,7 +150,8 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
     again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
-    return again._changed(
+    return replace(
+        again,
         restitution=e if unknown else again.restitution,
         given={**(again.given or {}), **(inputs.given or {})} or None,
         contact_velocity=inputs.contact_velocity,

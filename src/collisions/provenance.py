@@ -46,15 +46,16 @@ class Reconstruction:
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
 
-    def _where_answered(self, status: Any) -> Reconstruction:
-        """The same without what does not belong to a refused case: how well-posed it was, and how many fit but several."""
-        refused = status > Status.ENERGY_GAIN
-        if not np.any(refused):
-            return self
-        several = np.isin(status, (Status.AMBIGUOUS, Status.AMBIGUOUS_INVERSE))
-        condition, answers = select(refused, math.nan, self.condition), select(refused > several, 0, self.answers)
-        velocity = self.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in self.contact_velocity))
-        return replace(self, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
+
+def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
+    """The same without what does not belong to a refused case: how well-posed it was, and how many fit but several."""
+    refused = status > Status.ENERGY_GAIN
+    if not np.any(refused):
+        return origin
+    several = np.isin(status, (Status.AMBIGUOUS, Status.AMBIGUOUS_INVERSE))
+    condition, answers = select(refused, math.nan, origin.condition), select(refused > several, 0, origin.answers)
+    velocity = origin.contact_velocity and lock(tuple(select(refused, math.nan, part) for part in origin.contact_velocity))
+    return replace(origin, condition=lock(condition), answers=lock(answers), contact_velocity=velocity)
 
 
 def how_many(answers: float) -> str:

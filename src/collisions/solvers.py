@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .impact import Impact, build
+from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose
@@ -332,4 +332,4 @@ def solve(
     """
     tangential = friction, impulse_ratio, critical_fraction
     inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance)
-    return Impact._solved(inputs, plain, on_failure, threads, progress)
+    return solved(inputs, plain, on_failure, threads, progress)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
-from .inputs import Inputs
+from .inputs import Inputs, named_numbers, part_of_inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import (
     FINITE,
@@ -53,7 +53,7 @@ def solve_inputs(
             return raw
     check_options(on_failure, threads, progress)
     if not plain:
-        shape = broadcast(inputs._numbers())
+        shape = broadcast(named_numbers(inputs))
         if shape is not None:
             raw = solve_cases((model,), None, inputs, shape, threads, progress, carrying)
             say_of_cases(inputs, raw, on_failure)
@@ -95,7 +95,7 @@ def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any,
     """The cases of a batch as the kernels take them, and the rounding of the precision they are worked out in."""
     from .kernels.batch import Cases, precision
 
-    dtype = precision(inputs._numbers().values())
+    dtype = precision(named_numbers(inputs).values())
     eps = float(np.finfo(dtype).eps)
     return Cases(_value_checks(inputs, eps), shape, dtype, threads), eps
 
@@ -234,7 +234,7 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
         return np.broadcast_to(value, status.shape)[index].item()
 
     try:
-        case = read_again(inputs._part(take))
+        case = read_again(part_of_inputs(inputs, take))
         solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
         return type(error)(place + str(error), code=error.code, **error.fields)

@@ -71,8 +71,8 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
         page.equation("Normal impulse", s.normal, change / k.normal)
         return
     else:
-        no_slip = Symbol("N_s", s.impact._output("no_slip_normal"), "impulse")
-        no_slip_t = Symbol("T_s", s.impact._output("no_slip_tangential"), "impulse")
+        no_slip = Symbol("N_s", s.impact.answer.no_slip_normal, "impulse")
+        no_slip_t = Symbol("T_s", s.impact.answer.no_slip_tangential, "impulse")
         _without_slip(page, s, k, no_slip, no_slip_t)
         if rule == CRITICAL_FRACTION:
             fraction = Symbol("f", value, "number")

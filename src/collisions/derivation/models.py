@@ -234,7 +234,7 @@ def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
     page.equation("Along the tangent", k_tt, tangential)
     if not turning:
         return Mobility(k_nn, k_tt, None)
-    k_nt = Symbol("K_{nt}", s.impact._output("coupling"), "per mass")
+    k_nt = Symbol("K_{nt}", s.impact.answer.coupling, "per mass")
     page.equation("Across", k_nt, -total(*(body.n * body.t / body.resistance for body in turning)))
     return Mobility(k_nn, k_tt, k_nt)
 

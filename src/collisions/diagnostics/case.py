@@ -13,7 +13,7 @@ from ..contact_effects import LeftOut
 from ..directions import from_degrees
 from ..formatting import decimals_of, in_words, places, scale_of, unit_of, with_decimals
 from ..formatting import percent as in_percent
-from ..impact import Impact
+from ..impact import Impact, solve_changed
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS
 from ..model_choice import ModelChoice
@@ -148,7 +148,7 @@ class ImpactCase(_Case):
         if impact.law is None or impact.model == "linear_central":
             return []
         others = [name for name in LAWS if name != impact.law]
-        return [(f"under the law {name!r} instead of {impact.law!r}", impact._again(law=name)) for name in others]
+        return [(f"under the law {name!r} instead of {impact.law!r}", solve_changed(impact, law=name)) for name in others]
 
     @cached_property
     def turned_normals(self) -> list[tuple[str, Impact]]:
@@ -160,7 +160,7 @@ class ImpactCase(_Case):
         for angle in (-_TURN, _TURN):
             c, s = from_degrees(angle)
             how = f"with the normal turned by {'+' if angle > 0.0 else ''}{self.text(math.radians(angle), 'angle')}"
-            answers.append((how, self.answer._again(normal=(c * nx - s * ny, s * nx + c * ny))))
+            answers.append((how, solve_changed(self.answer, normal=(c * nx - s * ny, s * nx + c * ny))))
         return answers
 
 

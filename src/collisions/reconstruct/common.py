@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import CollisionsError, InputError, Status
-from ..impact import Impact, found_by
+from ..impact import Impact, found_by, solved
 from ..inputs import Inputs
 from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
@@ -211,10 +211,10 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
     """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
-    impact = Impact._solved(inputs, on_failure=on_failure)
+    impact = solved(inputs, on_failure=on_failure)
     if np.any(found & impact.refused):
         inputs = inputs_of(found & np.logical_not(impact.refused))
-    return found_by(origin, inputs, impact._raw, status)
+    return found_by(origin, inputs, impact.answer, status)
 
 
 def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:

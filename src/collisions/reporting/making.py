@@ -20,7 +20,7 @@ from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
 from ..diagnostics import diagnose
 from ..errors import InputError, ShapeError
 from ..formatting import UnitSystem, bad_system
-from ..impact import Impact
+from ..impact import Impact, with_vehicles
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..outlines import read_outline
 from ..plot.canvas import who
@@ -255,7 +255,7 @@ def _readable(impact: Impact) -> Impact:
     if not any(_SURROGATE.search(vehicle.name) for vehicle in vehicles):
         return impact
     a, b = (vehicle.replace(name=plain(vehicle.name)) for vehicle in vehicles)
-    whole: Impact = impact._with(a, b)
+    whole: Impact = with_vehicles(impact, a, b)
     return whole
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from ..diagnostics import LIMITS
 from ..errors import CollisionsError, CollisionsWarning, InputError
-from ..impact import Impact
+from ..impact import Impact, with_vehicles
 from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..quantities import unit_of
@@ -175,7 +175,7 @@ def replay(text: str) -> Impact | MomentumSolution:
     if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:
         raise _bad("it does not say how else a and b were given")
     a, b = (_with_texts(vehicle, texts[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
-    whole: Impact = impact._with(a, b)
+    whole: Impact = with_vehicles(impact, a, b)
     return whole
 
 
