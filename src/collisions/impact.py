@@ -70,9 +70,7 @@ class Impact(Frozen):
 
     @derived()
     def law(self) -> str | None:
-        """How restitution acts and what no slip means: "brach" or "kudlich-slibar"; None for the linear model, of ``solve`` as
-        given.
-        """
+        """How restitution acts and what no slip means, by name; None for the linear model, of ``solve`` as given."""
         return self.inputs.law
 
     @derived("")

@@ -23,7 +23,6 @@ Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 
 _ALONG_X = (1.0, 0.0)
-_NOT_GIVEN = len(RULES) - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,9 +158,10 @@ def read_inputs(
 
     What the model lacks or cannot hold is refused.
 
-    ``tangential`` are the values of ``RULES``, of which one must be given. Plain floats in order need no reader; anything else
-    goes through it, and one error names all that cannot be used, with the ``problems`` that were found before. ``beside`` has
-    the numbers that are not among these arguments, with which the normal shares its precision.
+    ``tangential`` are the values of ``RULES``, of which one must be given; a solver that knows only the first of them gives
+    those. Plain floats in order need no reader; anything else goes through it, and one error names all that cannot be used,
+    with the ``problems`` that were found before. ``beside`` has the numbers that are not among these arguments, with which the
+    normal shares its precision.
     """
     friction = tangential[0]
     law_used = None if model == "linear_central" else law
@@ -172,7 +172,7 @@ def read_inputs(
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
         and -6.0 < normal < 6.0
-        and tangential.count(None) == _NOT_GIVEN
+        and tangential.count(None) == len(tangential) - 1
         and type(law) is str
         and law in LAWS
         and not problems
@@ -279,14 +279,15 @@ def _beyond_a_turn(normal: Any) -> dict[str, Any]:
 
 def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, Any]:
     """Which of the ways to say what happens along the tangent was used, and its value."""
-    given = [(rule, value) for rule, value in zip(RULES.values(), values, strict=True) if value is not None]
+    taken = dict(zip(RULES.values(), values, strict=False))
+    given = [(rule, value) for rule, value in taken.items() if value is not None]
     if len(given) == 1:
         rule, value = given[0]
         return rule.name, reader.number(value, "", rule.name, rule.domain)
     found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
     reader.refuse(
         InputError(
-            f"give exactly one of {', '.join(f'{name}=' for name in RULES)}; got {found}. There is no default, because it "
+            f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There is no default, because it "
             f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",
             code="one_tangential",
             argument="friction",

@@ -95,7 +95,7 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
         f"it, {law.derivation}."
     )
     change = (1.0 + s.e) * s.closing
-    stopped = (1.0 + s.e) * s.slip if law.compression_limit else s.slip
+    stopped = (1.0 - law.sticking_slip(s.e)) * s.slip
     if k.coupling is None:
         page.equation("Its normal component", normal, change / k.normal)
         page.equation("Its tangential component", tangential, -(stopped / k.tangential))

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..formatting import UnitSystem
 from ..impact import Impact, solved
-from ..kernels.contact_laws import IMPULSE_RATIO, KUDLICH_SLIBAR
+from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..warning import quietly
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
@@ -42,8 +42,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     Returns
     -------
     matplotlib.axes.Axes
-        Lines by gid: "end of compression", "end of restitution", "no slip", "no slip at separation" (only under
-        "kudlich-slibar", where slip returns), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
+        Lines by gid: "end of compression", "end of restitution", "no slip", "no slip at separation" (only
+        under a law that sends slip back), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
         compression" and "no-slip impulse". ``linear_central`` has no tangential impulse, and no lines of slip and friction; a
         contact that moves along the normal alone, as a wall squarely on a pinned gate, has no lines of slip.
 
@@ -102,9 +102,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         slip_yields = closing * math.hypot(k_nt, k_tt) > _NO_YIELD * k_nn * (closing + abs(slip))
         if slip_yields:
             line("no slip", k_nt, k_tt, -slip, "slip ends (sticking line)", color=GREY, lw=1.8, ls=(0, (1, 1.2)))
-        if slip_yields and impact.law == KUDLICH_SLIBAR and e > 0.0:
+        left = LAWS[impact.law or BRACH].sticking_slip(e)
+        if slip_yields and left != 0.0:
             text = "slip at separation if it sticks"
-            line("no slip at separation", k_nt, k_tt, -(1.0 + e) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
+            line("no slip at separation", k_nt, k_tt, -(1.0 - left) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
 
     axes.plot([0.0, normal], [0.0, tangential], color=FORCE, lw=2.4, zorder=5, gid="impulse")
     if shows_no_slip:

@@ -148,6 +148,12 @@ def planar(
         reader.problems,
         () if kind == "restitution" else (known,),
     )
+    if inputs.law not in (BRACH, KUDLICH_SLIBAR):
+        raise InputError(
+            f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or {KUDLICH_SLIBAR!r}",
+            code="bad_law",
+            argument="law",
+        )
     numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")
     shares = (inputs.rule_value > 0.0) & (inputs.rule_value < 1.0)
     if inputs.rule == CRITICAL_FRACTION and kind == "energy_loss" and np.any(shares):

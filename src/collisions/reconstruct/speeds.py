@@ -72,8 +72,8 @@ def speeds(
         Contact point.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [1], optional
         Exactly one, as for ``eccentric``.
-    law : {"brach", "kudlich-slibar"}, optional
-        How restitution acts and what no slip means.
+    law : str, optional
+        How restitution acts and what no slip means, as for ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
         A known speed, >= 0. Exactly two of the five kinds of knowledge.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
