@@ -25,7 +25,7 @@ def page(name):
 
 def public(kind):
     """Every public attribute and method of a class."""
-    return [name for name in dir(kind) if not name.startswith("_")]
+    return [name for name in {**dict.fromkeys(dir(kind)), **vars(kind).get("__annotations__", {})} if not name.startswith("_")]
 
 
 @pytest.fixture(scope="module")
