@@ -1,4 +1,4 @@
-"""What tyres and movement during the contact make of delta-V: the impact solved again with what they change."""
+"""The effect on delta-V of tyre forces and of movement during the contact, by solving the impact again with each of them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .vehicle import moved, needed
 
 # Moments that weigh the same in time, as shares of the duration.
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
-# So little of the tyre impulse that sticking stays sticking; a power of 2, so that scaling it back rounds nothing.
+# Finite-difference step in the tyre impulse, small enough that the regime does not change; a power of 2 to avoid rounding.
 _LITTLE = 2.0**-6
 
 
@@ -66,7 +66,7 @@ class Kick(NamedTuple):
 
 
 def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
-    """How far delta-V of each vehicle moves by the tyres of both, if restitution ends the contact as it would without them."""
+    """Change of each vehicle's delta-V due to the tyres of both, for the same separation speed as without them."""
     nx, ny = impact.normal
     a, b = kicks
     closing = impact.closing_speed
@@ -90,7 +90,7 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
 
 
 def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
-    """How far delta-V of each vehicle moves when the geometry is the one of later in the contact; None without a geometry."""
+    """Change of delta-V of each vehicle with the geometry of later in the contact; None without a geometry."""
     if point is None:
         return [None] * 2
     placed = True if impact.choice is None else impact.choice.model == ECCENTRIC.name

@@ -1,4 +1,4 @@
-"""The question put to a solver: every number of it, how each was given, and the reading of a solver's arguments."""
+"""Inputs: all arguments of a solver call in SI, the texts they were given as, and their validation."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ALONG_X = (1.0, 0.0)
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """What a solver was asked, in SI numbers: enough to ask it again.
+    """The arguments of a solver call in SI numbers: enough to solve it again.
 
     Attributes
     ----------
@@ -68,12 +68,12 @@ class Inputs:
 
     @property
     def bare_normal(self) -> Any:
-        """The normal as an angle of more than a turn that was given without a unit; None for any other."""
+        """The normal's angle if it was a number without a unit beyond a full turn (degrees meant?); else None."""
         normal = None if self.given is None else self.given.get("normal")
         return None if isinstance(normal, str) else normal
 
     def __eq__(self, other: object) -> bool:
-        """Whether it is the same question; how a number was written does not make it another."""
+        """Whether all values are equal; the texts they were given as do not count."""
         if not isinstance(other, Inputs):
             return NotImplemented
         return all(same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self) if f.name != "given")
@@ -96,7 +96,7 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
 
 
 def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
-    """The inputs of some cases: those that ``take`` takes of every array."""
+    """The inputs of some cases: ``take`` is applied to every array."""
 
     def taken(label: str, value: Any) -> Any:
         try:
@@ -109,7 +109,7 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
 
 
 def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
-    """Vehicles, dataclasses and the like with ``take`` put to every array in them."""
+    """The same object with ``take`` applied to every array in it."""
     if isinstance(whole, np.ndarray):
         return take(whole)
     if isinstance(whole, Vehicle):
@@ -124,7 +124,7 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
 
 
 def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
-    """An index of one case of a batch of this shape, checked; the shape of a single case is None."""
+    """The index of one case of a batch, checked against its shape (None for a single impact, which has no cases)."""
     if shape is None:
         raise ShapeError(
             "impact is one case, and case() takes one of a batch; use it as it is", code="bad_shape", argument="index"
@@ -154,7 +154,7 @@ def read_inputs(
     problems: Sequence[InputError] = (),
     beside: Iterable[Any] = (),
 ) -> tuple[Inputs, bool]:
-    """The arguments of a solver as its inputs, and whether they were plain floats, those of the vehicles too.
+    """Validate the arguments of a solver; gives its ``Inputs`` and whether all were plain floats, those of the vehicles too.
 
     What the model lacks or cannot hold is refused.
 
@@ -222,7 +222,7 @@ def read_inputs(
 
 
 def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
-    """Vehicle and field of what the eccentric model needs and the vehicles do not have; a fixed body needs no position."""
+    """Vehicle and field of each input that the eccentric model needs and that is None; a fixed body needs no position."""
     found: list[tuple[str, str]] = []
     for label, body in (("a", a), ("b", b)):
         if type(body) is not Vehicle or _is_complete(body):
@@ -236,7 +236,7 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
 
 
 def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
-    """The refusals of what the eccentric model needs and was not given."""
+    """One error for each input that the eccentric model needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
     found: list[InputError] = []
@@ -253,7 +253,7 @@ def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
 
 
 def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:
-    """The refusals of pinned bodies, which the central models cannot hold."""
+    """One error for each pinned body, which the central models cannot represent."""
     return [
         InputError(
             f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
@@ -270,7 +270,7 @@ def _is_complete(body: Any) -> bool:
 
 
 def _beyond_a_turn(normal: Any) -> dict[str, Any]:
-    """A normal given without a unit as an angle of more than a turn, which may have been meant in degrees."""
+    """The ``given`` entry of a normal without a unit and beyond a full turn, where degrees may have been meant; else empty."""
     if isinstance(normal, tuple) or has_unit(normal):
         return {}
     radians: Any = np.array(normal.magnitude if is_quantity(normal) else normal, dtype=np.float64)
@@ -278,7 +278,7 @@ def _beyond_a_turn(normal: Any) -> dict[str, Any]:
 
 
 def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, Any]:
-    """Which of the ways to say what happens along the tangent was used, and its value."""
+    """The one tangential rule that was given (a friction bound, an impulse ratio or the like), and its value."""
     taken = dict(zip(RULES.values(), values, strict=False))
     given = [(rule, value) for rule, value in taken.items() if value is not None]
     if len(given) == 1:

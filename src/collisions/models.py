@@ -15,8 +15,8 @@ from .inputs import Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
-from .kernels.replay import printed
 from .kernels.status import Answer
+from .kernels.tracing import compile_for_floats
 from .reading import ArgumentReader, amount
 from .vehicle import Vehicle
 
@@ -114,7 +114,7 @@ _FROM_CONTACT_VELOCITY = BY_NAME | {
 @lru_cache(maxsize=64)
 def float_function(model: Model, settings: tuple[Any, ...]) -> Callable[[Inputs], Answer | None]:
     """The kernel of a model as a function of inputs that are plain floats; None for a case that it leaves to the kernel."""
-    return printed(model.kernel, model.takes, settings)
+    return compile_for_floats(model.kernel, model.takes, settings)
 
 
 def model_of(inputs: Inputs) -> Model:

@@ -156,9 +156,9 @@ def oblique_central(
     slip_sum = (
         select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
     )
-    mobility = normal * change_n + impulse_t * change_t if dissipates(rule, law) else 0.0
+    impulse_work = normal * change_n + impulse_t * change_t if dissipates(rule, law) else 0.0
     loss_n, loss_t, loss, gains = energy_losses(
-        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps
+        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, rule, law, eps
     )
 
     change_x = nx * change_n - ny * change_t

@@ -126,7 +126,7 @@ def energy_losses(
     slip_change: Any,
     normal: Any,
     tangential: Any,
-    mobility: Any,
+    impulse_work: Any,
     rule: str,
     law: str,
     eps: float,
@@ -135,14 +135,14 @@ def energy_losses(
 
     Kelvin's theorem, and for friction with a compression limit the form that cannot go negative. Differences of kinetic
     energies (eq 7 of the paper) lose every digit in a moving frame; these forms use only what happens at the contact, hold for
-    barriers and pivots and do not depend on the frame. ``mobility`` is P.K P, ``slip_change`` what the slip after differs by
-    from that of a sticking contact.
+    barriers and pivots and do not depend on the frame. ``impulse_work`` is P.K P, twice an energy, ``slip_change`` the
+    difference of the slip after from that of a sticking contact.
     """
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
     loss_t = 0.0 - 0.5 * tangential * slip_sum
     if dissipates(rule, law):
         # Every term is >= 0: the compression impulse's own work, and friction over the slip left at the end of compression.
-        loss = (0.5 * (1.0 - restitution) * mobility + abs(tangential * slip_change)) / (1.0 + restitution)
+        loss = (0.5 * (1.0 - restitution) * impulse_work + abs(tangential * slip_change)) / (1.0 + restitution)
         return loss_n, loss_t, loss, False
     loss = loss_n + loss_t
     rounding = -16.0 * eps * (loss_n + abs(tangential) * (abs(slip_before) + abs(slip_after)))

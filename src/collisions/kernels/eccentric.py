@@ -143,11 +143,11 @@ def eccentric(
     slip_sum = (
         select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
     )
-    mobility: Any = 0.0
+    impulse_work: Any = 0.0
     if dissipates(rule, law):
-        mobility = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
+        impulse_work = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
     loss_n, loss_t, loss, gains = energy_losses(
-        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, mobility, rule, law, eps
+        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, rule, law, eps
     )
 
     impulse_x = nx * normal - ny * impulse_t

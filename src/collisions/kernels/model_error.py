@@ -1,6 +1,7 @@
-"""What the central models err by, found from the impulse at the contact alone, without the rest of the eccentric answer.
+"""Predicts the error of each central model and picks the cheapest within the tolerance.
 
-An error is that of the delta-V vector and, times the radius of gyration, of the change of yaw rate: hypot of both, in m/s.
+Only the impulse at the contact is needed. The error, in m/s, is the hypot of the error of the delta-V vector and of the
+radius of gyration times the error of the change of yaw rate.
 """
 
 from collections.abc import Callable
@@ -12,10 +13,10 @@ from .contact_laws import CRITICAL_FRACTION
 from .eccentric import eccentric
 from .elementwise import larger, select
 
-# With ``impulse_only`` they answer with other things.
+# With ``impulse_only`` they return other values than an ``Answer``.
 _eccentric: Callable[..., tuple[Any, ...]] = eccentric
 _oblique: Callable[..., tuple[Any, ...]] = oblique_central
-# What a predicted error counts for, so that an answer stays within the tolerance where a prediction falls short.
+# Safety factor on a predicted error, so that the true error stays within the tolerance where the prediction is too small.
 _MARGIN = 1.15
 # A lever of so many eps of the coordinates may be rounding: of angles up to a turn, of what they were made from, and of slip.
 # But not more than this, in m: in float32 far from the origin it would take a real one for rounding.
@@ -24,7 +25,7 @@ LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
 class Known(NamedTuple):
-    """Whether the places of both bodies beside the contact are known, their yaw inertias, all that is needed, and any pivot."""
+    """What is known: positions of A and B relative to the contact, their yaw inertias, everything needed; and who is pinned."""
 
     places: tuple[bool, bool]
     inertias: tuple[bool, bool]
@@ -33,11 +34,11 @@ class Known(NamedTuple):
 
 
 def least_model(*given: Any) -> tuple[Any, Any, Any]:
-    """Which model is the least within the tolerance, by number, and what the linear and the oblique one err by.
+    """Number of the cheapest model within the tolerance, and the errors of the linear and the oblique model.
 
     Given are six numbers of the contact, nine of each body (those that are not known filled in so that they make no torque),
     the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless it is
-    known that the bodies do not approach; beside a pivot nothing else may be lacking.
+    known that the bodies do not approach; if either body has a pivot, every input is needed.
     """
     contact, bodies, tolerance = given[:6], (given[6:15], given[15:24]), given[24]
     rule, law, known, eps = given[25:]
@@ -73,9 +74,9 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
 def _errors(
     contact: tuple[Any, ...], bodies: tuple[Any, Any], rule: str, law: str, pinned: tuple[bool, bool], eps: float
 ) -> tuple[Any, Any, Any, tuple[Any, ...], Any]:
-    """What the linear and the oblique model err by for the worse of both bodies; closing speed; torques on A and B; impulse.
+    """Errors of the linear and the oblique model for the worse of both bodies; closing speed; torques on A and B; impulse.
 
-    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as beside a pivot. The
+    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as with a pivot. The
     torques are sizes, and so is the impulse: together with those of the impulse without slip where that decides the ratio.
     """
     answered, closing, (normal, tangential_impulse), no_slip, for_a, for_b = _eccentric(

@@ -17,7 +17,7 @@ from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Value
 from .common import ASK_ALONE, Cases, exactly, input_faults, read_amounts, read_masses
-from .crossings import RestitutionOf, crossings
+from .restitution_roots import RestitutionOf, crossings
 
 
 def inline_closing_speed(

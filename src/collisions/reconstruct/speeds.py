@@ -22,7 +22,7 @@ from ..units import Input, Pair
 from ..vehicle import Vehicle, moved
 from ..warning import warn
 from .common import ASK_ALONE, Cases, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
-from .crossings import RestitutionOf, crossings
+from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
 
 # A restitution above this loses next to nothing along the normal.

@@ -1,4 +1,4 @@
-"""The algebra behind ``speeds``: what would be observed at which speeds, and the speeds at which it would be.
+"""The algebra of ``speeds``: the observations as quadratic functions of both speeds (``Scene``), and the roots (``Root``).
 
 As long as the contact keeps sliding one way, or sticks, the impulse is linear in the two speeds, and what was observed of it
 quadratic. So in each regime the candidates are roots of a quadratic, read off the forward kernel at three places, polished on
@@ -38,7 +38,7 @@ _SQUARED = ("delta_v", "ees")
 
 
 class Root(NamedTuple):
-    """A candidate: both speeds, the restitution they go with, how well-posed they are, and the slope of each observation."""
+    """A candidate solution: both speeds, their restitution, how well-posed they are, and the slope of each observation."""
 
     speed_a: Any
     speed_b: Any
@@ -84,7 +84,7 @@ class Scene:
         return value / self.speed_unit if kind.startswith(("speed", "delta_v", "ees", "yaw_rate")) else value
 
     def _target(self, kind: str) -> Any:
-        """What was observed, in the form that is quadratic in the speeds."""
+        """The observed value in the form that is quadratic in the speeds."""
         value = self.numbers[kind]
         if kind.startswith("delta_v"):
             return (self.numbers[f"{kind[-1]}.mass"] * value) ** 2
@@ -97,7 +97,7 @@ class Scene:
         return self.rule == CRITICAL_FRACTION and bool(np.any((self.bound > 0.0) & (self.bound < 1.0)))
 
     def regimes(self) -> list[Any]:
-        """Impulse ratios, or sticking, that the contact may turn out to have."""
+        """The impulse ratios, or sticking, that have to be tried."""
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
@@ -116,7 +116,7 @@ class Scene:
         return forward(e, *place, *bodies, rule, self.law, False, False)
 
     def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
-        """What would be observed at these speeds if the contact were in this regime; times its weight, a polynomial of them."""
+        """The observations at these speeds if the contact is in this regime; times its weight, a polynomial of them."""
         if not isinstance(regime, str):
             return {"weight": 1.0, **self._seen(self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime), speed_a, speed_b, e)}
         raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
@@ -132,7 +132,7 @@ class Scene:
         return {"weight": 1.0, **self._seen(raw, speed_a, speed_b, e)}
 
     def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
-        """The status under the law that was given, and what would be observed."""
+        """Status and observations at these speeds under the given law."""
         raw = self.run(speed_a, speed_b, e, self.rule, self.bound)
         return raw.status, self._seen(raw, speed_a, speed_b, e)
 
@@ -157,7 +157,7 @@ class Scene:
         }
 
     def speeds_at(self, closing: Any, slip: Any) -> tuple[Any, Any]:
-        """The speeds along the courses that bring the contact points together like this; NaN for parallel courses."""
+        """The speeds along the courses that give this closing speed and slip; NaN for parallel courses."""
         (ga, gb), (sa, sb) = self.per_speed["closing"], self.per_speed["slip"]
         crossed = ga * sb - gb * sa
         crossed = np.where(abs(crossed) <= 64.0 * EPS * (np.hypot(ga, sa) * np.hypot(gb, sb)), np.nan, crossed)
@@ -165,7 +165,7 @@ class Scene:
         return (g * sb - s * gb) / crossed, (s * ga - g * sa) / crossed
 
     def roots(self, e: Any = None, polish: int = _NEWTON_STEPS, slope: Callable[[Any], Any] | None = None) -> list[Root]:
-        """All candidates of every regime, whether the law leads from them to what was observed or not.
+        """All candidates of every regime, before ``fits`` checks them against the law.
 
         ``slope`` is the change of restitution with the closing speed, where there is one.
         """
@@ -286,7 +286,10 @@ class Scene:
         return Root(speed_a, speed_b, e, condition, slopes)
 
     def _off(self, seen: dict[str, Any], here: dict[str, Any]) -> Any:
-        """The larger part by which what is observed is off what was: for a loss, of the energy that it is what is left of."""
+        """Largest relative residual of both observations.
+
+        An energy loss is measured against closing speed times normal impulse.
+        """
         whole = abs(here["closing"] * here["normal"])
         sizes = [abs(here[k]) + abs(self.targets[k]) + (whole if k == "energy_loss" else 0.0) for k in self.kinds]
         return np.fmax(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))

@@ -1,4 +1,4 @@
-"""A number that depends on the answer it leads to: found where the two agree."""
+"""Finds the restitution when it is a function of the closing speed: roots on a grid of e, then narrowed."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ..errors import InputError
 from ..units import shown
 from .common import Cases
 
-# Where a restitution that depends on the answer is looked for.
+# The restitutions at which the search begins.
 _GRID = np.linspace(0.0, 1.0, 129)
 _PIECES = 16
-# Sixteenths of a grid cell until they are rounding.
+# Repeated subdivisions of a grid cell until its pieces are as small as rounding.
 _ROUNDS = 13
-# A jump changes sign as well; at a root what is left is rounding.
+# Largest mismatch at a root: a jump changes sign as well, but leaves a large mismatch.
 _ROOT = 1e-6
-# Part of the closing speed over which the slope is taken: exact to 1e-8 for what bends over some metres per second.
+# Relative step for the slope: accurate to 1e-8 for functions that vary over some metres per second.
 _STEP = 1e-4
 
 _Mismatch = Callable[[Any], Sequence[Any]]
@@ -57,7 +57,7 @@ def crossings(mismatch: _Mismatch) -> list[tuple[int, float]]:
 
 
 class _Brackets(NamedTuple):
-    """Row and two places, for each of several."""
+    """Intervals of restitution: for each its row and both ends."""
 
     row: Any
     low: Any
@@ -65,7 +65,7 @@ class _Brackets(NamedTuple):
 
 
 def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any, Any]:
-    """The ends of so many pieces of each bracket, and the mismatch of its row there."""
+    """Split each bracket into ``pieces``; gives the end points, and the mismatch of the bracket's row at them."""
     row, low, high = (part[:, np.newaxis] for part in brackets)
     places = np.append(low + (high - low) * (np.arange(pieces) / pieces), high, axis=1)
     if not places.size:
@@ -75,7 +75,7 @@ def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any
 
 
 def _narrowed(mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int) -> _Brackets:
-    """The brackets cut down, again and again, to so many pieces from the one that is chosen by the mismatch at their ends."""
+    """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one that ``first_piece`` chooses."""
     row, low, high = brackets
     for _ in range(_ROUNDS):
         places, values = _sampled(mismatch, _Brackets(row, low, high), _PIECES)
@@ -110,10 +110,10 @@ class RestitutionOf:
         return np.array([self._one(float(speed)) for speed in closing])
 
     def slope(self, closing: float) -> float:
-        """Change of restitution per closing speed there, to one side where the function ends; NaN where it has no value."""
+        """Derivative of the restitution by closing speed, one-sided where the function ends; NaN where it has no value."""
         places, refused = closing * np.array([1.0 - _STEP, 1.0, 1.0 + _STEP]), self.refused
         values = self(places)
-        # Beside the answer the function need not hold.
+        # The function need not have a value on both sides of the answer.
         self.refused = refused
         known = np.isfinite(values)
         if np.count_nonzero(known) < 2:
@@ -136,7 +136,7 @@ class RestitutionOf:
         return e
 
     def complain(self) -> None:
-        """Refuses a function that had no value where one was needed."""
+        """Raise if the function had no value where one was needed."""
         if self.refused:
             raise InputError(
                 f"{self.refused}: the function takes closing speeds in m/s, and must hold where the answer lies",

@@ -1,7 +1,7 @@
-"""A kernel recorded once: then repeated on block after block in the same few buffers, or printed as a function of floats.
+"""Traces a kernel once into a list of numpy steps; runs them without temporaries on blocks, or compiles them to Python source.
 
-The kernel is called with operands that note what is done to them. Of what it did, nothing is worked out twice, and nothing that
-no output needs. The steps are those of the kernel itself, so the bits are too.
+``record`` calls the kernel with operands that note each operation. Common subexpressions are computed once, and steps that no
+output needs are dropped. The operations are those of the kernel itself, so the results agree with it to the bit.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .status import Answer, Status
 _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
 _CODE = np.dtype(np.uint8)
 _PAGE = 4096
-# How a step is written for floats.
+# How ``compile_for_floats`` writes each operation as Python source.
 _WRITTEN: dict[Any, str] = {
     np.add: "({} + {})",
     np.subtract: "({} - {})",
@@ -46,9 +46,9 @@ Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
 class Step(NamedTuple):
-    """One value of a kernel: the function that makes it, of which values, and one element of it, which has its type.
+    """One step: the function, the numbers of the steps it reads, and a one-element sample of its result (which has its dtype).
 
-    Without a function it is an input, and the operand is its place among them, or a constant, which has no operand.
+    A step without a function is an input, whose one operand is its position among the inputs, or a constant, without operands.
     """
 
     function: Callable[..., Any] | None
@@ -57,7 +57,7 @@ class Step(NamedTuple):
 
 
 class Traced(NDArrayOperatorsMixin):
-    """A value of the kernel, by the number of its step."""
+    """An operand during tracing: stands for the result of one step, and records what is done to it."""
 
     def __init__(self, tape: Tape, index: int, sample: Any) -> None:
         self.tape = tape
@@ -75,14 +75,14 @@ class Traced(NDArrayOperatorsMixin):
 
 
 class Tape:
-    """What a kernel did, step by step."""
+    """The steps of a kernel in the order it made them."""
 
     def __init__(self) -> None:
         self.steps: list[Step] = []
         self.known: dict[Any, Traced] = {}
 
     def add(self, function: Any, operands: tuple[int, ...], sample: Any, key: Any = None) -> Traced:
-        """The value of a step, which is the one noted before if it was made before."""
+        """Add a step, unless an identical one exists; gives the operand for its result."""
         key = key or (function, operands, sample.dtype)
         if key not in self.known:
             self.known[key] = Traced(self, len(self.steps), sample)
@@ -94,7 +94,7 @@ class Tape:
         return self.add(None, (which,), np.ones(1, dtype))
 
     def operand(self, value: Any, dtype: Any = None) -> Traced:
-        """A value of the kernel, or a plain number, which is noted as it is unless a type is asked for."""
+        """The operand for a traced value or a plain number, cast to ``dtype`` if one is given."""
         if isinstance(value, Traced):
             same = dtype is None or dtype == value.sample.dtype
             return value if same else self.add(_cast, (value.index,), value.sample.astype(dtype))
@@ -103,7 +103,7 @@ class Tape:
         return self.add(None, (), number, ("number", type(number), array.dtype, array.tobytes()))
 
     def call(self, function: Callable[..., Any], *values: Any) -> Traced:
-        """What numpy does for an operator or a ufunc."""
+        """The step for an operator or a ufunc."""
         kinds = {value.sample.dtype for value in values if isinstance(value, Traced)}
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":
@@ -129,7 +129,7 @@ class Tape:
         return self.add(_label if codes else _pick, tuple(one.index for one in operands), np.zeros(1, dtype))
 
     def fine(self, status: int) -> int | None:
-        """The condition on which the status is 0 without more ado, if the kernel ends by choosing so."""
+        """The operand `fine` of the final select(fine, OK, ...); None if the kernel does not end with that select."""
         function, operands, _ = self.steps[status]
         if function not in (_label, np.where) or self.steps[operands[1]].sample != Status.OK:
             return None
@@ -137,7 +137,7 @@ class Tape:
 
 
 class _FloatTape(Tape):
-    """A tape whose choices stay choices."""
+    """A tape for single cases, which keeps ``np.where`` as it is: it becomes an ``if`` expression."""
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         operands = [self.operand(value) for value in (condition, yes, no)]
@@ -145,10 +145,10 @@ class _FloatTape(Tape):
 
 
 class Program(NamedTuple):
-    """Calls in order, each a function and what picks the arrays that it reads and, last, writes.
+    """Calls in order, each a function and an itemgetter of the arrays that it reads and, last, the one that it writes.
 
-    The arrays are inputs, outputs, constants, and buffers of these types. The late calls only find out the status, and are left
-    out of a block where all cases are fine.
+    The arrays are inputs, outputs, constants and buffers. The late calls only serve to compute the status, and are skipped for
+    a block in which all cases are fine.
     """
 
     calls: tuple[Call, ...]
@@ -166,9 +166,9 @@ def record(
     dtype: Any,
     outputs: tuple[Any, ...],
 ) -> Program:
-    """The program of a kernel for inputs that are arrays of a type (None) or plain numbers (as ``float.hex`` has them).
+    """Trace a kernel whose inputs are arrays of ``dtype`` (None in ``inputs``) or plain numbers (as ``float.hex`` texts).
 
-    ``outputs`` are the types to write, None for what is not wanted; the first one is.
+    ``outputs`` has the dtype of each output, None for one that is not wanted; the first, the status, always is.
     """
     tape = Tape()
     operands = [tape.input(at, dtype) if text is None else float.fromhex(text) for at, text in enumerate(inputs)]
@@ -186,7 +186,7 @@ def record(
 
 
 def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
-    """All steps that are made for these, themselves included."""
+    """The computed steps that these depend on, themselves included."""
     needed = set(wanted)
     for index in range(len(steps) - 1, -1, -1):
         if index in needed and steps[index].function is not None:
@@ -195,14 +195,14 @@ def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
 
 
 class _Room(NamedTuple):
-    """Memory for a value between: a buffer, or an output up to the step that writes it."""
+    """Memory for an intermediate result: a buffer, or an output array until the step that writes the output."""
 
     until: float
     place: int
 
 
 def _placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Program:
-    """The steps that an output needs, and for every value between a room, which is free again after its last use."""
+    """Drop unused steps and assign buffers by last use."""
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
     fine = tape.fine(status)
@@ -210,13 +210,13 @@ def _placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> P
     order = [*sorted(early), *sorted(_needs(steps, set(written)) - early)]
     last = {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
     constants = [index for index in sorted(last) if steps[index].function is None and not steps[index].operands]
-    # Where each value is found among inputs, outputs, constants and buffers.
+    # Where each result is found among inputs, outputs, constants and buffers.
     places = {index: steps[index].operands[0] for index in last if steps[index].function is None and steps[index].operands}
     places |= {index: inputs + which for index, which in written.items()}
     places |= {index: inputs + outputs + at for at, index in enumerate(constants)}
     rooms: dict[int, _Room] = {}
     free: dict[Any, list[_Room]] = defaultdict(list)
-    # A ufunc may write over what it reads; what takes two steps may not.
+    # A ufunc may write its result over an operand; the helpers below that take two numpy calls may not.
     in_place = [isinstance(steps[index].function, np.ufunc) for index in order]
     for at, index in enumerate(order):
         if index in written and index != status:
@@ -247,7 +247,7 @@ def _placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> P
 
 
 def aligned(length: int, dtype: Any) -> Any:
-    """An empty array that begins on a page: numpy's own begin where a step over it costs up to twice as much."""
+    """An empty array aligned to a memory page; numpy's own alignment can make a step over it take up to twice as long."""
     dtype = np.dtype(dtype)
     whole = np.empty(length * dtype.itemsize + _PAGE, dtype=_CODE)
     start = -whole.ctypes.data % _PAGE
@@ -255,7 +255,7 @@ def aligned(length: int, dtype: Any) -> Any:
 
 
 class Replay:
-    """A program with buffers of its own for blocks of a length: one for each thread."""
+    """A program with its own buffers for blocks of one length: one per thread."""
 
     def __init__(self, program: Program, length: int) -> None:
         self.program = program
@@ -263,7 +263,7 @@ class Replay:
         self.buffers = [aligned(length, dtype) for dtype in program.buffers]
 
     def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
-        """Work out one block: the inputs, arrays cut to it, and slices of the outputs to write to."""
+        """Run one block: the inputs, with arrays cut to the block, and slices of the outputs to write to."""
         length = len(outputs[0])
         buffers = self.buffers if length == self.length else [buffer[:length] for buffer in self.buffers]
         arrays = [*inputs, *outputs, *self.program.constants, *buffers]
@@ -299,10 +299,12 @@ def _pick(mask: Any, yes: Any, no: Any, out: Any) -> None:
     np.bitwise_xor(bits, other, bits)
 
 
-def printed(kernel: Callable[..., Answer], takes: tuple[str, ...], settings: tuple[Any, ...]) -> Callable[[Any], Answer | None]:
-    """A kernel with these settings as one plain function, which reads its numbers where ``takes`` says.
+def compile_for_floats(
+    kernel: Callable[..., Answer], takes: tuple[str, ...], settings: tuple[Any, ...]
+) -> Callable[[Any], Answer | None]:
+    """A kernel with these settings compiled to one plain function, which reads its numbers at the paths in ``takes``.
 
-    It answers the cases in which nothing is unusual; for any other it gives None, and the kernel itself decides.
+    It answers only cases whose status is plainly OK; for any other it returns None, and the caller runs the kernel itself.
     """
     tape = _FloatTape()
     with np.errstate(all="ignore"):
