@@ -1,4 +1,4 @@
-"""The three models of an impact: what each needs, what it cannot hold, and the numbers that its kernel works with."""
+"""The table of the three impact models (``MODELS``): the kernel of each, its inputs and settings, and its assumptions."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class Model:
     kernel : callable
         Its formulas.
     takes : tuple of str
-        The inputs that the kernel is called with, as they are reached from ``Inputs``.
+        Paths into ``Inputs`` of the kernel's arguments, in their order, such as "restitution" or "a.mass".
     settings : callable
-        What follows, none of it a number, from the inputs and whether motion that the model cannot hold is carried through, as
+        The kernel's options (rule, law, flags), from the inputs and whether motion outside the model is carried through, as
         ``solve`` does, or refused.
     assumptions : str
         As a report says them.
@@ -113,12 +113,12 @@ _FROM_CONTACT_VELOCITY = BY_NAME | {
 
 @lru_cache(maxsize=64)
 def float_function(model: Model, settings: tuple[Any, ...]) -> Callable[[Inputs], Answer | None]:
-    """The kernel of a model as a function of inputs that are plain floats; None for a case that it leaves to the kernel."""
+    """The kernel of a model compiled for plain floats; it returns None where the kernel itself has to decide."""
     return compile_for_floats(model.kernel, model.takes, settings)
 
 
 def model_of(inputs: Inputs) -> Model:
-    """The model that the inputs name; where a reverse solver found the contact velocity, the one that starts from it."""
+    """The model that the inputs name; in the form that starts from the contact velocity where a reverse solver found it."""
     return (BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY)[inputs.model]
 
 
@@ -133,7 +133,7 @@ def read(
     law: Any,
     tolerance: Any = None,
 ) -> tuple[Inputs, bool]:
-    """The arguments of a solver as its inputs, those of ``solve`` with their tolerance; see ``read_inputs``."""
+    """Read a solver's arguments, for ``solve`` with the tolerance; see ``read_inputs``."""
     reader = ArgumentReader()
     limit = _read_tolerance(reader, tolerance) if model == "solve" else None
     inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
@@ -141,7 +141,7 @@ def read(
 
 
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
-    """Inputs of which any may be as a caller gives them, read as a caller's arguments are.
+    """Inputs with changed values, which may be of any form a caller may give; read again like a caller's arguments.
 
     Those that a reverse solver ``found`` may have a restitution of NaN, for which it looked in vain.
     """
@@ -159,7 +159,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
 
 
 def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
-    """The tolerance of ``solve``; of an array the first that would be refused by itself is."""
+    """The tolerance of ``solve``; for an array, the error names the first element that a single call would refuse."""
     limit = amount(reader, tolerance, "m/s", "tolerance")
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
         at = tuple(int(i) for i in np.argwhere(~np.isfinite(limit) | (limit < 0.0))[0])

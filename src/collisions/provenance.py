@@ -1,4 +1,4 @@
-"""Where an impact comes from: the reverse solver that found it, and how firmly."""
+"""``Reconstruction``: which reverse solver found an impact, from what, and how well-conditioned that was."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Reconstruction:
     method : str
         Function of ``collisions.reconstruct``.
     known : tuple of str
-        What it was given beside masses and geometry.
+        What it was given in addition to masses and geometry.
     condition : float or array [1]
         How well-posed the question was: by how much relative errors of what was given may be larger in the speeds before the
         impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out what is not known
@@ -48,7 +48,7 @@ class Reconstruction:
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
-    """The same without what does not belong to a refused case: how well-posed it was, and how many fit but several."""
+    """The same with NaN condition and no count of answers in refused cases; a refusal for several answers keeps its count."""
     refused = status > Status.ENERGY_GAIN
     if not np.any(refused):
         return origin
@@ -59,5 +59,5 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
 
 
 def how_many(answers: float) -> str:
-    """How many impacts fit, as a sentence says it."""
+    """"3 impacts" or "a whole range of impacts", for a sentence."""
     return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"

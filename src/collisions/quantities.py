@@ -1,4 +1,4 @@
-"""Attributes that know their unit: how they are declared, read as Quantities, and shown."""
+"""``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity, ``show`` writes it with the unit."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from .units import Value, to_quantity
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
-# Declares that the unit is the ``unit`` of the object itself, known only when it is made.
+# A declared unit that stands for the ``unit`` of the object itself, known only when the object is made.
 OWN = "own"
 
 
 class Derived(Generic[T]):
-    """A read-only attribute with its unit, worked out at its first use.
+    """A read-only attribute with its unit, computed at first use and cached.
 
     An owner with a ``__dict__`` keeps it there, where Python finds it first from then on; it refuses by itself to be set.
     """
@@ -56,7 +56,7 @@ class Derived(Generic[T]):
 
 
 class Frozen:
-    """Base of answers that cannot be changed."""
+    """Base of results that cannot be changed."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
@@ -66,12 +66,12 @@ class Frozen:
 
 
 def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:
-    """Declares an attribute that is worked out, in the given SI unit."""
+    """Declare a computed attribute with its SI unit."""
     return partial(Derived, unit)
 
 
 def returns(unit: str) -> Callable[[F], F]:
-    """Declares the SI unit of what a method returns."""
+    """Declare the SI unit of a method's return value."""
 
     def declare(method: F) -> F:
         vars(method)["unit"] = unit
@@ -81,7 +81,7 @@ def returns(unit: str) -> Callable[[F], F]:
 
 
 def unit_of(kind: type[Any], name: str) -> str | None:
-    """The SI unit an attribute is declared with, None for names, labels and other objects."""
+    """The declared SI unit of an attribute; None for names, labels and other objects."""
     declared = getattr(kind, "__dataclass_fields__", {}).get(name)
     if declared is not None:
         unit: str | None = declared.metadata.get("unit")
@@ -91,13 +91,13 @@ def unit_of(kind: type[Any], name: str) -> str | None:
 
 
 class NoQuantityError(MissingInputError, AttributeError):
-    """An attribute is None for want of an input. Also an AttributeError, so that ``hasattr`` and completion pass over it."""
+    """An attribute is None as an input is missing. Also an AttributeError, so that ``hasattr`` and completion pass over it."""
 
     name: Any = None  # Python would suggest another attribute.
 
 
 class Quantities:
-    """The same attributes as the owner's, and what its methods return, with their units.
+    """The owner's attributes and the results of its methods as Quantities.
 
     An owner that knows of an attribute which input it wants, where it is None, says so by ``_missing(name)``.
     """
@@ -136,7 +136,7 @@ class Quantities:
 
 
 def lock(value: Any) -> Any:
-    """The value, its arrays (also those of a tuple or a dict) made read-only."""
+    """The value with its arrays made read-only, also those in a tuple or a dict."""
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif isinstance(value, (tuple, dict)):
@@ -146,17 +146,17 @@ def lock(value: Any) -> Any:
 
 
 def attributes(kind: type[Any]) -> list[str]:
-    """Names of the worked-out attributes, in the order of their definition."""
+    """Names of the derived attributes, in the order of their definition."""
     return [name for name, member in vars(kind).items() if isinstance(member, Derived)]
 
 
 def numeric(*values: Any) -> Any:
-    """The library whose functions suit these values: numpy as soon as one is an array."""
+    """``numpy`` if any of these values is an array, else ``math``."""
     return np if any(isinstance(value, np.ndarray) for value in values) else math
 
 
 def hypot(x: Value, y: Value) -> Value:
-    """Length of a vector, without the squares that overflow."""
+    """Length of a vector, without squares that may overflow."""
     length: Value = numeric(x, y).hypot(x, y)
     return length
 
@@ -210,7 +210,7 @@ def table(title: str, rows: Iterator[tuple[str, str]]) -> str:
 
 
 class Shown:
-    """Base of dataclasses that answer: with units as a text, as a table and as Quantities; arrays stay locked in a pickle."""
+    """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay locked when unpickled."""
 
     __slots__ = ()
 
@@ -244,5 +244,5 @@ class Shown:
 
 
 def _restored(kind: type[Any], values: dict[str, Any]) -> Any:
-    """An unpickled answer; arrays come out of a pickle unlocked."""
+    """An unpickled result; pickle restores arrays writable, so they are locked again."""
     return kind(**lock(values))

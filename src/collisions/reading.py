@@ -105,12 +105,12 @@ class ArgumentReader:
 
 
 def is_whole(value: Any) -> bool:
-    """Whether this is a whole number; a truth is none, nor is a time, which numpy counts among its integers."""
+    """Whether this is an integer; a bool does not count, nor does a timedelta, which numpy counts among its integers."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
 def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
-    """The shape the arrays among these go together to; None without any. ShapeError names them all."""
+    """The common shape of the arrays among these values; None without any. ShapeError names them all."""
     shapes = {name: value.shape for name, value in values.items() if isinstance(value, np.ndarray)}
     if not shapes:
         return None
@@ -122,7 +122,7 @@ def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
 
 
 def widened(parts: Collection[Any], beside: Iterable[Any] = ()) -> Any:
-    """The parts, arrays of float32 among them in float64 if the question that all the numbers belong to is answered in it."""
+    """The parts; float32 arrays are widened if any number in ``parts`` or ``beside`` needs float64."""
     for part in parts:
         if isinstance(part, np.ndarray) and part.dtype == np.float32:
             break
@@ -160,7 +160,7 @@ def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: s
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
-    """The value in the unit, and how it was written if it was with one."""
+    """The value in the unit, and the text it was given as if it had a unit."""
     if type(value) is float:
         return value, ""
     if isinstance(value, str):
@@ -172,7 +172,7 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
 
 
 def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
-    """The magnitude in the unit, and the quantity as a text."""
+    """The magnitude in the unit, and the quantity written as a text."""
     number = _plain(magnitude(quantity), argument, unit)
     by, name = factor(quantity, unit, argument, given)
     text = f"{number!r} {name}" if name and isinstance(number, float) else ""
@@ -283,7 +283,7 @@ def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
 
 
 def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputError | None:
-    """The refusal of a scalar outside its domain, if it is."""
+    """InputError for a scalar outside its domain, else None."""
     if math.isnan(value) and (domain is POSITIVE or domain is FINITE):
         return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
     if domain is POSITIVE and not value > 0.0:
@@ -330,12 +330,12 @@ _CODES = {"m/s": "negative_speed", "J": "negative_energy", "m": "negative_length
 
 
 def amount(reader: ArgumentReader, value: Any, unit: str, name: str, hint: str = "give the magnitude") -> Any:
-    """A number read through the reader; of arrays the solvers look at every case themselves."""
+    """A number read through the reader; the elements of an array are checked later, by the solvers."""
     return at_least_zero(reader, reader.number(value, unit, name), value, name, _CODES[unit], hint)
 
 
 def at_least_zero(reader: ArgumentReader, read: Any, given: Any, name: str, code: str, hint: str) -> Any:
-    """A number that was read, refused if it is a single one below zero."""
+    """A number that was read; refused if it is a single number below zero."""
     if isinstance(read, float) and read < 0.0:
         return reader.refuse(InputError(f"{name} must be >= 0, got {shown(given)}; {hint}", code=code, argument=name))
     return read
@@ -354,7 +354,7 @@ def need_one_case(
     many: str = "",
     refused: Callable[..., CollisionsError] = _refused,
 ) -> None:
-    """Refuses an argument ``impact`` that is not one answer of these kinds.
+    """Raise unless the argument ``impact`` is a single result of one of these types.
 
     ``function`` is what was called, as it is written. ``instead`` and ``many`` are what else may be done with another thing and
     with a batch; ``refused`` makes the error of a refused case from its status, a text and fields.

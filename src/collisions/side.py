@@ -1,4 +1,4 @@
-"""Side: what one of the two vehicles had of an impact."""
+"""Side: one vehicle's share of an impact: states before and after, delta-V, PDOF, impulses and work."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ class Side(Frozen):
         return (x, y) if self._index else (-x, -y)
 
     def _at_contact(self) -> tuple[Value, Value, Value, Value]:
-        """Velocity before, and its change, of what the impulse acts on: the contact point, in a central model the centre."""
+        """Velocity before, and its change, of the contact point; in a central model of the centre of mass."""
         before, place = self.before, self._inputs.point
         motion = before.vx, before.vy, self.delta_vx, self.delta_vy
         # ``solve`` keeps the point it was given, also where it took a central model; cases that it refused may lack a position.

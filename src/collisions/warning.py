@@ -1,4 +1,4 @@
-"""Warnings, given to the first caller outside this package; those about cases silent for whoever counts the cases."""
+"""``warn`` attributes a warning to the caller's own line; ``quietly`` silences warnings about refused cases."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
 
 def warn(warning: CollisionsWarning) -> None:
-    """Warn the first caller outside this package."""
+    """Warn at the line of the first caller outside this package."""
     warnings.warn(warning, stacklevel=callers_level())
 
 
 def warn_of_cases(warning: CollisionsWarning) -> None:
-    """The same of refused cases and energy gains, unless somebody counts them."""
+    """Warn of refused cases or energy gains, unless within ``quietly``."""
     if not _quiet.get():
         warn(warning)
 
 
 @contextmanager
 def quietly() -> Iterator[None]:
-    """While this lasts, and only for the thread it is in, nothing is said of refused cases and energy gains."""
+    """Within this context, in this thread only, ``warn_of_cases`` is silent."""
     token = _quiet.set(True)
     try:
         yield
@@ -36,7 +36,7 @@ def quietly() -> Iterator[None]:
 
 
 def callers_level() -> int:
-    """The stack level of the first caller outside this package, where a warning belongs."""
+    """The ``stacklevel`` of the first caller outside this package, where a warning belongs."""
     level = 1
     frame: Any = sys._getframe(1)
     package = __name__.partition(".")[0]

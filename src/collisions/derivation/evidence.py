@@ -1,4 +1,4 @@
-"""The derivations that need no impact model: planar momentum, and a fit to evidence."""
+"""``momentum`` and ``fit``: derivations of a planar-momentum result and of a fit to evidence, which need no impact model."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _ANGLE_TOL = 1e-9 * math.tau  # rounding of a difference of angles; the short wa
 
 
 class _Momenta:
-    """Planar momentum with the symbols of masses, speeds and courses; what rests has no course."""
+    """Symbols and momentum terms of planar momentum: masses, speeds and courses; a vehicle at rest has no course."""
 
     def __init__(self, solution: MomentumSolution) -> None:
         self.solution = solution
@@ -56,7 +56,7 @@ class _Momenta:
 
 
 def momentum_inputs(solution: MomentumSolution) -> Iterator[tuple[str, str, str, float, str]]:
-    """What was given: of what, in words, by which argument, its number and its kind."""
+    """The rows of given inputs: vehicle, description, argument, number and kind."""
     for label in "ab":
         yield label.upper(), "mass", f"mass_{label}", getattr(solution, f"mass_{label}"), "mass"
     shared = "speed_a_after" in solution.unknowns and _together(solution)
@@ -130,7 +130,7 @@ def _balance(page: Page, m: _Momenta, axis: str, function: str) -> None:
 
 
 def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
-    """One of both speeds, by the balance counted across the course of the other."""
+    """One of the two speeds, from momentum across the course of the other."""
     mass: Expression = m.mass[name[6]]
     own, when = [name], _when(name)
     if when == "after" and _together(m.solution):
@@ -196,7 +196,7 @@ def _is_known(value: float | None) -> bool:
 
 
 def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
-    """The rows of what came out."""
+    """The rows of results."""
     for name, (of, what, kind) in _ANSWERS.items():
         value = getattr(solution, name)
         if _is_known(value) and (name in solution.unknowns or name not in _SPEEDS):
@@ -204,7 +204,7 @@ def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[s
 
 
 def fit(page: Page, found: Fit) -> None:
-    """How far each observation is from what the model computes, and what that says of the unknowns."""
+    """Residual of each observation, and what the observations determine of the unknowns."""
     page.heading("Given")
     page.table(_given(page, found))
     page.say(
@@ -269,7 +269,7 @@ def _residual(page: Page, found: Fit, number: int, name: str) -> Symbol:
 
 
 def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]]:
-    """What is known of one unknown: estimate, range, what its error comes of, and its correlations."""
+    """Estimate, range, sources of error and correlations of one unknown."""
     one, at = found[name], found.names.index(name)
     of = page.name(name)
     if not one.determined:
@@ -291,7 +291,7 @@ def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]
 
 
 def _number(page: Page, value: float, unit: str, deviation: float | None = None) -> str:
-    """A number of the working or, with its standard error, an answer; a unit of no known kind stays."""
+    """A number of the working or, with its standard error, of a result; a unit of unknown kind is kept."""
     kind = KIND_OF.get(unit, "number")
     text = page.number(value, kind) if deviation is None else page.system.answer(value, kind, deviation)
     return text if unit in KIND_OF else f"{text} {unit}".rstrip()

@@ -1,4 +1,4 @@
-"""A case to diagnose: an answer, what was given about it, other answers to compare it with, and how sentences write numbers."""
+"""A case to diagnose: the result, the evidence given with it, other results to compare it with, and number formatting."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ _ENERGY_FIGURES = 4
 
 
 class Damage(NamedTuple):
-    """What the damage of a vehicle shows, apart from the answer."""
+    """The PDOF and delta-V that a vehicle's damage shows, independently of the result."""
 
     pdof: float | None
     delta_v: float | None
 
 
 class VehicleResult(NamedTuple):
-    """What every answer has of a vehicle, with its name in a sentence; mass and speed are those before."""
+    """The quantities that every result has for a vehicle, and its name in a sentence; mass and speed are those before."""
 
     who: str
     mass: float
@@ -49,7 +49,7 @@ class VehicleResult(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Case:
-    """One answer that is examined, with what was given about it; sentences are in ``units``."""
+    """One result to examine, with the evidence given with it; sentences are in ``units``."""
 
     damage: dict[str, Damage]
     crush_energy: float | None
@@ -72,7 +72,7 @@ class _Case:
 
 @cache
 def _format(kind: str, units: str) -> tuple[float, int | None, str]:
-    """Scale, decimals and unit of a kind; of an angle one decimal more than an answer has, as it stands beside a limit."""
+    """Scale, decimals and unit of a kind; angles get one decimal more than in a result, because they stand next to a limit."""
     decimals = decimals_of(kind, units)
     more = int(kind == "angle")
     unit = unit_of(kind, units).replace("deg", "degrees").replace("*", " ")
@@ -97,7 +97,7 @@ class MomentumCase(_Case):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ImpactCase(_Case):
-    """An impact with outlines by vehicle label and what the impulse leaves out, and what several findings compare it with."""
+    """An impact with outlines by vehicle label, what the impulse leaves out, and the results it is compared with."""
 
     answer: Impact
     outlines: dict[str, Any]
@@ -130,7 +130,7 @@ class ImpactCase(_Case):
 
     @cached_property
     def model_choice(self) -> tuple[ModelChoice, str]:
-        """What the central models err by, and which contact point was taken where there is none."""
+        """The errors of the central models, and the contact point assumed if none was given."""
         impact, inputs, a, b = self.answer, self.answer.inputs, self.answer.a.before, self.answer.b.before
         point: Any = impact.point
         how = ""
@@ -143,7 +143,7 @@ class ImpactCase(_Case):
 
     @cached_property
     def other_laws(self) -> list[tuple[str, Impact]]:
-        """The answers under every other law, each with how it came about."""
+        """The results under every other law, each with a description."""
         impact = self.answer
         if impact.law is None or impact.model == "linear_central":
             return []
@@ -152,7 +152,7 @@ class ImpactCase(_Case):
 
     @cached_property
     def turned_normals(self) -> list[tuple[str, Impact]]:
-        """The answers with the normal turned either way, each with how it came about."""
+        """The results with the normal turned either way, each with a description."""
         if self.answer.inputs.model == "linear_central":
             return []
         nx, ny = self.answer.normal
@@ -168,7 +168,7 @@ Case: TypeAlias = ImpactCase | MomentumCase
 
 
 def percent(share: float, decimals: int = 0) -> str:
-    """A share; of nothing everything is an infinite one."""
+    """A share in percent; infinite for a share of zero."""
     return in_percent(share, decimals) if math.isfinite(share) else f"a share that is {in_words(share)}"
 
 
@@ -178,19 +178,19 @@ def plain(value: float) -> str:
 
 
 def share(part: float, whole: float) -> float:
-    """The quotient; infinite where there is nothing to compare with, or no number to compare."""
+    """The quotient; infinite where the divisor is 0 or either is not a number."""
     if part == 0.0:
         return 0.0
     return part / whole if whole > 0.0 and math.isfinite(part) else math.inf
 
 
 def off_by(*sizes: float) -> float:
-    """What a few sums and differences of numbers of these sizes may be off by: 16 eps of all of them together."""
+    """Rounding bound of a few sums and differences of numbers of these sizes: 16 eps of all of them together."""
     return 16.0 * EPS * sum(map(abs, sizes))
 
 
 def outline_off_by(outline: Any, vehicle: Vehicle, after: float = 0.0) -> float:
-    """What the corners may be off by where they were placed; a heading is known to eps of itself."""
+    """Rounding bound of the placed corners; a heading is known to a relative eps."""
     x, y, heading = (getattr(vehicle, name) for name in ("x", "y", "heading"))
     turned = float(np.max(np.abs(outline))) * (1.0 + abs(heading) + abs(vehicle.yaw_rate * after))
     return off_by(x, y, vehicle.speed * after, turned)

@@ -81,7 +81,7 @@ def _has_infinite_energy(side: Side) -> bool:
 
 
 def _energy(side: Side, after: bool) -> float:
-    """Kinetic energy before or after; that of a yaw rate which does not change is left out."""
+    """Kinetic energy before or after, without that of a yaw rate that does not change."""
     vehicle = side.after if after else side.before
     energy = 0.0 if math.isinf(vehicle.mass) else 0.5 * vehicle.mass * (vehicle.vx * vehicle.vx + vehicle.vy * vehicle.vy)
     if side.delta_yaw_rate == 0.0 or vehicle.yaw_inertia is None or math.isinf(vehicle.yaw_inertia):

@@ -121,7 +121,7 @@ def model(case: ImpactCase) -> Iterator[Measured]:
 
 
 def _worst(case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[Side, Side], float]) -> Any:
-    """How another answer came about, label and name of the vehicle for which it differs most, and both its sides."""
+    """The description of another result, label and name of the vehicle for which it differs most, and both its sides."""
     changes = [
         (how, label, who, old, new)
         for how, answer in answers
@@ -132,7 +132,7 @@ def _worst(case: ImpactCase, answers: list[tuple[str, Impact]], size: Callable[[
 
 
 def _delta_v_change(old: Side, new: Side) -> float:
-    """Length of the change of delta-V, as a share of it; none for a body that nothing moves."""
+    """Length of the change of the delta-V vector, as a share of delta-V; 0 for a body that nothing moves."""
     length = math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
     return share(length, old.delta_v) if old.delta_v > 0.0 else 0.0
 

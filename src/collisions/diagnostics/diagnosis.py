@@ -1,4 +1,4 @@
-"""diagnose: every finding on one impact."""
+"""``diagnose``: runs every check on one impact and returns the findings; ``LIMITS`` lists the checks."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def diagnose(
 
 
 def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
-    """The limits of a call: the defaults, and what the caller has instead; units allowed."""
+    """The limits of a call: the defaults, and the caller's in their place; units allowed."""
     limits = {code: limit.default for code, limit in LIMITS.items()}
     if given is not None and not isinstance(given, Mapping):
         kind = type(given).__name__
@@ -180,7 +180,7 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
 
 
 def _single(reader: ArgumentReader, read: Any, name: str, argument: str = "") -> Any:
-    """A number that was read, which must be one."""
+    """A number that was read; refused unless it is a single one."""
     if isinstance(read, np.ndarray):
         text = f"{name} takes one value: diagnose takes one case"
         return reader.refuse(ShapeError(text, code="bad_shape", argument=argument or name))
@@ -188,7 +188,7 @@ def _single(reader: ArgumentReader, read: Any, name: str, argument: str = "") ->
 
 
 def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, given: Any, label: str) -> Any:
-    """The corners of an outline, whose vehicle must have a place."""
+    """The corners of an outline; refused if its vehicle has no position."""
     name = f"outline_{label}"
     if isinstance(answer, Impact):
         _need(reader, answer, ("x", "y", "heading"), name, label)
@@ -201,7 +201,7 @@ def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, giv
 
 
 def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str) -> Damage:
-    """PDOF, which is seen from the vehicle, and delta-V that its damage shows."""
+    """The PDOF seen from the vehicle, and the delta-V, that its damage shows."""
     if pdof is not None:
         name = f"damage_pdof_{label}"
         pdof = _single(reader, reader.number(pdof, "rad", name), name)

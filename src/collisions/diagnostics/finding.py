@@ -1,4 +1,4 @@
-"""A finding, and how one is declared: a function with its limit, its unit, the source of the limit and its sentence."""
+"""``Finding``, and ``@finding``, which declares one: a function with its limit, unit, source of the limit and sentence."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Finding:
 
 
 class Findings(tuple[Finding, ...]):
-    """Findings, a tuple like any other, with the codes of all that was measured, found or not."""
+    """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they found anything or not."""
 
     measured: frozenset[str]
 
@@ -86,7 +86,7 @@ class Findings(tuple[Finding, ...]):
 
 
 class Measured(NamedTuple):
-    """What a check measured, and the sentence it makes if the limit is passed.
+    """The value that a check measured, and the sentence for it if the limit is passed.
 
     ``limit`` is the default of one that depends on the case; ``rounding`` is by how much the value has to be above its limit.
     """
@@ -99,7 +99,7 @@ class Measured(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """From which side a limit is passed, and its default, or how it depends on the case."""
+    """From which side a limit is passed, and its default, which may depend on the case."""
 
     passed: str
     limit: float | str
@@ -111,7 +111,7 @@ above, below, at_or_below = (partial(Bound, passed) for passed in ("above", "bel
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A finding as it was declared: ``measure`` looks at cases of one kind."""
+    """A declared finding: ``measure`` examines cases of one kind."""
 
     code: str
     limit: Limit
@@ -121,11 +121,11 @@ class Check:
 
     @property
     def off(self) -> float:
-        """The limit that nothing passes."""
+        """The limit that switches the check off, as nothing passes it."""
         return math.inf if self.passed == "above" else 0.0
 
     def findings(self, values: Iterable[Measured], allowed: float | None) -> list[Finding]:
-        """Those that pass the limit, vehicle A before B."""
+        """The findings of this check, vehicle A before B."""
         found = []
         for value, sentence, vehicle, limit, rounding in values:
             limit = limit if allowed is None else allowed

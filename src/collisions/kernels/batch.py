@@ -41,15 +41,15 @@ LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
 _SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
-# Works out a block: reads inputs and writes outputs, of which None is not wanted.
+# Runs one block: reads the inputs and writes the outputs; an output that is not wanted is None.
 Run: TypeAlias = Callable[[Sequence[Any], Sequence[Any]], None]
 Progress: TypeAlias = Callable[[int, int], None]
 
 
 class Check(NamedTuple):
-    """What gives the status of a case, 0 if nothing is wrong with it, and the values it looks at.
+    """A function for the status of a case (0 if nothing is wrong), and the values it looks at.
 
-    ``passes`` tells of whole arrays, at less cost, that they hold no fault; it may say no where there is none.
+    ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault.
     """
 
     fault: Callable[..., Any]
@@ -66,7 +66,7 @@ class Work(NamedTuple):
 
 
 class Cases(NamedTuple):
-    """The cases of a batch: what checks them, their shape, the precision they are worked out in, and on how many threads."""
+    """The cases of a batch: their checks, shape, precision, and the number of threads."""
 
     checks: Sequence[Check]
     shape: tuple[int, ...]
@@ -80,7 +80,7 @@ class Cases(NamedTuple):
 
 
 def precision(values: Iterable[Any]) -> Any:
-    """What is worked out in: float32 if there are arrays, all are, and the plain numbers beside them fit; else float64."""
+    """float32 if there are arrays, all of them are float32, and the plain numbers fit its range; else float64."""
     arrays = False
     for value in values:
         if isinstance(value, np.ndarray):
@@ -105,9 +105,9 @@ def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progr
 
 
 def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
-    """The outputs to work out at once; all of them where the status may turn on one that most callers never read.
+    """The outputs to compute at once; all of them where one that is rarely read may decide the status.
 
-    What plain numbers make is worked out in float64, and only once it is written is it seen that float32 cannot hold it.
+    Results of plain numbers are computed in float64, and an overflow of float32 shows only when they are written.
     """
     plain = (abs(value) for value in inputs if isinstance(value, float) and math.isfinite(value) and value)
     return FIRST if dtype == np.float64 or all(_SMALL <= value <= _LARGE for value in plain) else Answer._fields
@@ -116,7 +116,7 @@ def _first_names(inputs: Iterable[Any], dtype: Any) -> Sequence[str]:
 def least_models(
     settings: tuple[Any, ...], inputs: tuple[Any, ...], cases: Cases, progress: Progress | None = None
 ) -> tuple[Any, Any, Any]:
-    """What ``least_model`` answers for many cases; where a check applies, the eccentric model, and no error is known."""
+    """``least_model`` for many cases; where a check applies, the result is the eccentric model with unknown (NaN) errors."""
 
     def refuse(faults: Sequence[Any], answers: Sequence[Any]) -> None:
         which, *errors = answers
@@ -146,7 +146,7 @@ class BatchAnswer:
             raise AttributeError(name)
         later, refused = self._solve(LATER), self.status > Status.ENERGY_GAIN
         if np.any(refused & (later["status"] <= Status.ENERGY_GAIN)):
-            # Refused for an answer that is not among these.
+            # Refused because of an output that is not among these.
             later = {
                 key: np.where(refused, np.asarray(False if key == "sticks" else np.nan, value.dtype), value)
                 for key, value in later.items()
@@ -158,7 +158,7 @@ class BatchAnswer:
         return vars(self)[name]
 
     def _replace(self, status: Any) -> BatchAnswer:
-        """The same with another status, as an ``Answer`` has it."""
+        """The same with another status: the ``_replace`` of an ``Answer``."""
         return BatchAnswer(self._solve, {**vars(self), "status": status})
 
     def __iter__(self) -> Iterator[Any]:
@@ -171,7 +171,7 @@ class BatchAnswer:
 def _solved(
     works: Sequence[Work], which: Any, cases: Cases, names: Sequence[str], progress: Progress | None = None
 ) -> dict[str, Any]:
-    """The outputs of these names, the status always among them; locked."""
+    """The outputs of these names, the status always included; locked."""
     dtype = np.dtype(cases.dtype)
     types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
     kinds = tuple(types.get(name, dtype) if name in names else None for name in Answer._fields)
@@ -186,7 +186,7 @@ def _solved(
 
 
 def _refuse_beyond(outputs: Sequence[Any]) -> None:
-    """Refuses the cases of float32 whose answers only the float64 of plain numbers could hold."""
+    """Refuse float32 cases with a result that only float64 can hold."""
     beyond = np.zeros(outputs[0].shape, dtype=bool)
     for output in outputs:
         if output is not None and output.dtype == np.float32:
@@ -202,7 +202,7 @@ def _refuse_beyond(outputs: Sequence[Any]) -> None:
 
 
 def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
-    """The first fault that applies decides the status of a case; where it is refused, no answer is left."""
+    """Set the status of each case to its first fault, and the outputs of refused cases to NaN."""
     status = answers[0]
     for fault in reversed(faults):
         np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
@@ -221,11 +221,11 @@ def _in_blocks(
     refuse: Callable[[Sequence[Any], Sequence[Any]], None],
     progress: Progress | None,
 ) -> list[Any]:
-    """What the kernels answer to all cases, in arrays of these types; ``refuse`` has the faults and the answers of a block."""
+    """Run the kernels over all cases into arrays of these types; ``refuse`` gets the faults and outputs of each block."""
     checks, shape, dtype, threads = cases
     size = cases.size
     outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
-    # By the id of a value what its cases are cut from: an array that is looked at more than once is cut once.
+    # By the id of a value, the flat view its blocks are cut from: an array that is read more than once is cut once.
     values = chain(*(work.inputs for work in works), *(check.values for check in checks))
     columns = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
     numbers = None if which is None else flat(which, shape)
@@ -259,7 +259,7 @@ def _in_blocks(
 
 
 def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
-    """The statuses that the checks give the cases of a block; checks that all pass give none."""
+    """The statuses from the checks of a block; a check that passes gives none."""
     found = []
     for check in checks:
         values = [cut[id(value)] for value in check.values]
@@ -271,7 +271,7 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
 def _run_by_model(
     runs: Sequence[Run], inputs: Sequence[Sequence[Any]], numbers: Any, answers: Sequence[Any], length: int, room: Any
 ) -> None:
-    """Gathers the cases of each model, works them out so many at a time, and puts all answers in the order of the cases."""
+    """Gather the cases of each model, solve them in blocks, and scatter the results in the order of the cases."""
     chosen = [np.flatnonzero(numbers == number) for number in range(len(runs))]
     order = np.concatenate(chosen)
     in_order = bool(np.all(order[1:] > order[:-1]))
@@ -293,14 +293,14 @@ def _run_by_model(
 
 
 def _gathered(column: Any, some: Any) -> Any:
-    """Some cases of a block, which all are inside: to have numpy look takes as long as to gather them."""
+    """The elements of a block at these indices, all valid: letting numpy check them takes as long as gathering them."""
     if isinstance(column, float):
         return column
     return column[some] if isinstance(some, slice) else column.take(some, mode="clip")
 
 
 def _prepared(work: Work, size: int, kinds: tuple[Any, ...], dtype: Any) -> tuple[Callable[[int], Run], int]:
-    """What makes the run of a kernel for blocks of a length, and its scratch in bytes a case: where they are many, recorded."""
+    """A factory for the kernel's ``Run`` at a block length, and its scratch in bytes per case; large batches are traced."""
     if size <= BLOCK:
         return lambda length: partial(run_as_it_is, work.kernel, work.settings), 0
     texts = tuple(value.hex() if isinstance(value, float) else None for value in work.inputs)
@@ -311,14 +311,14 @@ def _prepared(work: Work, size: int, kinds: tuple[Any, ...], dtype: Any) -> tupl
 def run_as_it_is(
     kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
 ) -> None:
-    """A kernel called on a block: for so few cases that recording it would cost more."""
+    """Call the kernel itself on a block: for small batches, where tracing it would cost more."""
     for output, answer in zip(outputs, kernel(*inputs, *settings), strict=True):
         if output is not None:
             output[...] = answer
 
 
 def block_length(size: int, threads: int, scratch: int) -> int:
-    """Cases a block, where a case needs so many bytes of scratch: what stays in the cache that a core has to itself.
+    """Cases per block for this scratch per case: a block has to stay in a core's own cache.
 
     With threads, more: every numpy call hands the interpreter over, and to wait for it takes as long as a call
     on a short block. Then all blocks are about as long, so that no thread ends late.
@@ -331,7 +331,7 @@ def block_length(size: int, threads: int, scratch: int) -> int:
 
 
 def each_block(solve: Callable[[int], int], starts: Sequence[int], size: int, threads: int, progress: Progress | None) -> None:
-    """Calls ``solve`` with the start of every block, on so many threads; it gives back how many cases it has worked out."""
+    """Call ``solve`` with the start of every block, on so many threads; it returns the number of cases it has done."""
     if threads == 1 or len(starts) < 2:
         _report(map(solve, starts), size, progress)
         return
@@ -355,7 +355,7 @@ def _report(counts: Any, size: int, progress: Progress | None) -> None:
 
 
 def _part(column: Any, block: slice, dtype: Any) -> Any:
-    """The cases of a block, in the precision of the batch; a plain number as it is."""
+    """The slice of a value for a block, in the precision of the batch; a plain number is left as it is."""
     if isinstance(column, float):
         return column
     part = column[block]
@@ -363,7 +363,7 @@ def _part(column: Any, block: slice, dtype: Any) -> Any:
 
 
 def flat(value: Any, shape: tuple[int, ...]) -> Any:
-    """Something whose slices are the cases in order, without a copy of the whole: a view, or an iterator over one."""
+    """A flat view of a broadcast array, or an iterator over it where a view would need a copy of the whole."""
     if value.shape == shape and value.flags.c_contiguous:
         return value.reshape(-1)
     return np.broadcast_to(value, shape).flat

@@ -1,4 +1,4 @@
-"""Choices and conditions that read the same for one case and for many: the kernels are built of these and of arithmetic."""
+"""``select``, vector conditions that work on floats and arrays alike, and the domains of the inputs (``Domain``)."""
 
 from collections.abc import Callable
 from math import inf, isfinite
@@ -19,7 +19,7 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
 
 
 def larger(one: Any, other: Any) -> Any:
-    """The larger of both; NaN only if both are."""
+    """The larger of the two; NaN only if both are."""
     if isinstance(one, float) and isinstance(other, float):
         return one if one >= other or other != other else other
     return np.fmax(one, other)
@@ -31,7 +31,7 @@ def safe_divisor(usable: Any, value: Any) -> Any:
 
 
 def first_status(*findings: tuple[Any, Status]) -> Any:
-    """Status of the first finding whose condition holds, OK if none does."""
+    """Status of the first condition that holds, OK if none does."""
     status: Any = Status.OK
     for condition, code in reversed(findings):
         if condition is not False:
@@ -40,7 +40,7 @@ def first_status(*findings: tuple[Any, Status]) -> Any:
 
 
 def more_digits(known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float) -> tuple[Any, Any]:
-    """``known`` closing speed and slip where they are those of the motions to the rounding of ``speeds``, else the latter."""
+    """The ``known`` closing speed and slip where they equal the computed ones to the rounding of ``speeds``, else the computed."""
     exact_closing, exact_slip = known
     scale = speeds + abs(exact_closing) + abs(exact_slip)
     same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale
@@ -53,7 +53,7 @@ def turning_velocity(yaw_rate: Any, x: Any, y: Any, center_x: Any, center_y: Any
 
 
 def without_length(nx: Any, ny: Any) -> Any:
-    """A vector of length 0."""
+    """Whether the vector has length 0."""
     return (nx == 0.0) & (ny == 0.0)
 
 
@@ -63,7 +63,7 @@ def all_with_length(nx: Any, ny: Any) -> bool:
 
 
 def either_infinite(mass: Any, inertia: Any = 0.0) -> Any:
-    """A mass or, where it is known, a yaw inertia that is infinite."""
+    """Whether the mass or the yaw inertia is infinite."""
     return (mass == inf) | (inertia == inf)
 
 
@@ -73,17 +73,17 @@ def rounding(eps: float, *values: Any) -> float:
 
 
 def not_about_pivot(vx: Any, vy: Any, yaw_rate: Any, x: Any, y: Any, pivot_x: Any, pivot_y: Any, eps: float = EPS) -> Any:
-    """A velocity that is not yaw rate times arm to 1e-9 (or to the rounding of a coarser precision)."""
+    """Whether a velocity is not yaw rate times arm, to 1e-9 (or to the rounding of a coarser precision)."""
     wanted_x, wanted_y = turning_velocity(yaw_rate, x, y, pivot_x, pivot_y)
     tolerance = max(1e-9, 8.0 * eps)
     return abs(vx - wanted_x) + abs(vy - wanted_y) > tolerance * (abs(wanted_x) + abs(wanted_y))
 
 
 class Domain(NamedTuple):
-    """The numbers that an argument may have.
+    """The set of values that an argument may have.
 
-    ``faults`` are what is wrong with the others, case by case, each with its status; ``holds`` tells of a whole array, at less
-    cost, that it has no fault, and may say no where there is none.
+    ``faults`` has conditions for values outside, each with its status; ``holds`` is a cheaper test of a whole array, which
+    may be False although every value is inside.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Restitution and friction that a known motion before and after shows."""
+"""``restitution`` and ``friction``: the values that the motions before and after an impact show."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 _UNCHANGED = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # by an impulse
-_PINNED = ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")  # what a body that turns about its pivot moves by
+_PINNED = ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")  # the fields that say how a pinned body moves
 _SAME_BODY = 1e-9  # relative
-_ANY = Vehicle(mass=1.0)  # in place of bodies that were checked before
+_ANY = Vehicle(mass=1.0)  # stands in for bodies that were checked before
 _STILL_APPROACH = "the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
 _PART_FASTER = "the contact points part faster than they met; the data contradict each other"
 
@@ -196,7 +196,7 @@ def friction(
 
 
 class _Moment(NamedTuple):
-    """Before or after the impact: the numbers of both bodies, and at the contact the sum of the speeds that were subtracted."""
+    """One instant, before or after: the numbers of both bodies, and at the contact the sum of the speeds that were subtracted."""
 
     a: dict[str, Any]
     b: dict[str, Any]
@@ -206,7 +206,7 @@ class _Moment(NamedTuple):
 
 
 def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> tuple[Cases, _Moment, _Moment, _Faults]:
-    """The contact before and after, by the forward kernel, and what is wrong with the cases."""
+    """The contact before and after, from the forward kernel, and the faults of the cases."""
     wrong = [not_a_vehicle(label, body) for label, body in bodies.items() if not isinstance(body, Vehicle)]
     motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body))
     read, _ = read_inputs("solve", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
@@ -253,7 +253,7 @@ def _as_given(body: Vehicle) -> dict[str, Any]:
 
 
 def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
-    """The numbers of one body by name; what does not matter for its motion at the contact is filled in."""
+    """The numbers of one body by name; a field that does not affect its motion at the contact is filled in."""
     if without_turning(body.yaw_rate):
         yaw_rate = body.yaw_rate if np.any(np.isnan(body.yaw_rate)) else 0.0
         moving = {"mass": body.mass, "yaw_inertia": np.inf, "vx": body.vx, "vy": body.vy, "yaw_rate": yaw_rate}
@@ -269,7 +269,7 @@ def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[s
 
 
 def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -> _Faults:
-    """What a pinned vehicle checks of single numbers, of arrays."""
+    """For arrays, the checks that ``Vehicle`` makes of single numbers of a pinned body."""
     faults: _Faults = []
     for label, body in bodies.items():
         if body.pivot is None:
@@ -284,7 +284,7 @@ def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -
 
 
 def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Faults:
-    """Where a body before is not the same body in the same place after; single numbers that differ are refused at once."""
+    """Cases in which the bodies before and after differ in more than motion; single numbers that differ are refused at once."""
     within = _SAME_BODY if cases.shape is None else max(_SAME_BODY, 8.0 * cases.eps)
     # A coordinate may be 0 but for rounding, so what is small is judged by the size of the scene.
     scene = np.zeros(())
@@ -316,7 +316,7 @@ def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Fault
 
 
 def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> None:
-    """Says by how much an observed restitution is outside 0 to 1, and in a batch how many are on which side."""
+    """Warn by how much an observed restitution is outside 0 to 1, and in a batch how many are on which side."""
     counts = {"below": int(np.count_nonzero(below)), "above": int(np.count_nonzero(above))}
     low, high = float(np.nanmin(answer)), float(np.nanmax(answer))
     worst = low if counts["below"] else high
@@ -330,7 +330,7 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
 
 
 def _check(cases: Cases, status: Any, before: _Moment) -> None:
-    """Raises the refusal of a single case, or counts those of a batch."""
+    """Raise the refusal of a single case, or warn of those of a batch."""
     if cases.shape is not None:
         if np.any(status > Status.ENERGY_GAIN):
             warn_of_refusals(status, ASK_ALONE)
