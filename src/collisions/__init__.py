@@ -88,7 +88,7 @@ _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:
-    """What not every caller needs is imported when it is first asked for."""
+    """Lazily imports the names that not every caller needs."""
     if name in _MODULES:
         return import_module(f".{name}", __name__)
     if name not in _LATER:

@@ -1,4 +1,4 @@
-"""What the impulse idealisation leaves out: tyre forces during the contact, and geometry that changes meanwhile."""
+"""``left_out``: what the impulse idealisation neglects, tyre forces and the movement of the vehicles during the contact."""
 
 from __future__ import annotations
 
@@ -227,7 +227,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
 
 def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
-    """What was left out, by the names of ``LeftOut``, those of its sides with "a." or "b." before them; NaN where refused."""
+    """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
     # One case that was refused cannot be solved again, and has nothing that could be left out.
     lost = impact.refused is True
     point = impact.point
@@ -261,7 +261,7 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
 
 
 def _extent(impact: Impact, time: Any, pull: Any) -> Any:
-    """What no impulse of tyres, no way and no turn is larger than; infinite where one may be beyond floats."""
+    """An upper bound of all tyre impulses, distances and rotations; infinite where one may overflow."""
     states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
     with np.errstate(all="ignore"):
         most = pull * GRAVITY * time
@@ -271,12 +271,12 @@ def _extent(impact: Impact, time: Any, pull: Any) -> Any:
 
 
 def _finite_mass(body: Vehicle) -> Any:
-    """Its mass, 0 of a fixed body, which tyres do not move."""
+    """The body's mass, 0 for a fixed body, which tyres do not move."""
     return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
 def _assembled(found: dict[str, Any]) -> LeftOut:
-    """The result of what was found by name."""
+    """A ``LeftOut`` from its fields by name."""
     a, b = (
         LeftOutSide(**{name[2:]: lock(value) for name, value in found.items() if name.startswith(f"{label}.")})
         for label in "ab"
@@ -285,7 +285,7 @@ def _assembled(found: dict[str, Any]) -> LeftOut:
 
 
 def read_duration(reader: ArgumentReader, duration: Any) -> Any:
-    """How long the contact lasts, with a warning if a bare number is longer than any contact."""
+    """The duration of the contact, with a warning if a bare number is longer than any contact."""
     read = one_value(reader, duration, "s", "duration")
     read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
     warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")
@@ -293,7 +293,7 @@ def read_duration(reader: ArgumentReader, duration: Any) -> Any:
 
 
 def _unusable(values: dict[str, Any], beyond: Any) -> Any:
-    """The cases whose duration or drag is refused of a single number too, or leads beyond floats; counted in one warning."""
+    """Cases whose duration or drag a single call would refuse, or whose results overflow; counted in one warning."""
     unusable: Any = False
     counts: dict[str, int] = {}
     for name, value in values.items():
@@ -318,7 +318,7 @@ def _unusable(values: dict[str, Any], beyond: Any) -> Any:
 
 
 def _whole(impact: Impact, time: Any, passed: Any) -> dict[str, Any]:
-    """What is left out of the contact as a whole."""
+    """The fields about the contact as a whole."""
     e, way = impact.restitution, impact.closing_speed * time
     crush = pulse.greatest_crush(e) * way
     return {
@@ -329,5 +329,5 @@ def _whole(impact: Impact, time: Any, passed: Any) -> dict[str, Any]:
 
 
 def _share(part: Any, whole: Any) -> Any:
-    """The quotient; nothing is no share of anything, also not of the nothing of a wall."""
+    """The quotient; 0 for a part of 0, otherwise NaN for a whole of 0."""
     return select(part == 0.0, 0.0, part / select(whole == 0.0, math.nan, whole))

@@ -21,7 +21,7 @@ class Angle(NamedTuple):
     in_degrees: bool
 
     def beside(self, values: Iterable[Any]) -> Angle:
-        """The same angle in the precision in which it and these values are worked out."""
+        """The same angle, widened to float64 if it or any of these values needs that."""
         return self._replace(value=widened((self.value,), values)[0])
 
     @property
@@ -42,7 +42,7 @@ _UNIT_LENGTH = 2.0**-52
 def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterable[Any] = ()) -> tuple[Any, Any]:
     """Unit vector from an angle (number, text, Quantity or array) or from a tuple of two components.
 
-    It is as precise as the question that the values beside it belong to: of a float32 beside float64 it is made in float64.
+    A float32 angle is widened to float64 if any value in ``beside`` is float64.
     """
     if isinstance(value, tuple):
         if len(value) != 2:
@@ -74,7 +74,7 @@ def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterabl
 
 
 def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
-    """The angle of a course or a heading (number, text, Quantity or array); a vector is none."""
+    """The angle of a course or a heading (number, text, Quantity or array); a vector is refused."""
     if isinstance(value, (tuple, list)):
         reader.refuse(
             ShapeError(
@@ -89,7 +89,7 @@ def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
 
 
 def between(one: Angle, other: Angle) -> tuple[Any, Any]:
-    """Cosine and sine of the angle from one to the other, from their difference: exact where two courses are nearly one."""
+    """Cosine and sine of the angle from one direction to the other, from their difference: exact for nearly equal courses."""
     if one.in_degrees and other.in_degrees:
         return from_degrees(np.fmod(other.value, 360.0) - np.fmod(one.value, 360.0))
     with np.errstate(over="ignore"):
@@ -97,7 +97,7 @@ def between(one: Angle, other: Angle) -> tuple[Any, Any]:
 
 
 def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:
-    """The vector divided by its length; cases without a length stay (0, 0), a single vector without one is refused."""
+    """The vector divided by its length; cases of length 0 stay (0, 0), a single vector of length 0 is refused."""
     if isinstance(vx, float) and isinstance(vy, float):
         # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
         scale = max(abs(vx), abs(vy))
@@ -151,7 +151,7 @@ def from_radians(angle: Any) -> tuple[Any, Any]:
 
 
 def from_degrees(degrees: Any) -> tuple[Any, Any]:
-    """Cosine and sine of an angle in degrees, exact at the quarter turns and accurate beside them.
+    """Cosine and sine of an angle in degrees, exact at the quarter turns and accurate near them.
 
     Whole turns and the nearest quarter turn are taken off first, which rounds nothing; only the rest is converted.
     """

@@ -1,4 +1,4 @@
-"""What can go wrong and how it is said: exceptions, warnings, and the status of each case of a batch."""
+"""Exceptions, warnings, and the status of each case of a batch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers as people read them: their figures or decimals, the unit behind them, and words for what is no number."""
+"""Numbers as people read them: figures or decimals, units, and words for NaN and infinity."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _NO_SPREAD = 1e-12  # relative: a deviation this small is what rounding left of 
 
 
 def in_words(value: float) -> str:
-    """What is said in place of a number that is NaN or infinite."""
+    """The words for a number that is NaN or infinite."""
     return "not defined" if math.isnan(value) else "infinite"
 
 
@@ -24,7 +24,7 @@ def percent(share: float, decimals: int = 0) -> str:
 
 
 def places(value: float, figures: int) -> int:
-    """The decimals that so many figures take, counted after rounding; below 0 in front of the point."""
+    """The decimals that show so many figures after rounding; negative to the left of the decimal point."""
     return figures - 1 - int(f"{value:.{figures - 1}e}".partition("e")[2])
 
 
@@ -51,7 +51,7 @@ class Numbers:
         return f" {self.label(kind)}".rstrip()
 
     def scale(self, kind: str) -> float:
-        """What an SI value of this kind is multiplied by."""
+        """The factor from SI to the unit of this kind."""
         return scale_of(kind, self.name)
 
     def converted(self, value: float, kind: str) -> float:
@@ -66,7 +66,7 @@ class Numbers:
         return found
 
     def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
-        """A number as an answer, rounded to its standard deviation where that is known, with the unit."""
+        """A number as a result, rounded to its standard deviation where that is known, with the unit."""
         if not math.isfinite(value):
             return in_words(value)
         number, unit = self.converted(value, kind), self.unit(kind)
@@ -131,7 +131,7 @@ def decimals_of(kind: str, system: str) -> int | None:
 
 @cache
 def scale_of(kind: str, system: str) -> float:
-    """What an SI number of this kind is multiplied by."""
+    """The factor from SI to the unit of this kind."""
     inside, label = SI_UNITS[kind], unit_of(kind, system)
     return 1.0 if inside == label else float(to_quantity(1.0, inside).m_as(label))
 

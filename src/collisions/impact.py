@@ -309,7 +309,7 @@ class Impact(Frozen):
         return value
 
     def _answered(self, value: Any) -> Value:
-        """A value worked out from inputs alone, NaN where the case was refused."""
+        """A value that depends on inputs alone; NaN where the case was refused."""
         answered: Value = select(self.refused, math.nan, value)
         return answered
 
@@ -445,7 +445,7 @@ class Impact(Frozen):
 
 
 def build(inputs: Inputs, raw: Any) -> Impact:
-    """An Impact from its inputs and what the kernel answered."""
+    """An Impact from its inputs and the kernel's answer."""
     impact: Impact = object.__new__(Impact)
     found = impact.__dict__
     found["inputs"] = inputs
@@ -461,7 +461,7 @@ def solved(
     progress: Any = None,
     choice: ModelChoice | None = None,
 ) -> Impact:
-    """The answer to the inputs; ``plain`` as for ``solve_inputs``, ``choice`` that of a model that was chosen before."""
+    """Solve the inputs; ``plain`` as for ``solve_inputs``, ``choice`` if the model was chosen before."""
     if inputs.model != "solve":
         return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
     answer, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
@@ -471,23 +471,23 @@ def solved(
 
 
 def solve_changed(impact: Impact, **changes: Any) -> Impact:
-    """The answer of the same model to the same inputs with some of them changed, taken as they are; NaN where it is refused.
+    """Solve again with some inputs changed, by the same model and without validation; NaN where refused.
 
-    What is to be said of refused cases and of energy was said of the impact itself.
+    No warnings: the impact itself has given those of refused cases and energy gains.
     """
     with quietly():
         return solved(replace(impact.inputs, **changes, given=None), on_failure="nan", choice=impact.choice)
 
 
 def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
-    """The same answer with vehicles that differ in name or in how their numbers were given."""
+    """The same impact with vehicles that differ in name or in how their numbers were given."""
     other = build(replace(impact.inputs, a=a, b=b), impact.answer)
     vars(other).update({name: getattr(impact, name) for name in ("reconstruction", "choice")})
     return other
 
 
 def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
-    """Some cases of a batch, solved again: those that ``take`` takes of every array."""
+    """Some cases of a batch, solved again; ``take`` selects them from every array."""
     origin = impact.reconstruction
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
     choice = None if impact.choice is None else part_of_choice(impact.choice, take, inputs)
@@ -508,7 +508,7 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
 
 
 def _rebuild(inputs: Inputs, raw: Any, provenance: dict[str, Any]) -> Impact:
-    """An unpickled Impact; arrays come out of a pickle unlocked."""
+    """An unpickled Impact; pickle restores arrays writable, so they are locked again."""
     impact = build(inputs, lock(raw))
     for found in provenance.values():
         if found is not None:
@@ -523,7 +523,7 @@ def _own(impact: Impact, name: str) -> Any:
 
 
 def _divided(numerator: Value, denominator: Value) -> Value:
-    """A quotient that is NaN or infinite, without a word, where there is nothing to divide by."""
+    """The quotient without warnings; NaN where the denominator is 0."""
     with np.errstate(all="ignore"):
         quotient: Value = numerator / select(denominator == 0.0, math.nan, denominator)
         return quotient

@@ -1,4 +1,4 @@
-"""The least model that a scene requires within a tolerance, and why."""
+"""``solve_least`` and ``ModelChoice``: the simplest model that a scene allows within a tolerance, and the reason."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LINEAR, _OBLIQUE, _ECCENTRIC = _NAMES
 
 
 class ByModel(Mapping[str, Any]):
-    """What is known of each model, by its name: like a dict that cannot be changed. ``.q`` has the numbers as Quantities."""
+    """A read-only dict by model name; ``.q`` has the numbers as Quantities."""
 
     __slots__ = ("_unit", "_values")
 
@@ -110,7 +110,7 @@ class ModelChoice(Shown):
 
 
 def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
-    """The choice of a model, and where the eccentric one is required and lacks something."""
+    """Choose a model; also gives where the eccentric one is required and lacks an input."""
     tolerance: Any = inputs.tolerance
     shape = None if plain else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
     missing = tuple(f"{label}.{name}" for label, name in lacking(inputs.a, inputs.b))
@@ -132,14 +132,14 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
 
 
 def where_answered(choice: ModelChoice, refused: Any) -> ModelChoice:
-    """The same without the errors of cases that turned out to have no answer."""
+    """The same with NaN errors in refused cases."""
     if not np.any(refused):
         return choice
     return replace(choice, errors={name: select(refused, math.nan, error) for name, error in choice.errors.items()})
 
 
 def part_of_choice(choice: ModelChoice, take: Any, inputs: Inputs) -> ModelChoice:
-    """The choice for some cases of a batch, or for one of them, with a reason that is about these."""
+    """The choice for some cases of a batch, or for one of them, with its reason written for these."""
     part: ModelChoice = part_of(choice, take)
     errors = part.errors
     missing = choice.missing[_ECCENTRIC]
@@ -148,7 +148,7 @@ def part_of_choice(choice: ModelChoice, take: Any, inputs: Inputs) -> ModelChoic
 
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
-    """Names all that is missing, in a batch for the first case that needs it."""
+    """Raise for all missing inputs, in a batch for the first case that needs them."""
     place = ""
     if isinstance(lacks, np.ndarray):
         at = tuple(int(i) for i in np.unravel_index(int(np.argmax(lacks)), lacks.shape))
@@ -167,7 +167,7 @@ def solve_least(
     progress: Any,
     choice: ModelChoice | None = None,
 ) -> tuple[Any, ModelChoice]:
-    """The answer of the least model, in a batch for every case by itself, and the choice; ``choice`` if it was made before."""
+    """Solve by the simplest model, chosen case by case in a batch, and give the choice; ``choice`` if it was made before."""
     check_options(on_failure, threads, progress)
     report = reporter(progress)
     if choice is None:
@@ -195,7 +195,7 @@ def solve_least(
 def _predicted(
     inputs: Inputs, tolerance: Any, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any
 ) -> tuple[Any, Any, Any]:
-    """Which model by number, and the errors of the central ones; infinite beside a pivot, which they cannot hold."""
+    """The model's number, and the errors of the central models; infinite with a pivot, which they cannot represent."""
     a, b, placed = inputs.a, inputs.b, inputs.point is not None
     known = Known(
         places=(placed and a.x is not None and a.y is not None, placed and b.x is not None and b.y is not None),
@@ -206,20 +206,20 @@ def _predicted(
     numbers = (*MODELS[ECCENTRIC].numbers(inputs), tolerance)
     if shape is None:
         return least_model(*numbers, inputs.rule, inputs.law, known, EPS)
-    # As for batches of one model: single cases never come here.
+    # Batches only, so the float precision is found as for batches of one model.
     from .kernels.batch import least_models
 
     cases, eps = cases_of(inputs, shape, threads)
     limit = tolerance
     if cases.dtype == np.float32:
-        # What is beyond float32 accepts every error that a float32 can have.
+        # A tolerance too large for float32 accepts any float32 error.
         most = float(np.finfo(cases.dtype).max)
         limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
     return least_models((inputs.rule, inputs.law, known, eps), (*numbers[:-1], limit), cases, progress)
 
 
 def _reason(inputs: Inputs, tolerance: Any, which: Any, linear: Any, oblique: Any, missing: tuple[str, ...], lacks: Any) -> str:
-    """Why, in a sentence."""
+    """The reason for the choice, in a sentence."""
     if not isinstance(which, int):
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)

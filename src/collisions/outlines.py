@@ -49,7 +49,7 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
 
 
 def _within_range(reader: ArgumentReader, corners: Any, argument: str) -> Any:
-    """The corners, refused if their sums could leave the range of floats."""
+    """The corners; refused if sums of them could overflow."""
     largest = 0.0 if corners is None else float(np.max(np.abs(corners)))
     if largest <= _LARGEST:
         return corners
@@ -65,7 +65,7 @@ def _within_range(reader: ArgumentReader, corners: Any, argument: str) -> Any:
 
 
 def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
-    """The corners, with a warning if those numbers that have no unit make a vehicle that is too large."""
+    """The corners, with a warning if numbers given without a unit make a vehicle that is too large."""
     if corners is None:
         return None
     for axis, limit, name in ((0, _LONGEST, "length"), (1, _WIDEST, "width")):
@@ -147,7 +147,7 @@ def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
 
 
 class Placed(NamedTuple):
-    """An outline in the scene: where its centre of mass is, and the corners from there, which no distance rounds."""
+    """An outline in the scene: its centre of mass, and the corners relative to it, which a distant origin cannot round."""
 
     x: float
     y: float
@@ -155,7 +155,7 @@ class Placed(NamedTuple):
 
 
 def placed(outline: Any, vehicle: Vehicle, label: str, after: float = 0.0) -> Placed:
-    """The outline where the vehicle is after so many seconds of its motion."""
+    """The outline at this time after the impact."""
     x, y, heading = (needed(vehicle, name, f"outline_{label}", label) for name in ("x", "y", "heading"))
     turn = vehicle.yaw_rate * after
     if vehicle.pivot is None:
@@ -179,7 +179,7 @@ def distance_outside(outline: Placed, point: tuple[float, float]) -> float:
 
 
 def overlap(one: Placed, other: Placed) -> float:
-    """How deep two convex polygons overlap: the least way that would part them; below 0 with a gap."""
+    """Penetration depth of two convex polygons: the shortest shift that would separate them; negative for a gap."""
     least = math.inf
     apart = np.array([other.x - one.x, other.y - one.y])
     for outline in (one, other):

@@ -13,12 +13,12 @@ _PATIENCE = 1.0  # seconds before anything is shown
 
 
 def reporter(progress: Progress | None) -> Callable[[int, int], None] | None:
-    """What to call with cases done and cases in all: the caller's own function, or for True a bar."""
+    """The function to call with cases done and cases in all: the caller's own, or for True a progress bar."""
     return (progress if callable(progress) else Bar()) if progress else None
 
 
 def halves(report: Callable[[int, int], None] | None) -> tuple[Any, Any]:
-    """The same for a run that goes over its cases twice: a case is done when it has been worked on for the second time."""
+    """A reporter for a run that goes over its cases twice: a case counts as done after its second time."""
     if report is None:
         return None, None
     return lambda done, total: report(done // 2, total), lambda done, total: report((total + done) // 2, total)

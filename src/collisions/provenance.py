@@ -59,5 +59,5 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
 
 
 def how_many(answers: float) -> str:
-    """"3 impacts" or "a whole range of impacts", for a sentence."""
+    """How many impacts fit: "3 impacts" or "a whole range of impacts"."""
     return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"

@@ -1,4 +1,4 @@
-"""The spring pulse: the force of the contact against time, wherever a shape has to be assumed.
+"""The spring pulse: an assumed shape of the contact force over time, where one is needed.
 
 The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
 rises as that of a linear spring, a quarter of a sine, and falls as that of a stiffer one, another quarter, which takes
@@ -17,7 +17,7 @@ _QUARTER = 0.5 * math.pi
 
 
 def rise(share: Any) -> Any:
-    """Force over its peak at a share of the time of compression; restitution runs it backwards."""
+    """Force over its peak at a share of the compression time; restitution runs the curve backwards."""
     return numeric(share).sin(_QUARTER * share)
 
 
@@ -27,7 +27,7 @@ def compression_time(e: Any) -> Any:
 
 
 def passed(e: Any, share: float) -> Any:
-    """Share of the impulse that has passed."""
+    """Share of the impulse that has been transmitted at a share of the duration."""
     xp = numeric(e)
     phase = share * (1.0 + e)
     compressing = 1.0 - xp.cos(_QUARTER * phase)
@@ -38,15 +38,15 @@ def passed(e: Any, share: float) -> Any:
 
 
 def mean_passed(e: Any) -> Any:
-    """Mean over the duration of the share that has passed."""
+    """Mean of ``passed`` over the duration."""
     return (1.0 - (1.0 - e) / _QUARTER) / (1.0 + e)
 
 
 def mean_square_passed(e: Any) -> Any:
-    """Mean of its square."""
+    """Mean of the square of ``passed`` over the duration."""
     return (1.5 - 2.0 / _QUARTER + e * (1.0 + e * (2.0 / _QUARTER + 0.5 * e))) / (1.0 + e) ** 3
 
 
 def greatest_crush(e: Any) -> Any:
-    """How far the contact points pass into each other at most, over closing speed times duration."""
+    """Greatest mutual crush, over closing speed times duration."""
     return compression_time(e) / _QUARTER

@@ -1,4 +1,4 @@
-"""``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity, ``show`` writes it with the unit."""
+"""``@derived(unit)`` declares an attribute with its SI unit; ``.q`` gives it as a Quantity, ``show`` with its unit."""
 
 from __future__ import annotations
 

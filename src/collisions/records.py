@@ -1,4 +1,4 @@
-"""Results as plain data: nested records for strict JSON that can be solved again, and flat columns for a table."""
+"""``to_record``, ``from_record`` and ``to_columns``: results as JSON that can be solved again, and as flat columns."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
 _MOTION = ("vx", "vy", "yaw_rate")
 _POLAR: tuple[str, ...] = ("speed", "course")
-# What each reverse solver may be given beside the contact.
+# What each reverse solver may be given in addition to the contact.
 _ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
 _PAIRS = tuple(f"{name}_{label}" for name in ("speed", "course", "delta_v", "ees") for label in "ab")
 _KNOWN = {
@@ -42,7 +42,7 @@ _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
 def to_record(impact: Any) -> dict[str, Any]:
-    """Inputs to solve it again from, each as the text it was given as or else in SI, and every result in SI."""
+    """A record of an impact: its inputs, each as the text it was given as or else in SI, and every result in SI."""
     sides = {label: _side(side) for label, side in (("a", impact.a), ("b", impact.b))}
     results = {name: strict(value) for name, value in _results(impact)}
     return {"format": FORMAT, "inputs": _inputs(impact.inputs), "results": {**results, **sides}}
@@ -87,7 +87,7 @@ def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
 
 
 def _given(text: str | None, number: Any, unit: str) -> Any:
-    """The text that a number was given as, if it reads as that number here; a unit of another registry may not."""
+    """The text a number was given as if it still reads as that number, else the number; a unit may be unknown here."""
     reader = ArgumentReader()
     if text is not None and isinstance(number, float) and reader.number(text, unit, "", UNCHECKED) == number:
         return text
@@ -95,7 +95,7 @@ def _given(text: str | None, number: Any, unit: str) -> Any:
 
 
 def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstruction | None, Any]:
-    """The inputs of a record, read as a caller's are, what to do on failure, what found it, and its status."""
+    """Read a record: inputs validated like a caller's, ``on_failure``, the reverse solver that found it, and its status."""
     try:
         if not isinstance(record["format"], str) or record["format"] != FORMAT:
             raise bad_record(f"its format is {shown(record['format'])} and not {FORMAT!r}")
@@ -139,7 +139,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
 
 
 def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
-    """Closing speed and slip before as a reverse solver found them, one each or one for every case."""
+    """Closing speed and slip before as a reverse solver found them: one of each, or one for every case."""
     if pair is None:
         return None
     closing, slip = (_read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair)
@@ -158,7 +158,7 @@ def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str,
 
 
 def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
-    """A vehicle again; the reader takes no NaN, which is the motion of one that was looked for and not found."""
+    """A vehicle from its record; NaN, the motion that a reverse solver did not find, bypasses the reader."""
     state = {name: value if name == "name" else _read(value) for name, value in found.items() if value is not None}
     polar = {name: state.pop(name) for name in _POLAR if name in state}
     unknown = state.keys() - set(NAMES)
@@ -175,7 +175,7 @@ def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
 
 
 def to_columns(impact: Any) -> dict[str, list[Any]]:
-    """One list a number, named by the path that leads to it; every list has one value a case."""
+    """One list per number, named by its path in the record; every list has one value per case."""
     columns: dict[str, Any] = {}
     for name, value in _results(impact):
         _add(columns, name, value)
@@ -225,7 +225,7 @@ def _state(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def strict(value: Any) -> Any:
-    """Only what strict JSON knows: an infinity and NaN by name, an array with its precision, a pair as a list."""
+    """The value as strict JSON: an infinity and NaN by name, an array with its precision, a pair as a list."""
     if isinstance(value, np.ndarray):
         return {
             "dtype": str(value.dtype),
@@ -248,14 +248,14 @@ def strict(value: Any) -> Any:
 
 
 def _count(value: Any) -> Any:
-    """A whole number, or a batch of them, as ``strict`` wrote it."""
+    """An integer, or a batch of them, as ``strict`` wrote it."""
     if isinstance(value, Mapping):
         return lock(np.array([int(count) for count in value["values"]], dtype=np.int64).reshape(value["shape"]))
     return math.inf if value == "inf" else int(value)
 
 
 def _read(value: Any) -> Any:
-    """What ``strict`` wrote, read again; a text with a unit stays one."""
+    """The value that ``strict`` wrote; a text with a unit stays a text."""
     if isinstance(value, list):
         return tuple(_read(part) for part in value)
     if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""The JSON schema of the record of an impact, made from the attributes themselves so that the two cannot disagree."""
+"""``impact_schema``: the JSON schema of an impact's record, generated from the attributes so that the two cannot disagree."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def impact_schema() -> dict[str, Any]:
 
 
 def _inputs() -> dict[str, Any]:
-    """The question: a law and a point are given for the models that know them, and only for those."""
+    """The inputs; law and point only for the models that take them."""
     given, vehicle = {"$ref": "#/$defs/given"}, {"$ref": "#/$defs/vehicle_inputs"}
     null, pair = {"type": "null"}, {"$ref": "#/$defs/pair"}
     question = _closed(
@@ -148,7 +148,7 @@ def _vehicle_inputs() -> dict[str, Any]:
 
 
 def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
-    """What an attribute is written as; one that may be many things is listed by its name."""
+    """The schema of an attribute: by its name in ``_LISTED`` or by its declared type; its docstring is the description."""
     attribute = vars(kind)[name]
     declared = attribute.work_out.__annotations__["return"]
     first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
@@ -161,7 +161,7 @@ def _vehicle_field(field: Field[Any]) -> dict[str, Any]:
 
 
 def _declared(declared: str) -> dict[str, Any]:
-    """What stands in a record for a type that an attribute is declared with."""
+    """The schema for the declared type of an attribute."""
     plain, _, optional = declared.partition(" | ")
     found = _TYPES[plain]
     return {"anyOf": [found, {"type": "null"}]} if optional else dict(found)
@@ -187,7 +187,7 @@ def _by_model(value: dict[str, Any]) -> dict[str, Any]:
 
 
 def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
-    """One value for each case of a batch: flat, beside the shape they have."""
+    """A batch: a flat list of one value per case, and the shape."""
     size = {"type": "integer", "minimum": 0}
     return _closed({"dtype": dtype, "shape": {"type": "array", "items": size}, "values": {"type": "array", "items": value}})
 

@@ -1,4 +1,4 @@
-"""The solvers: linear central, oblique central, eccentric, and the least of them that a scene requires."""
+"""The forward solvers: linear central, oblique central, eccentric, and ``solve``, which chooses the simplest that suffices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Inputs solved: one case at once, or many in blocks, and what is said of those that were refused or gain energy."""
+"""Solves validated inputs: single cases, or batches in blocks, with errors and warnings for refused cases and energy gains."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def solve_inputs(
     progress: Any = None,
     carrying: bool = False,
 ) -> Any:
-    """The answer of a model to one case or to a batch, with the warnings and errors that go with it.
+    """Run a model on one case or a batch, with its warnings and errors.
 
     ``plain`` says that the inputs are plain floats. With ``carrying`` motion that the model cannot hold is carried through.
     """
@@ -82,7 +82,7 @@ def solve_cases(
     progress: Any,
     carrying: bool = True,
 ) -> Any:
-    """The answer to the cases of a batch; ``which`` has the number of each case's model, None where there is but one."""
+    """Solve a batch; ``which`` has the number of each case's model, None if there is only one."""
     # Adds a twentieth to the import of the package, and single cases never come here.
     from .kernels.batch import Work, solve_cases
 
@@ -92,7 +92,7 @@ def solve_cases(
 
 
 def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any, float]:
-    """The cases of a batch as the kernels take them, and the rounding of the precision they are worked out in."""
+    """The batch as the kernels take it, and the rounding of its precision."""
     from .kernels.batch import Cases, precision
 
     dtype = precision(named_numbers(inputs).values())
@@ -101,7 +101,7 @@ def cases_of(inputs: Inputs, shape: tuple[int, ...], threads: int) -> tuple[Any,
 
 
 def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> None:
-    """Refuses an option that no solver knows."""
+    """Raise for an option that no solver knows."""
     if on_failure is not None and not (isinstance(on_failure, str) and on_failure in ("raise", "nan")):
         raise InputError(
             f"on_failure must be None, 'raise' or 'nan', got {shown(on_failure)}", code="bad_option", argument="on_failure"
@@ -117,7 +117,7 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
 
 
 def refusal(inputs: Inputs, raw: Answer) -> CollisionsError:
-    """The error of a single case whose status is not an answer."""
+    """The error for a refused single case."""
     for side, body in (("a", inputs.a), ("b", inputs.b)):
         for name in DOMAINS:
             if getattr(body, name) != getattr(body, name):
@@ -151,14 +151,14 @@ def refusal(inputs: Inputs, raw: Answer) -> CollisionsError:
 
 
 def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
-    """The error of a status, in the family its label belongs to."""
+    """The error for a status, of the class that its ``about`` names."""
     outcome = Status(status)
     kind = {"impact": NoImpactError, "solution": NoSolutionError, "input": InputError}[outcome.about]
     return kind(text, code=outcome.label, **fields)
 
 
 def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Callable[[Any], Any]], Any] | None = None) -> None:
-    """Raises or warns of the refused cases of a batch, and warns of those that gain energy; ``one`` solves a single case."""
+    """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a single case."""
     status = raw.status
     if np.any(status > Status.ENERGY_GAIN):
         if on_failure == "raise":
@@ -172,7 +172,7 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
 
 
 def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
-    """Where in a batch the first refused case stands, and how a message says so."""
+    """Index of the first refused case of a batch, and its wording in a message."""
     index = tuple(int(i) for i in np.argwhere(status > Status.ENERGY_GAIN)[0])
     return index, f"case {index if len(index) != 1 else index[0]}: "
 
@@ -190,7 +190,7 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
 
 
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
-    """What the reader checks of scalars, for the arrays of the inputs: the vehicles first, which are made first."""
+    """The reader's checks of scalars, as checks of the input arrays; vehicles come first, as they are made first."""
     from .kernels.batch import Check
 
     found: list[Check] = []

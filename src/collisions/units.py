@@ -1,4 +1,4 @@
-"""Units: texts and Quantities read, and Quantities made.
+"""Units: reads texts and Quantities (``parse``, ``magnitude``), and makes Quantities (``to_quantity``).
 
 The only file that names pint, which it loads when a unit first appears.
 """
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
         def m_as(self, units: Any) -> Any: ...
 
     class Value(float):
-        """What an attribute holds, as a type checker sees it: a float in a single case, in a batch an array."""
+        """The type of an attribute's value: a float in a single case, an array in a batch."""
 
         def __getattr__(self, name: str) -> Any: ...
         def __getitem__(self, key: Any) -> Any: ...
@@ -65,7 +65,7 @@ _EXAMPLES = {
     "": "0.4",
     _ANY_KIND: "'80 km/h' or '1100 kg'",
 }
-# How the units of what comes up here are written, by their powers of kg, m, s and rad.
+# How the units used here are written, by their powers of kg, m, s and rad.
 _WRITTEN = {
     (1, 1, -2, 0): "N",
     (1, 1, -1, 0): "N*s",
@@ -85,7 +85,7 @@ _ROOTS = {
 }
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
 
-# Patterns stay texts, which the first unit that appears compiles.
+# Patterns stay texts until the first unit is read, which compiles them.
 _NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
@@ -226,7 +226,7 @@ def parse(text: str, unit: str, argument: str) -> Any:
 
 
 def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
-    """What to multiply the magnitude by and what its unit is called, kept for each registry: pint takes 60 us to find out."""
+    """The factor to SI and the unit's name, cached for each registry: pint takes 60 us to find out."""
     registry = quantity._REGISTRY
     known = _known.get(registry)
     if known is None:
@@ -261,12 +261,12 @@ def shown(value: Any, longest: int = 80) -> str:
 
 
 def example(unit: str) -> str:
-    """What may be written for a number of this unit."""
+    """An example of a number of this unit."""
     return _EXAMPLES.get(unit) or f"'1 {unit}'"
 
 
 def _out_of_place(quantity: Any, unit: str) -> str:
-    """What to say of an angle, a proportion or a count that is no part of the wanted unit; "" without one.
+    """The hint for an angle, a proportion or a count that has no place in the wanted unit; "" without one.
 
     To pint they are numbers, by which it multiplies: "5 m/s/deg" would be 286 m/s, and 4 %*% would be 0.0004.
     """
@@ -297,7 +297,7 @@ def _is_count(registry: Any, name: str) -> bool:
 
 
 def _ambiguous_unit(quantity: Any) -> str:
-    """What to say of a unit that not everybody means by its name; "" of others."""
+    """The hint for a unit whose name means different things to different people; "" for others."""
     registry = quantity._REGISTRY
     for name in map(str, quantity._units):
         (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]

@@ -21,7 +21,7 @@ _ABSENT: Any = object()
 
 
 class _AsGiven:
-    """Base that adds to the fields how they were given."""
+    """Base that adds ``given``: the texts that the fields were given as."""
 
     __slots__ = ("given",)
 
@@ -371,7 +371,7 @@ def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
 
 
 def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, given: dict[str, str] | None = None) -> Vehicle:
-    """A vehicle from SI numbers that a vehicle held before, whose size is beyond suspicion, and some new values."""
+    """A vehicle from SI numbers that were checked before, without unit warnings, and some new values."""
     vehicle: Vehicle = object.__new__(Vehicle)
     trusted = numbers.keys() - (changes or {}).keys()
     _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
@@ -381,7 +381,7 @@ def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, g
 
 
 def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, str] | None = None) -> Vehicle:
-    """The same body in another motion, numbers taken as they are: the way results are made."""
+    """The same body in another motion, without validation: used for results."""
     other: Vehicle = object.__new__(Vehicle)
     _set_mass(other, vehicle.mass)
     _set_yaw_inertia(other, vehicle.yaw_inertia)
@@ -410,7 +410,7 @@ def with_given(vehicle: Vehicle, given: dict[str, str]) -> Vehicle:
 
 
 def numbers_of(vehicle: Vehicle) -> Iterator[Value]:
-    """Every number that it has, the coordinates of a pivot too."""
+    """Every number of the vehicle, the coordinates of a pivot included."""
     for name in DOMAINS:
         if (value := getattr(vehicle, name)) is not None:
             yield value
@@ -418,12 +418,12 @@ def numbers_of(vehicle: Vehicle) -> Iterator[Value]:
 
 
 def without_turning(yaw_rate: Any) -> bool:
-    """Whether nothing turns, so that neither position nor inertia is needed; the NaN of a refused case does not count."""
+    """Whether no body turns, so that neither position nor inertia is needed; NaN of a refused case is ignored."""
     return bool(np.all((yaw_rate == 0.0) | (yaw_rate != yaw_rate)))
 
 
 def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: Any = None, y: Any = None) -> tuple[Any, Any]:
-    """What a yaw rate adds to the velocity at a scene point; ``x`` and ``y`` in place of the vehicle's own."""
+    """The velocity at a scene point due to the yaw rate; ``x`` and ``y`` in place of the vehicle's own."""
     if without_turning(yaw_rate):
         return yaw_rate, yaw_rate
     x, y = (needed(vehicle, name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
@@ -439,7 +439,7 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
 
 
 def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
-    """The refusal of a vehicle that lacks a field something needs."""
+    """The error for a vehicle without a field that is needed."""
     who = f"{label} ({vehicle.name})" if vehicle.name else label
     example = {
         "yaw_inertia": "yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
@@ -456,7 +456,7 @@ def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle
 
 
 def not_a_vehicle(label: str, given: Any) -> InputError:
-    """The refusal of what is no Vehicle where one is needed."""
+    """The error for an argument that is not a Vehicle."""
     return InputError(
         f"{label} must be a Vehicle, got {type(given).__name__}; write collisions.Vehicle(mass=...)",
         code="not_a_vehicle",
@@ -484,7 +484,7 @@ def _read_fields(
     name: Any,
     trusted: Any = (),
 ) -> tuple[Any, ...]:
-    """Every field in SI, and the texts of those given with a unit; one error names all that cannot be used."""
+    """Validate the fields: SI values, and the texts of those given with a unit; one error names all that cannot be used."""
     reader = ArgumentReader(trusted)
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
     read = []
@@ -512,7 +512,7 @@ def _read_fields(
 def _pinned_velocity(
     pin: tuple[Any, Any], mass: Any, vx: Any, vy: Any, yaw_rate: Any, yaw_inertia: Any, x: Any, y: Any
 ) -> tuple[Any, Any]:
-    """Velocity (vx, vy) of a body about a pin, worked out where it was not given, else compared; arrays by the solver."""
+    """Velocity (vx, vy) of a pinned body: computed if not given, else compared; arrays are compared by the solver."""
     for label, value in (("mass", mass), ("yaw_inertia", yaw_inertia)):
         if isinstance(value, float) and math.isinf(value):
             raise InputError(

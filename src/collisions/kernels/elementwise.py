@@ -40,7 +40,7 @@ def first_status(*findings: tuple[Any, Status]) -> Any:
 
 
 def more_digits(known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float) -> tuple[Any, Any]:
-    """The ``known`` closing speed and slip where they equal the computed ones to the rounding of ``speeds``, else the computed."""
+    """The ``known`` closing speed and slip where they equal the computed ones to the rounding of ``speeds``, else those."""
     exact_closing, exact_slip = known
     scale = speeds + abs(exact_closing) + abs(exact_slip)
     same = abs(exact_closing - closing) + abs(exact_slip - slip) <= 64.0 * eps * scale

@@ -196,7 +196,7 @@ def friction(
 
 
 class _Moment(NamedTuple):
-    """One instant, before or after: the numbers of both bodies, and at the contact the sum of the speeds that were subtracted."""
+    """One instant, before or after: the numbers of both bodies; at the contact, the sum of the speeds that were subtracted."""
 
     a: dict[str, Any]
     b: dict[str, Any]
