@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from itertools import chain
 from typing import Any, Literal, TypeAlias
 
@@ -56,12 +56,12 @@ class Inputs:
     model: str
     a: Vehicle
     b: Vehicle
-    restitution: Value
+    restitution: Value = field(metadata={"unit": ""})
     normal: tuple[Value, Value]
     rule: str
     rule_value: Value
     law: str | None
-    point: tuple[Value, Value] | None
+    point: tuple[Value, Value] | None = field(metadata={"unit": "m"})
     given: Mapping[str, Any] | None = None
     tolerance: Value | None = None
     contact_velocity: tuple[Value, Value] | None = None
@@ -83,12 +83,20 @@ class Inputs:
         vars(self).update(lock(state))
 
 
+# The numbers and pairs with a unit of their own: records and their schema have each by its name.
+UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
+
+
 def named_numbers(inputs: Inputs) -> dict[str, Any]:
     """Every number of the inputs by the name the caller knows it by."""
-    found = {"restitution": inputs.restitution, inputs.rule: inputs.rule_value}
-    found |= {f"normal[{i}]": part for i, part in enumerate(inputs.normal)}
-    found |= {f"point[{i}]": part for i, part in enumerate(inputs.point or ())}
-    found |= {f"contact_velocity[{i}]": part for i, part in enumerate(inputs.contact_velocity or ())}
+    values = {"restitution": inputs.restitution, inputs.rule: inputs.rule_value, "normal": inputs.normal}
+    values |= {name: getattr(inputs, name) for name in (*UNITS, "contact_velocity")}
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        if isinstance(value, tuple):
+            found |= {f"{name}[{i}]": part for i, part in enumerate(value)}
+        elif value is not None:
+            found[name] = value
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
         found |= {f"{label}.{name}": getattr(vehicle, name) for name in DOMAINS}
         found |= {f"{label}.pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}

@@ -11,7 +11,7 @@ import numpy as np
 
 from .directions import direction
 from .errors import InputError, Status
-from .inputs import Inputs
+from .inputs import UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
@@ -56,11 +56,10 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
         **{name: getattr(inputs, name) for name in _LABELS},
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
-        "restitution": _given(texts.pop("restitution", None), inputs.restitution, ""),
+        **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
         "normal": text if as_text else strict(inputs.normal),
         "bare_normal": strict(inputs.bare_normal),
         "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
-        "point": inputs.point and [_given(texts.pop(f"point[{i}]", None), part, "m") for i, part in enumerate(inputs.point)],
         "tolerance": strict(inputs.tolerance),
         "contact_velocity": strict(inputs.contact_velocity),
         # The texts that are left are of what a reverse solver was given.
@@ -84,6 +83,13 @@ def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
 def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
     moving = Vehicle.from_speed(mass=1.0, **polar)
     return moving.vx, moving.vy
+
+
+def _given_input(texts: dict[str, Any], name: str, value: Any, unit: str) -> Any:
+    """A number or a pair, or None, each number as the text it was given as; the texts used are taken out."""
+    if isinstance(value, tuple):
+        return [_given(texts.pop(f"{name}[{i}]", None), part, unit) for i, part in enumerate(value)]
+    return None if value is None else _given(texts.pop(name, None), value, unit)
 
 
 def _given(text: str | None, number: Any, unit: str) -> Any:
@@ -118,7 +124,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
-        numbers = {name: _read(found[name]) for name in ("restitution", "normal", "rule_value", "point", "tolerance")}
+        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS)}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
     except InputError:

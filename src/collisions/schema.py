@@ -8,6 +8,7 @@ from typing import Any
 
 from .errors import Status
 from .impact import Impact
+from .inputs import UNITS, Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import MODELS
 from .provenance import Reconstruction
@@ -96,14 +97,13 @@ def _inputs() -> dict[str, Any]:
             "law": {"enum": [*LAWS, None]},
             "a": vehicle,
             "b": vehicle,
-            "restitution": given,
+            **{name: _input(name) for name in UNITS},
             "normal": {"anyOf": [pair, {"type": "string"}], "description": "Unit vector from A into B, or its angle as given."},
             "bare_normal": {
                 "anyOf": [{"$ref": "#/$defs/value"}, null],
                 "description": "The normal as an angle of more than a turn that was given without a unit [rad].",
             },
             "rule_value": {**given, "description": "... and its value."},
-            "point": {"anyOf": [_pair(given), null], "description": "Contact point [m]."},
             "tolerance": {"anyOf": [{"$ref": "#/$defs/value"}, null], "description": "Of solve [m/s]."},
             "contact_velocity": {
                 "anyOf": [pair, null],
@@ -145,6 +145,13 @@ def _vehicle_inputs() -> dict[str, Any]:
         "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
         "dependentRequired": {"speed": ["course"], "course": ["speed"]},
     }
+
+
+def _input(name: str) -> dict[str, Any]:
+    """A number or a pair among the inputs, with its unit."""
+    plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
+    found = {"Value": {"$ref": "#/$defs/given"}, "tuple[Value, Value]": _pair({"$ref": "#/$defs/given"})}[plain]
+    return {**({"anyOf": [found, {"type": "null"}]} if optional else found), "description": f"[{UNITS[name] or 1}]"}
 
 
 def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
