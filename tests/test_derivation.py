@@ -4,6 +4,7 @@ import math
 import re
 import sys
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,9 @@ from collisions.derivation import explain
 from collisions.derivation.expressions import System
 from collisions.derivation.page import Page
 from collisions.derivation.symbols import Symbol
+from collisions.impact import build
+from collisions.kernels.contact_laws import LAWS, RULES, Law, Rule
+from collisions.kernels.elementwise import FINITE
 
 # Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred operations of 2**-53.
 SAME = 1e-12
@@ -1171,3 +1175,38 @@ def test_a_deviation_as_large_as_floats_can_be():
     assert f"{sys.float_info.max:.0f}"[:15] in explain(example_2(), uncertainty={"energy_loss": sys.float_info.max}).replace(
         ",", ""
     )
+
+
+@pytest.mark.parametrize(
+    ("sticking_slip", "line"),
+    [
+        (lambda e: -(0.5 * e), "(1 + 0.5 * e) * s"),
+        (lambda e: -0.5 * e, "(1 - (-0.5) * e) * s"),
+        (lambda e: e * 0.5 - 0.25, "(1 - (e * 0.5 - 0.25)) * s"),
+        (lambda e: -0.2, "1.2 * s"),
+    ],
+)
+def test_a_third_law_is_explained_by_its_own_slip(sticking_slip, line, monkeypatch, equations):
+    """The impulse that stops the slip comes from the slip factor of the law, whatever that is."""
+    # The functions of floats are kept by the name of a law.
+    law = Law(f"third {line}", sticking_slip, no_slip="third", derivation="third", assumption="third")
+    monkeypatch.setitem(LAWS, law.name, law)
+    for solver in (col.eccentric, col.oblique_central):
+        text = explain(crossroads(solver, friction=5.0, law=law.name), form="text")
+        assert line in text
+        assert exact(equations) >= 6
+        assert "numbers cancel" not in text
+        assert check_lines(text) >= 5
+
+
+@pytest.mark.parametrize("value", [0.0, 0.7])
+@pytest.mark.parametrize("friction", [0.1, 5.0])
+def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch, equations):
+    """Its meaning, its value and the impulse ratio that it led to, sliding or sticking; the impulses follow from that."""
+    impact = crossroads(friction=friction)
+    monkeypatch.setitem(RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide))
+    text = explain(build(replace(impact.inputs, rule="slope", rule_value=value), impact.answer), form="text")
+    assert f"The slope of the contact was given: slope = {value:g}. With the impulse that just stops the slip it makes" in text
+    assert "friction" not in text.lower()
+    assert exact(equations) >= 6
+    assert check_lines(text) >= 5

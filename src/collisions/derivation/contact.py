@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS
+from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, RULES
 from .expressions import HALF, ZERO, Direction, Expression, magnitude, signed_total, total
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
@@ -62,6 +62,9 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
         )
     if rule == IMPULSE_RATIO:
         page.say(f"The impulse ratio was given: {page.shown(s.ratio)}, tangential over normal, signed.")
+    elif rule not in (FRICTION, CRITICAL_FRACTION):
+        given = f"The {RULES[rule].meaning} was given: {page.name(rule)} = {page.number(value, 'number')}"
+        page.say(f"{given}. With the impulse that just stops the slip it makes the impulse ratio {page.shown(s.ratio)}.")
     elif value == 0.0:
         why = {
             FRICTION: "Without friction the impulse is along the normal alone, as in the paper",

@@ -172,6 +172,8 @@ class Expression:
         """The sum with another, or the difference where the sign is negative."""
         if other.is_literal(0.0):
             return self
+        if isinstance(other, Negative):
+            return self.plus(-sign, other.inner)
         if self.is_literal(0.0):
             return other if sign > 0.0 else Negative(other)
         if isinstance(other, Negative):
@@ -186,14 +188,14 @@ class Expression:
         """Its square."""
         return Square(self)
 
-    def __add__(self, other: Expression) -> Expression:
-        return self.plus(1.0, other)
+    def __add__(self, other: Expression | float) -> Expression:
+        return self.plus(1.0, _expression(other))
 
     def __radd__(self, other: float) -> Expression:
         return Literal(other).plus(1.0, self)
 
-    def __sub__(self, other: Expression) -> Expression:
-        return self.plus(-1.0, other)
+    def __sub__(self, other: Expression | float) -> Expression:
+        return self.plus(-1.0, _expression(other))
 
     def __rsub__(self, other: float) -> Expression:
         return Literal(other).plus(-1.0, self)
@@ -201,14 +203,15 @@ class Expression:
     def __neg__(self) -> Expression:
         return Negative(self)
 
-    def __mul__(self, other: Expression) -> Expression:
+    def __mul__(self, factor: Expression | float) -> Expression:
+        other = _expression(factor)
         return self if other.is_literal(1.0) else other if self.is_literal(1.0) else Product(self, other)
 
     def __rmul__(self, other: float) -> Expression:
         return Literal(other) * self
 
     def __truediv__(self, other: Expression | float) -> Expression:
-        under = other if isinstance(other, Expression) else Literal(other)
+        under = _expression(other)
         if isinstance(under, Quotient) and under.over.is_literal(1.0):
             return under.under * self
         return self if under.is_literal(1.0) else Quotient(self, under)
@@ -224,7 +227,11 @@ class Literal(Expression):
         super().__init__(float(value), abs(value))
 
     def write(self, pen: Pen) -> Written:
-        return Written(f"{self.value:g}", ATOM, worth=self.value)
+        return Written(f"{self.value:g}", SUM if self.value < 0.0 else ATOM, worth=self.value)
+
+
+def _expression(value: Expression | float) -> Expression:
+    return value if isinstance(value, Expression) else Literal(value)
 
 
 class Sum(Expression):

@@ -4,9 +4,9 @@ A new law or a new tangential rule is an entry of the tables below; every solver
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, select
 
@@ -20,22 +20,42 @@ class Law:
     name : str
         As given to ``law=``.
     sticking_slip : callable
-        Slip after over slip before of a contact that sticks, from the restitution.
-    compression_limit : bool
-        Whether a sticking contact is at rest at the end of compression, and restitution multiplies that whole impulse by 1 + e.
-        Then the energy lost with friction is a sum of terms that are >= 0.
+        Slip after over slip before of a contact that sticks, from the restitution, by + - * / alone: ``explain`` writes it in
+        symbols.
     no_slip : str
         What no slip means, in a few words for messages.
     derivation, assumption : str
         The same as ``explain`` and a report say it.
+
+    Attributes
+    ----------
+    compression_limit : bool
+        Whether that slip is -e, so that a sticking contact is at rest at the end of compression and restitution multiplies that
+        whole impulse by 1 + e. Then the energy lost with friction is a sum of terms that are >= 0.
     """
 
     name: str
     sticking_slip: Callable[[Any], Any]
-    compression_limit: bool
     no_slip: str
     derivation: str
     assumption: str
+    compression_limit: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        at_rest = all(self.sticking_slip(e) == -e for e in (0.0, 0.1, 0.3, 0.7, 1.0))
+        object.__setattr__(self, "compression_limit", at_rest)
+
+
+class Tangent(NamedTuple):
+    """What a rule decides: whether the contact sticks, and its impulse ratio if it does not.
+
+    ``needs_no_slip`` says whether the no-slip impulse matters, ``pulls`` whether that would need the bodies to pull.
+    """
+
+    sticks: Any
+    ratio: Any
+    needs_no_slip: Any
+    pulls: Any
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -51,33 +71,33 @@ class Rule:
     meaning : str
         What the value is, for tables.
     decide : callable
-        From the value and the no-slip impulse (n, t): whether the contact sticks, its impulse ratio otherwise, whether the
-        no-slip impulse matters, and whether it would need the bodies to pull.
+        The ``Tangent`` from the value and the no-slip impulse (n, t).
     """
 
     name: str
     domain: Domain
     meaning: str
-    decide: Callable[[Any, Any, Any], tuple[Any, Any, Any, Any]]
+    decide: Callable[[Any, Any, Any], Tangent]
 
 
-def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> tuple[Any, Any, Any, Any]:
+def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
     # The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers reverse it. The limit is
     # compared by multiplication, so that an infinite friction needs no case of its own. Adding 0 turns a -0 into 0.
     matters = friction > 0.0
     sticks = matters & (no_slip_n > 0.0) & (abs(no_slip_t) <= friction * no_slip_n)
-    return sticks, select(no_slip_t < 0.0, -friction, friction) + 0.0, matters, (friction == inf) & (no_slip_n <= 0.0)
+    ratio = select(no_slip_t < 0.0, -friction, friction) + 0.0
+    return Tangent(sticks, ratio, matters, pulls=(friction == inf) & (no_slip_n <= 0.0))
 
 
-def _given_ratio(ratio: Any, no_slip_n: Any, no_slip_t: Any) -> tuple[Any, Any, Any, Any]:
-    return False, ratio, False, False
+def _given_ratio(ratio: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
+    return Tangent(sticks=False, ratio=ratio, needs_no_slip=False, pulls=False)
 
 
-def _share_of_critical(share: Any, no_slip_n: Any, no_slip_t: Any) -> tuple[Any, Any, Any, Any]:
+def _share_of_critical(share: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
     pushes = no_slip_n > 0.0
     matters = share > 0.0
     ratio = share * (no_slip_t / select(pushes, no_slip_n, 1.0))
-    return pushes & (share == 1.0), ratio, matters, matters & (no_slip_n <= 0.0)
+    return Tangent(pushes & (share == 1.0), ratio, matters, pulls=matters & (no_slip_n <= 0.0))
 
 
 FRICTION, IMPULSE_RATIO, CRITICAL_FRACTION = "friction", "impulse_ratio", "critical_fraction"
@@ -97,7 +117,6 @@ LAWS = {
         Law(
             BRACH,
             lambda restitution: 0.0,
-            compression_limit=False,
             no_slip="no slip at separation",
             derivation='no slip is left at separation (law "brach")',
             assumption="restitution acts on the normal impulse; with enough friction the contact has stopped slipping when the "
@@ -106,7 +125,6 @@ LAWS = {
         Law(
             KUDLICH_SLIBAR,
             lambda restitution: -restitution,
-            compression_limit=True,
             no_slip="no slip at the end of compression",
             derivation="the contact is at rest at the end of compression and the whole compression impulse is multiplied by "
             '1 + e (law "kudlich-slibar"), which turns the slip around and leaves e times as much',

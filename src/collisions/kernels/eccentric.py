@@ -122,7 +122,7 @@ def eccentric(
     no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divided_by
     no_slip_t = no_slip_t_determinant / divided_by
 
-    sticks, ratio, no_slip_matters, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
+    sticks, ratio, needs_no_slip, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
     resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
     jams = (resistance <= 0.0) & (sticks ^ True)
     sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
@@ -130,7 +130,7 @@ def eccentric(
     impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
     torque_a = rt_a * normal - rn_a * impulse_t
     torque_b = rn_b * impulse_t - rt_b * normal
-    stuck = bounded & (regular ^ True) & no_slip_matters
+    stuck = bounded & (regular ^ True) & needs_no_slip
     if impulse_only:
         answered = (closing > 0.0) & ((immovable | stuck | pulls | jams) ^ True)
         for_a = a_a, b_a, torque_a, rt_a * no_slip_n - rn_a * no_slip_t
