@@ -24,7 +24,6 @@ def third_law(monkeypatch):
     law = contact_laws.Law(
         "half back",
         lambda restitution: -0.5 * restitution,
-        compression_limit=False,
         no_slip="half of e comes back",
         derivation="half of e comes back of the slip",
         assumption="half of e comes back of the slip, says the test",

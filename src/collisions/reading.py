@@ -306,6 +306,10 @@ def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputEr
             code="not_finite",
             argument=argument,
         )
+    for fault, status in domain.faults:
+        if fault(value):
+            text = f"{argument} must be {domain.name}, got {shown(given)}: {status.sentence}"
+            return InputError(text, code=status.label, argument=argument)
     return None
 
 

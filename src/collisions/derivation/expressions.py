@@ -176,8 +176,6 @@ class Expression:
             return self.plus(-sign, other.inner)
         if self.is_literal(0.0):
             return other if sign > 0.0 else Negative(other)
-        if isinstance(other, Negative):
-            return self.plus(-sign, other.inner)
         return Sum(self, other, 1.0 if sign > 0.0 else -1.0)
 
     def is_literal(self, value: float) -> bool:

@@ -326,6 +326,9 @@ def compile_for_floats(
         if function is np.bitwise_xor and parts[1] == "True":
             written = f"(not {parts[0]})"
         elif function is not None:
+            if function not in _WRITTEN:
+                name = getattr(function, "__name__", repr(function))
+                raise TypeError(f"{kernel.__name__} uses {name}, which cannot be written for floats; see collisions.kernels")
             written = _WRITTEN[function].format(*parts)
         elif operands:
             path = takes[operands[0]]
