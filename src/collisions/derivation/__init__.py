@@ -1,4 +1,4 @@
-"""The derivation of an answer with its numbers, step by step, for those who have to check it."""
+"""Step-by-step derivations of a result with its numbers, for readers who have to check it."""
 
 from .explain import explain
 

@@ -1,4 +1,4 @@
-"""explain: an answer written down step by step, with the numbers of the result and the equations of the paper."""
+"""``explain``: the derivation of a result, step by step, with its numbers and the equations of the paper."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
-# What to do about a result that holds no more than its number.
+# The hint for a result that is a bare number.
 NOT_EXPLAINED = (
     ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
     "help(collisions.reconstruct.crush_energy), help(collisions.travel.speed), help(collisions.travel.path)"
@@ -170,7 +170,7 @@ def explain(
 
 
 def no_uncertainty() -> InputError:
-    """The refusal of other errors than those that a fit has."""
+    """The error for an ``uncertainty`` with a result that brings its own errors."""
     return InputError(
         "uncertainty is none of a Fit, which has the standard errors of its unknowns; leave it out, or explain the impact at "
         "the values found, with a propagation of fit.inputs",
@@ -180,7 +180,7 @@ def no_uncertainty() -> InputError:
 
 
 def kinds_of_answers(result: Impact | MomentumSolution | Fit) -> Mapping[str, str]:
-    """The answers that an uncertainty may be of, by name, with the kind of each."""
+    """The results that an uncertainty may be given for, by name, with their kind."""
     return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
 
 
@@ -198,7 +198,7 @@ def _impact(page: Page, impact: Impact) -> None:
 
 
 def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
-    """What was given: of A, B or the contact, in words, by which arguments, their numbers and their kind."""
+    """The rows of given inputs: A, B or the contact, description, argument, number and kind."""
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
         for name, (what, kind) in _VEHICLE.items():
             value = getattr(vehicle, name)
@@ -216,7 +216,7 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
 
 
 def _inputs(page: Page, impact: Impact) -> None:
-    """What went in, as a table."""
+    """Write the table of inputs."""
     vehicles = {"A": impact.a.before.name, "B": impact.b.before.name}
     bare = impact.inputs.bare_normal
     rows = []
@@ -232,7 +232,7 @@ def _inputs(page: Page, impact: Impact) -> None:
 
 
 def _normal(page: Page, s: Symbols) -> None:
-    """The components of the normal, which the formulas need wherever it is not the x axis."""
+    """Write the components of the normal, which the formulas need unless it is the x axis."""
     if s.impact.normal == (1.0, 0.0):
         return
     if 0.0 in s.impact.normal:
@@ -244,7 +244,7 @@ def _normal(page: Page, s: Symbols) -> None:
 
 
 def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]:
-    """What came out, rounded, as rows of a table."""
+    """The rows of results, rounded."""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
             if impact.model != "eccentric" and name.endswith("yaw_rate"):
@@ -263,7 +263,7 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
 
 
 def _energy_gain(page: Page, status: Any, loss: float) -> None:
-    """An energy gain comes before anything else."""
+    """Write the warning of an energy gain, before anything else."""
     if status == Status.ENERGY_GAIN:
         page.stress(
             f"Energy gain: the vehicles leave with {page.system.answer(-loss, 'energy')} more than they came with, which no "
@@ -272,7 +272,7 @@ def _energy_gain(page: Page, status: Any, loss: float) -> None:
 
 
 def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
-    """What the numbers are."""
+    """Write the notes on rounding, units and signs."""
     page.heading("Notes")
     lines = [
         "Every step was worked out with all digits. A number is printed as it is if six figures hold it, else with four "
@@ -300,7 +300,7 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
 
 
 def _spread(uncertainty: Any, kinds: Mapping[str, str]) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
-    """Standard deviations in SI, by the name of the answer; or ranges, where there is no distribution to have a deviation."""
+    """Standard deviations in SI by result; or ranges, where intervals leave no distribution."""
     known = {name.replace(".", "_"): name for name in kinds} | {name: name for name in kinds}
     if isinstance(uncertainty, Propagation):
         outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}

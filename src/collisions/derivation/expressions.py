@@ -1,4 +1,4 @@
-"""Formulas that are written in symbols or in numbers and can be worked out; and the digits and units of those numbers."""
+"""``Expression``: formulas that can be written in symbols or in numbers and evaluated; and the formatting of the numbers."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import NamedTuple
 
 from ..formatting import Numbers, decimals_of, places, with_decimals
 
-# What is this near to 0 in SI is what rounding left of it, and printed as 0.
+# Numbers in SI within this of 0 are rounding, and printed as 0.
 _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 1e-15}
 _ZERO_OF_OTHERS = 1e-10
 _FIGURES = 4
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
 
 _FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt, "abs": abs, "cos": math.cos, "sin": math.sin}
-# How firmly a written part holds together: what is looser than its place wants is put in brackets.
+# Operator precedence of a written part: one below that of its place is put in brackets.
 SUM, _PRODUCT, _POWER, ATOM = range(4)
 
 
 class Unit(NamedTuple):
-    """The unit of a written number: what the SI value was multiplied by, and labels of units with their powers."""
+    """The unit of a written number: its factor from SI, and its labels with their powers."""
 
     scale: float = 1.0
     powers: tuple[tuple[str, float], ...] = ()
@@ -39,7 +39,7 @@ class Unit(NamedTuple):
 
     @property
     def name(self) -> str:
-        """As a product and quotient of labels."""
+        """The unit as a product and quotient of labels."""
         over: list[str] = []
         under: list[str] = []
         for label, power in self.powers:
@@ -51,21 +51,21 @@ class Unit(NamedTuple):
 
 
 class System(Numbers):
-    """The numbers of one system of units as answers and, with more figures, in the working."""
+    """Formats numbers in one system of units: as results and, with more figures, in the working."""
 
     def unit_of(self, kind: str) -> Unit:
-        """The unit of a kind by itself."""
+        """The unit of a kind of quantity."""
         return _unit(self.label(kind), self.scale(kind))
 
     def working(self, value: float, kind: str, more: int = 0) -> str:
-        """A number in the working: as it is if six figures hold it, else four or the decimals of an answer, and more."""
+        """A number in the working: exact if six figures hold it, else to four figures or a result's decimals; ``more`` adds some."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
         return "0" if _is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
-        """A number as it is if six figures hold it, else four figures, or at least so many decimals and two more at most."""
+        """A number, exact if six figures hold it, else to four figures, with at least ``least`` decimals and two more at most."""
         exact = f"{number:.6g}"
         near = abs(float(exact) - number) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(number)
         if near and len(exact) <= 9 and "e" not in exact:
@@ -107,7 +107,7 @@ NO_UNIT = Unit()
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """How to write: as LaTeX or as plain text, with the numbers of a system of units or, without one, with symbols.
+    """How to write: LaTeX or plain text; in the numbers of a system of units or, without one, in symbols.
 
     Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry their own degree sign.
     ``conversions`` takes down each number that converts units, with the units that it stands between.
@@ -121,7 +121,7 @@ class Pen:
 
 
 class Written(NamedTuple):
-    """A written part: its text, how firmly it holds together, and of numbers what they come to as printed, in which unit."""
+    """A written part: its text and precedence; for a number, its value as printed and its unit."""
 
     text: str
     rank: int
@@ -129,13 +129,13 @@ class Written(NamedTuple):
     unit: Unit = NO_UNIT
 
     def within(self, rank: int, pen: Pen) -> str:
-        """The text, in brackets where it is looser than that."""
+        """The text, in brackets if its precedence is lower."""
         if self.rank >= rank:
             return self.text
         return rf"\left({self.text}\right)" if pen.latex else f"({self.text})"
 
     def converted(self, unit: Unit, pen: Pen) -> Written:
-        """The same times what turns it into another unit."""
+        """The part multiplied by the factor to another unit."""
         if self.unit is unit:
             return self
         factor = unit.scale / self.unit.scale
@@ -156,7 +156,7 @@ class Written(NamedTuple):
 
 
 class Expression:
-    """A formula: its ``value`` in SI, how large its terms are (``size``), and how a pen writes it.
+    """A formula: ``value`` in SI, ``size`` of its largest terms, and ``write``, its form for a pen.
 
     A term of 0 and a factor of 1 are not written, and one over the reciprocal of a quantity is the product with that quantity.
     """
@@ -165,7 +165,7 @@ class Expression:
         self.value, self.size = value, size
 
     def write(self, pen: Pen) -> Written:
-        """The formula as the pen has it."""
+        """The formula in the form that the pen writes."""
         raise NotImplementedError
 
     def plus(self, sign: float, other: Expression) -> Expression:
@@ -179,7 +179,7 @@ class Expression:
         return Sum(self, other, 1.0 if sign > 0.0 else -1.0)
 
     def is_literal(self, value: float) -> bool:
-        """Whether this is a number of the formula itself, and this one."""
+        """Whether this is the literal number given."""
         return isinstance(self, Literal) and self.value == value
 
     def squared(self) -> Expression:
@@ -219,7 +219,7 @@ class Expression:
 
 
 class Literal(Expression):
-    """A number that belongs to the formula."""
+    """A number that is part of the formula, such as 2 in m v^2 / 2."""
 
     def __init__(self, value: float) -> None:
         super().__init__(float(value), abs(value))
@@ -233,7 +233,7 @@ def _expression(value: Expression | float) -> Expression:
 
 
 class Sum(Expression):
-    """Two terms, added or subtracted; in numbers both in the unit of the first."""
+    """The sum or difference of two terms; in numbers both in the unit of the first."""
 
     def __init__(self, left: Expression, right: Expression, sign: float) -> None:
         self.left, self.right, self.sign = left, right, sign
@@ -247,7 +247,7 @@ class Sum(Expression):
 
 
 class Product(Expression):
-    """Two factors."""
+    """The product of two factors."""
 
     def __init__(self, left: Expression, right: Expression) -> None:
         self.left, self.right = left, right
@@ -262,7 +262,7 @@ class Product(Expression):
 
 
 class Quotient(Expression):
-    """One over another; not known where what it is over has cancelled to 0, and the page says so."""
+    """A quotient; NaN if its divisor has cancelled to 0, which the page says."""
 
     def __init__(self, over: Expression, under: Expression) -> None:
         self.over, self.under = over, under
@@ -283,7 +283,7 @@ class Quotient(Expression):
 
 
 class Negative(Expression):
-    """With the other sign."""
+    """The negative of an expression."""
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner
@@ -295,7 +295,7 @@ class Negative(Expression):
 
 
 class Square(Expression):
-    """To the power of two."""
+    """The square of an expression."""
 
     def __init__(self, inner: Expression) -> None:
         self.inner = inner

@@ -1,4 +1,4 @@
-"""The derivations of the three models: linear, oblique and eccentric, sections 2.1 to 2.3 of the paper, also with friction."""
+"""Derivations of the three models: linear, oblique and eccentric, sections 2.1 to 2.3 of the paper, also with friction."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def linear(page: Page, s: Symbols) -> None:
 
 
 def _against_fixed(page: Page, s: Symbols) -> None:
-    """Impulse and velocity after of the body that hits one of infinite mass."""
+    """Impulse, and velocity after, of a body that hits one of infinite mass."""
     wall, hit = (s.a, s.b) if s.a.fixed else (s.b, s.a)
     v, wall_v = hit.straight(), wall.straight()
     page.say(
@@ -106,7 +106,7 @@ def oblique(page: Page, s: Symbols) -> None:
 
 
 class Lever(Body):
-    """A body with its lever, from its centre of mass or from its pivot to the contact, and with what resists a turn."""
+    """A body with its lever arm, from centre of mass or pivot to the contact, and its inertia about that point."""
 
     def __init__(self, impact: Impact, label: str) -> None:
         super().__init__(impact, label)
@@ -124,7 +124,7 @@ class Lever(Body):
         self.matters = (self.pinned or self.turns or self.start.yaw_rate != 0.0) and self.start.x is not None
 
     def derive(self, page: Page, s: Symbols) -> None:
-        """Where the lever comes from."""
+        """Write the components of the lever arm."""
         label = self.label
         x, y = (
             Symbol(f"C_{axis}", there, "length") - Symbol(f"{'O' if self.pinned else 'G'}_{{{label}{axis}}}", here, "length")
@@ -141,7 +141,7 @@ class Lever(Body):
 
     def at_contact(self, page: Page, when: str, caption: str, directions: str = "nt") -> None:
         """The velocity of the body at the contact."""
-        # What nothing changes has the symbol that it had before.
+        # An unchanged velocity keeps its symbol of before.
         spin = self.spin(when if self.turns else BEFORE)
         for direction in directions:
             name, lever, sign = ("normal", self.t, -1.0) if direction == "n" else ("tangent", self.n, 1.0)
@@ -205,7 +205,7 @@ def impulse_in_scene_axes(page: Page, s: Symbols) -> None:
 
 
 def _turns(page: Page, levers: Sequence[Lever]) -> str:
-    """Which yaw rates the impulse changes."""
+    """A sentence on the yaw rates that the impulse changes."""
     turned = [body for body in levers if page.system.working(body.side.delta_yaw_rate, "yaw rate") != "0"]
     if not turned:
         return "The impulse has no moment about a body that could turn, so it changes no yaw rate."
@@ -217,7 +217,7 @@ def _turns(page: Page, levers: Sequence[Lever]) -> str:
 
 
 def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
-    """What an impulse does to the relative velocity at the contact."""
+    """Write the mobility: the relative velocity at the contact per unit of impulse."""
     turning = [body for body in levers if body.turns]
     central = [1.0 / body.mass for body in levers if not body.pinned and not body.fixed]
     page.say(
@@ -308,7 +308,7 @@ def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> Non
 
 
 def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
-    """Restitution at the contact, from both bodies and from one."""
+    """Write the restitution at the contact, from both bodies and from one."""
     a, b = levers
     closing = a.along("n", contact=True) - b.along("n", contact=True)
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")

@@ -1,4 +1,4 @@
-"""The page: headings, sentences, equations and tables, put down once and printed as Markdown with LaTeX or as plain text."""
+"""``Page``: headings, sentences, equations and tables, printed as Markdown with LaTeX or as plain text."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
-# Figures that a line may have beyond those of the working; with these it has all that there are.
+# The most figures a line may add to those of the working; with them it has every digit of a float.
 _MOST = 12
 # The columns of every table.
 HEAD = ("of", "quantity", "value")
@@ -17,7 +17,7 @@ _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~])")
 
 
 class Page:
-    """What is written, in order, with the conversions of units that were printed, by the units they stand between."""
+    """The parts written so far, and the printed conversion factors by the units they convert."""
 
     def __init__(
         self,
@@ -40,15 +40,15 @@ class Page:
         self.parts.append(f"## {text}" if self.latex else f"{text}\n{'-' * len(text)}")
 
     def say(self, text: str) -> None:
-        """A sentence or more."""
+        """Write one or more sentences."""
         self.parts.append(text)
 
     def stress(self, text: str) -> None:
-        """What must not be read over."""
+        """Write a sentence with emphasis."""
         self.parts.append(f"**{text}**" if self.latex else f"!! {text}")
 
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
-        """A table of what it is of, the quantity, and its value."""
+        """Write a table: subject, quantity, value."""
         body = list(rows)
         if self.latex:
             lines = [f"| {' | '.join(line)} |" for line in (HEAD, ("---", "---", "---"), *body)]
@@ -64,7 +64,7 @@ class Page:
         self.parts.append("\n".join(f"- {line}" for line in lines))
 
     def name(self, text: str) -> str:
-        """A name that somebody gave: as it is in plain text, in Markdown so that none of its signs is taken for markup."""
+        """A user's name: unchanged in plain text, escaped in Markdown so that none of its characters is markup."""
         plain = " ".join(text.split())
         return _MARKS.sub(r"\\\1", plain) if self.latex else plain
 
@@ -96,7 +96,7 @@ class Page:
         return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
-        """Symbol = formula = numbers = the value of the symbol: the number of the result, which the formula must give."""
+        """Write symbol = formula = numbers = value: the result's own number, which the formula must give."""
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
         lines = [self._in_symbols(right)]
@@ -105,7 +105,7 @@ class Page:
         self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)], fits=fits)
 
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
-        """Formula = formula, in symbols, in numbers, and the value of both sides."""
+        """Write a balance, formula = formula: in symbols, in numbers, and the value of both sides."""
         sides = (left, right)
         numbers, fits = self._in_numbers([(side, side.value) for side in sides], kind, left.size + right.size)
         values = " = ".join(self.system.working(side.value, kind) for side in sides) + self._unit(kind)
@@ -114,7 +114,7 @@ class Page:
     def collected(
         self, caption: str, row: tuple[float, float, float], symbols: tuple[Symbol, Symbol], kind: str, more: int = 0
     ) -> None:
-        """Number = numbers times symbols that are still unknown; the numbers belong to the units printed."""
+        """Write number = numbers times unknown symbols; the numbers are in the units printed."""
         times, right = r"\," if self.latex else " * ", ""
         for factor, symbol in zip(row[1:], symbols, strict=True):
             name, size = self._in_symbols(symbol), self.system.figures(abs(factor), more=more)
@@ -126,7 +126,7 @@ class Page:
         self._lines(f"{caption}, in {self.system.label(kind)}, with the unknowns in {unknown}", left, [right])
 
     def figures_to_solve(self, rows: Sequence[tuple[float, float, float]], unknowns: tuple[Symbol, Symbol]) -> int:
-        """How many more figures two equations (number, and factor of each unknown) need to have the printed solution."""
+        """The additional figures that two linear equations need for their printed numbers to have the printed solution."""
         for more in range(_MOST + 1):
             (p, a, b), (q, c, d) = ([float(self.system.figures(number, more=more)) for number in row] for row in rows)
             solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
@@ -142,7 +142,7 @@ class Page:
         return formula.write(Pen(self.latex)).text
 
     def _in_numbers(self, sides: Sequence[tuple[Expression, float]], kind: str, size: float) -> tuple[list[str], bool]:
-        """Formulas in numbers, with as many figures as it takes that they come to what is printed; and whether any do."""
+        """Formulas in numbers with enough figures that they give the printed value; and whether any do."""
         for more in (*range(_MOST + 1), 0):
             pen = Pen(self.latex, self.system, more)
             found = [side.write(pen).converted(self.system.unit_of(kind), pen) for side, _ in sides]
@@ -154,7 +154,7 @@ class Page:
         return [one.text for one in found], fits
 
     def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
-        """Whether printed numbers that are worth so much are, rounded, the number printed for a value."""
+        """Whether the value of printed numbers, rounded, is the number printed for a value."""
         if not math.isfinite(value):
             return True  # "infinite" and "not known" promise no figures
         printed = float(self.system.working(value, kind))
@@ -162,7 +162,7 @@ class Page:
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
     def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = (), fits: bool = True) -> None:
-        """The left side once, below each other what it equals, and other equations ``below``."""
+        """Lines with the left side once, its equals below each other, and other equations ``below``."""
         if not self.latex:
             pad = " " * (len(left) + 2)
             lines = [f"  {left} = {chain[0]}", *(f"{pad} = {line}" for line in chain[1:]), *(f"  {line}" for line in below)]

@@ -1,4 +1,4 @@
-"""Why this model, and for a reverse problem: what was known, and how the state before was found from it."""
+"""``why_this_model`` and ``state_before``: the choice of the model, and how a reverse solver found the state before."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
-# What may be known; of anything else the name of the argument says it.
+# Descriptions of known values; others are described by the name of their argument.
 _KNOWN = {
     "va": "velocity of A before",
     "vb": "velocity of B before",
@@ -29,7 +29,7 @@ _KNOWN = {
 
 
 def why_this_model(page: Page, impact: Impact) -> None:
-    """How ``solve`` came to the model."""
+    """Write the reason for which ``solve`` chose the model."""
     choice = impact.choice
     if choice is None:
         return
@@ -48,7 +48,7 @@ def why_this_model(page: Page, impact: Impact) -> None:
 
 
 def state_before(page: Page, s: Symbols) -> None:
-    """How a reverse solver came to the state before; of one that is not known here only what was known."""
+    """Write how the state before was found; for an unfamiliar reverse solver only what was known."""
     origin = s.impact.reconstruction
     if origin is None:
         return
@@ -63,7 +63,7 @@ def state_before(page: Page, s: Symbols) -> None:
 
 
 def what_was_known(page: Page, origin: Reconstruction) -> None:
-    """Which reverse solver found the state before, from what, how well-posed that was, and whether it is the only answer."""
+    """Write which reverse solver found the state before, from what, its condition, and whether it is the only solution."""
     page.heading("How the state before was found")
     known = ", ".join(_KNOWN.get(name, name.replace("_", " ")) for name in origin.known)
     page.say(f"Backwards, by reconstruct.{origin.method}: known beside masses and geometry were {known}.")
@@ -79,7 +79,7 @@ def what_was_known(page: Page, origin: Reconstruction) -> None:
 
 
 def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
-    """In-line impact: three of six known."""
+    """Write an in-line impact from three of six known values."""
     (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
     v = dict(zip(_VELOCITIES, (a.straight(), b.straight(), a.straight(AFTER), b.straight(AFTER)), strict=True))
     given = [name for name in _VELOCITIES if name in known]
@@ -119,7 +119,7 @@ def _central(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
 
 
 def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str) -> None:
-    """The fourth velocity from momentum, or from the rest of a body that nothing moves."""
+    """Write the fourth velocity, from momentum or from a body at rest that nothing moves."""
     a, b = s.bodies
     if a.fixed or b.fixed:
         page.say(f"A mass is infinite, so the velocity of that body is the same before and after. {page.shown(v[missing])}.")
@@ -136,7 +136,7 @@ def _last_velocity(page: Page, s: Symbols, v: Mapping[str, Symbol], missing: str
 def _relation(
     v: Mapping[str, Symbol], share: Mapping[str, Symbol], given: list[str], g: Expression, r: Expression
 ) -> tuple[Expression, Expression]:
-    """The difference of two known velocities, and what it is of closing speed g and separation speed r."""
+    """Write the difference of two known velocities in terms of the closing speed g and the separation speed r."""
     first, second = given
     difference = v[first] - v[second] if first == "va" else v[second] - v[first]
     if second == "vb":
@@ -148,7 +148,7 @@ def _relation(
 
 
 def _planar(page: Page, s: Symbols, kind: str) -> None:
-    """Time reversed, an impact is an impact."""
+    """Write a planar impact reversed in time."""
     e, g, r = s.e, s.closing, s.separation
     levers = Lever(s.impact, "A"), Lever(s.impact, "B")
     page.say(
@@ -184,7 +184,7 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
 
 
 def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
-    """Two of speeds, delta-V and energy."""
+    """Write speeds from two of: speeds, delta-V, energy."""
     page.say(
         f"Within one regime of the contact (here {s.impact.regime}) the impulse is linear in both speeds, and energies are "
         "quadratic. Each regime was solved for the two that were known, and a pair of speeds was kept if the impact, solved "

@@ -1,4 +1,4 @@
-"""The symbols of a derivation: one for each quantity, with the number that the result holds."""
+"""``Symbols``: one symbol for each quantity of a derivation, with the result's number."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _plain_symbol(latex: str) -> str:
     text = re.sub(r"\\(?:bar|mathrm)(?=\{)|[{}]", "", latex)
     for command, plain in _PLAIN.items():
         text = text.replace(command, plain)
-    # What marks the state stands before the index.
+    # The mark of the state stands before the index.
     return re.sub(r"_(\w+?)(?:\^(0)|('))", r"\2\3_\1", text).replace("^", "")
 
 
@@ -85,7 +85,7 @@ class Body:
         return found
 
     def arm(self, axis: str) -> Symbol:
-        """From the pivot of a pinned body to its centre of mass, along a scene axis."""
+        """The arm from the pivot of a pinned body to its centre of mass, along a scene axis."""
         pivot_x, pivot_y = self.start.pivot or (0.0, 0.0)
         center, pivot = (self.start.x, pivot_x) if axis == "x" else (self.start.y, pivot_y)
         return Symbol(rf"d_{{{self.label}{axis}}}", math.nan if center is None else center - pivot, "length")

@@ -1,4 +1,4 @@
-"""From what was found to how fast they went: the impact solved backwards, one question a function."""
+"""The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence."""
 
 from ..provenance import Reconstruction
 from .central import central

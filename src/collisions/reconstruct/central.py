@@ -1,4 +1,4 @@
-"""In-line impact backwards: from any three of four velocities, restitution and energy loss to the whole impact."""
+"""``central``: reconstructs an in-line impact from any three of four velocities, restitution and energy loss."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotien
 
 
 class Candidate(NamedTuple):
-    """Velocities before and restitution that agree with what is known, their closing speed, and whether they are an impact."""
+    """A candidate solution: velocities before, restitution, closing speed, and whether it is a possible impact."""
 
     va: Any
     vb: Any
@@ -176,7 +176,7 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
 
 
 def _candidates(numbers: dict[str, Any], eps: float) -> list[Candidate]:
-    """The impacts that agree with what is known, be they possible or not: one or two."""
+    """The one or two candidates that agree with the known values, possible or not."""
     share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
     return [
         _candidate(numbers, share_a, share_b, closing, separation, fixed, eps)
@@ -187,7 +187,7 @@ def _candidates(numbers: dict[str, Any], eps: float) -> list[Candidate]:
 def _candidate(
     known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any, eps: float
 ) -> Candidate:
-    """The impact of a pair of closing and separation speed."""
+    """The candidate for a closing and a separation speed."""
     total = closing + separation
     va, vb = known.get("va"), known.get("vb")
     if va is None and vb is None:
@@ -206,7 +206,7 @@ def _candidate(
 
 
 def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float) -> Any:
-    """Sum over what was given of the change of the speeds before, in closing speeds, by its own relative change."""
+    """Condition: sum over the known values of the change of the speeds before, in closing speeds, per relative change."""
     total = np.zeros(())
     for name, value in numbers.items():
         beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps)
@@ -217,7 +217,7 @@ def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float
 
 
 def _only_changing(known: dict[str, Any]) -> str:
-    """The body whose change of velocity is all that is known of the impact: nothing, if its mass is infinite."""
+    """The body whose change of velocity is the only information on the impact; it says nothing if its mass is infinite."""
     v = [name for name in VELOCITIES if name in known]
     if len(v) == 3:
         return "a" if {"va", "va_after"} <= set(v) else "b"
@@ -225,7 +225,7 @@ def _only_changing(known: dict[str, Any]) -> str:
 
 
 def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
-    """Why nothing fits, the first that applies."""
+    """The reasons why no candidate fits; the first that applies counts."""
     share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
     fixed = {label: np.isinf(known[f"mass_{label}"]) for label in "ab"}
     plastic_end = np.equal(known.get("restitution", 0.5), 0.0) & ({"va_after", "vb_after"} <= known.keys())
@@ -280,7 +280,7 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any]) -> Collisio
 
 
 def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[str, Any]) -> str:
-    """What does not go together, and by how much."""
+    """The contradiction between the known values, and its size."""
     names = [name for name in VELOCITIES if name in known]
     if "energy_loss" not in known and len(names) == 2:
         apart = known[names[0]] - known[names[1]]
@@ -298,7 +298,7 @@ def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[
 
 
 def _allowed_losses(numbers: dict[str, Any]) -> str:
-    """What energy the masses and two velocities allow, where an energy was given and they say."""
+    """The range of energy losses that the masses and two velocities allow, if an energy was given."""
     share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
     least, most = allowed_losses(numbers, share_a, share_b, reduced)
     if "energy_loss" not in numbers or np.isnan(least):

@@ -1,4 +1,4 @@
-"""What reverse solvers share: known values, single cases and batches alike, and the forward solver's answer at the end."""
+"""Shared by the reverse solvers: known values, single cases and batches (``Cases``), and the forward run at the end."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from ..warning import quietly
 # The forward kernel, called with the numbers of two bodies in this order.
 forward: Callable[..., Any] = eccentric
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
-# How the names of numbers begin that cannot be below 0.
+# Prefixes of the names of numbers that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
 # For functions whose answer has no status to look at.
 ASK_ALONE = "asked alone, each says why"
 
 
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
-    """The values that were given, if they are as many as the solver needs; the two EES go together and count as one."""
+    """The known values that were given; refused unless there are exactly as many as needed. The two EES count as one."""
     given = {name: value for name, value in known.items() if value is not None}
     if ("ees_a" in given) != ("ees_b" in given):
         raise InputError(
@@ -67,14 +67,14 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
-    """The texts that a vehicle was given as: of what stays, and of these parts of its motion, which the answer replaces."""
+    """A vehicle's texts in two parts: those of fields that stay, and those of the motion ``parts`` that the result replaces."""
     texts = body.given or {}
     staying = {name: text for name, text in texts.items() if name not in motion}
     return staying, {name: text for name, text in texts.items() if name in motion}
 
 
 def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()) -> dict[str, Any]:
-    """The numbers of a contact and of both vehicles, by the names in messages; ``state`` goes with a and b, as in a_after."""
+    """The numbers of a contact and of both vehicles by their names in messages; ``state`` is appended, as in a_after."""
     found = {inputs.rule: inputs.rule_value, "normal[0]": inputs.normal[0], "normal[1]": inputs.normal[1]}
     found |= {f"point[{i}]": part for i, part in enumerate(inputs.point or ())}
     bodies = ((f"a{state}", inputs.a), (f"b{state}", inputs.b))
@@ -85,14 +85,14 @@ def numbers_by_name(inputs: Inputs, state: str = "", without: Sequence[str] = ()
 
 
 class Cases(NamedTuple):
-    """What is solved: a single case, or a batch of a shape and a precision."""
+    """The shape and precision of a problem: a single case or a batch."""
 
     shape: tuple[int, ...] | None
     dtype: Any
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Cases:
-        """As many cases as the arrays among the values go together to."""
+        """The cases that the arrays among the values broadcast to."""
         return cls(broadcast(values), precision(values.values()))
 
     @property
@@ -101,7 +101,7 @@ class Cases(NamedTuple):
         return float(np.finfo(np.float64 if self.shape is None else self.dtype).eps)
 
     def values(self, found: Any) -> Any:
-        """A plain float for a single case, a locked array of its own for a batch."""
+        """A float for a single case, a locked copy of the array for a batch."""
         if self.shape is None:
             return float(found)
         # Of what is too large for float32 the forward solver says so.
@@ -109,11 +109,11 @@ class Cases(NamedTuple):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
     def where(self, keep: Any, found: Any) -> Any:
-        """The same, NaN in the cases that are not to be kept."""
+        """The values, NaN in the cases where the condition does not hold."""
         return self.values(np.where(keep, found, np.nan))
 
     def beyond(self, found: Any) -> Any:
-        """Where an answer is not finite, or would not be in the precision of the batch."""
+        """Whether a result is not finite, or would overflow in the precision of the batch."""
         with np.errstate(over="ignore"):
             return ~np.isfinite(np.asarray(found).astype(self.dtype))
 
@@ -131,7 +131,7 @@ class Cases(NamedTuple):
         return int(status) if self.shape is None else status
 
     def how_many(self, where: Any) -> str:
-        """The number of these cases, as a message begins; nothing for a single case."""
+        """The number of these cases, as a message begins; "" for a single case."""
         if self.shape is None:
             return ""
         return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "
@@ -139,7 +139,7 @@ class Cases(NamedTuple):
     def provenance(
         self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
     ) -> Reconstruction:
-        """How it was found, with closing speed and slip if they are known; the numbers are NaN but ``where`` they hold."""
+        """The ``Reconstruction`` with closing speed and slip if they are known; numbers are NaN where ``where`` is False."""
         condition, *found = (self.where(where, value) for value in (condition, *velocity))
         return Reconstruction(
             method=method,
@@ -155,7 +155,7 @@ class Cases(NamedTuple):
 
 
 def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
-    """What is wrong with values that the reader does not look into: those of arrays."""
+    """The faults of arrays, whose elements the reader does not check."""
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
@@ -181,7 +181,7 @@ def finish(
     refusal: Callable[[], CollisionsError],
     solve_case: Callable[[tuple[int, ...]], Any],
 ) -> Impact:
-    """The impact from the state that was found, or what ``on_failure`` wants of cases that have none.
+    """The impact from the reconstructed state; cases without one are handled as ``on_failure`` says.
 
     ``inputs_of`` gives the inputs with NaN for what was looked for, but in the cases it is called with. ``refusal`` is that of
     a single case, ``solve_case`` solves the case of a batch at an index by itself.
@@ -208,7 +208,7 @@ def finish(
 
 
 def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:
-    """The forward solver's impact from the state that was found, without what was found where it refuses that state."""
+    """The forward impact from the reconstructed state; where it is refused, what was found is NaN."""
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
     impact = solved(inputs, on_failure=on_failure)
@@ -218,7 +218,7 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
 
 
 def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
-    """What a batch does about its refused cases."""
+    """Raise or warn about the refused cases of a batch."""
     if on_failure != "nan" and np.any(status > Status.ENERGY_GAIN):
         if on_failure == "raise":
             index, place = first_refused(status)

@@ -1,4 +1,4 @@
-"""Energy that crush took up, from a crush profile and the stiffness of the structure (the CRASH trapezoid rule)."""
+"""``crush_energy``: energy absorbed by crush, from a crush profile and structural stiffness (the CRASH trapezoid rule)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..units import Input, Value, has_unit, is_quantity, shown
 from ..warning import warn
 from .common import ASK_ALONE, Cases, input_faults
 
-_RIGHT_ANGLE = 2.0**-52  # what is left of the cosine of 90 degrees in radians
+_RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
 # In metres: no car is crushed so deep, and no damage is so wide.
 _DEEPEST, _WIDEST = 2.0, 10.0
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
@@ -140,7 +140,7 @@ def crush_energy(
 
 
 def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]) -> None:
-    """One warning for all of a profile that was given without a unit, if the largest or the sum of it is too large."""
+    """One warning for a profile given without a unit, if its largest value or its sum is too large."""
     parts = given if isinstance(given, (list, tuple)) else [given] * len(read)
     bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
     if bare and of_all(bare) > limit:

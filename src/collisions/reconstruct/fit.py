@@ -1,4 +1,4 @@
-"""fit: unknowns of a scene from whatever was measured of it, each with its error."""
+"""``fit``: estimates the unknowns of a scene from measurements, each with its error, by weighted least squares."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
 
 
 def _search(inputs: FitInputs, problem: Problem) -> Ends:
-    """Where the searches from all starts ended; refuses a model that answers at none."""
+    """The ends of the searches from all starts; refused if the model has no answer at any of them."""
     starts = spread(_STARTS, *inputs.box)
     starts[0] = inputs.numbers_of("start")
     ends = minimise(problem, starts)
@@ -152,7 +152,7 @@ def _search(inputs: FitInputs, problem: Problem) -> Ends:
 
 
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
-    """The model answers nowhere that was looked at, and why not if it says so for a single case."""
+    """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
     at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
     reason = "; call the model there with on_failure='raise' to see why"
     try:
@@ -173,7 +173,7 @@ def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
 
 
 def _search_around(inputs: FitInputs, problem: Problem, ends: Ends) -> Ends:
-    """The same searches, and where few ended at the best, as among many hollows, more around it, closer and closer."""
+    """These searches and, if few of them reached the best minimum, more around it, in ever smaller boxes."""
     low, high = inputs.box
     best = _lowest(ends)
     here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME_CHI_SQUARED)
@@ -187,7 +187,7 @@ def _search_around(inputs: FitInputs, problem: Problem, ends: Ends) -> Ends:
 
 
 def _lowest(ends: Ends) -> int:
-    """The search of the least misfit, one that converged if it is as good."""
+    """The search with the least misfit, or a converged one that is as good."""
     lowest = int(np.argmin(ends.chi_squared))
     best = int(np.argmin(np.where(ends.state == CONVERGED, ends.chi_squared, np.inf)))
     as_good = ends.chi_squared[best] <= ends.chi_squared[lowest] + SAME_CHI_SQUARED
@@ -195,7 +195,7 @@ def _lowest(ends: Ends) -> int:
 
 
 def _check_minimum(best: Candidate, ends: Ends) -> None:
-    """Refuses where the misfit is least at a place that is no minimum of a smooth model."""
+    """Raise if the misfit is least at a point that is not a minimum of a smooth model."""
     why, advice = _WHY_NO_MINIMUM.get(best.state), "Narrow the bounds to one side of it, or give fewer unknowns"
     if why is None and best.problem.has_kink(best.point):
         why = _WHY_NO_MINIMUM[STALLED]
@@ -218,7 +218,7 @@ def _check_minimum(best: Candidate, ends: Ends) -> None:
 
 
 def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
-    """The best answer, and others that the evidence does not rule out although the errors of the best do.
+    """The best solution, and others that the evidence does not exclude although the errors of the best do.
 
     Apart are those beyond one standard error in what the better one determines; what it does not is not in the other either.
     """
@@ -240,14 +240,14 @@ def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
 
 
 def _is_minimum(found: Candidate) -> bool:
-    """Whether searches from around the place do not leave it: from a ridge that one start met exactly they do."""
+    """Whether searches started around the point do not leave it; they do leave a ridge that one search met exactly."""
     away = np.minimum(_NUDGE * found.problem.scale, found.errors)
     again = minimise(found.problem, found.point + spread(_AROUND, -away, away))
     return bool(np.min(again.chi_squared) >= found.chi_squared - SAME_CHI_SQUARED)
 
 
 def _precision(covariance: Any) -> Any:
-    """The inverse of the covariance of what is determined, 0 for the rest."""
+    """The inverse of the covariance of the identified unknowns, 0 for the others."""
     known = np.isfinite(np.diagonal(covariance))
     size = np.where(known, np.sqrt(np.diagonal(covariance)), np.inf)
     correlation = np.where(np.outer(known, known), covariance, 0.0) / np.outer(size, size)
@@ -255,7 +255,7 @@ def _precision(covariance: Any) -> Any:
 
 
 def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
-    """The Fit of a candidate; the last searches, as many as ``around``, were begun around the best."""
+    """The ``Fit`` of a candidate; the last ``around`` searches were started around the best."""
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
     names = inputs.names
     units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
@@ -314,7 +314,7 @@ def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
 
 
 def _warn_of(found: Fit) -> None:
-    """One warning of each kind, for all that must not be overlooked."""
+    """Give each warning that the result needs, once."""
     notes = list(notes_of(found))
     for note in {note.code: note for note in notes}.values():
         if note.warning:

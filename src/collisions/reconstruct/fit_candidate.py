@@ -1,4 +1,4 @@
-"""A candidate answer of a fit: a place where a search ended, what its slopes determine, and how far it can be relied on."""
+"""``Candidate``: a solution of a fit, where a search ended; its errors, and how well they describe the misfit around it."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from .fit_problem import FitInputs
 from .fit_result import TWO_ERRORS
 from .least_squares import CONVERGED, FLAT, REFUSED, Determination, Ends, Problem, determination, minimise
 
-SAME_CHI_SQUARED = 1e-3  # searches that ended within this met the same misfit
+SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 TWO_ERROR_RISE = 4.0  # of chi-squared
 
-_AGREEMENT = 1e-2  # of the scale of an unknown: searches that ended within this agree in it
+_AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
 _NEAR = 1e-2  # standard errors: where the others end when one unknown is moved
-_LEAST_MOVE = 0.1  # standard errors: what moves less, and less than that in sigma, is not compared
+_LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _STEP_ROUNDS = 4
 _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
-_BESIDE_BOUND = 0.1  # standard errors: an unknown that is as near to a bound may belong on it
+_BESIDE_BOUND = 0.1  # standard errors: an unknown this near to a bound may belong on it
 _LEAST_RISE = 1e-5  # of chi-squared, at a tenth of the way to its rise by 4
 _PARTS, _HALVINGS, _DIVISIONS = 32, 40, 4  # of the way from a bound to the other
 
 
 class OneSidedLimit(NamedTuple):
-    """Of an unknown on a bound where the model turns round: the end of its range of two standard errors, and the error."""
+    """For an unknown on a bound where the model turns back: the end of its range of two standard errors, and the error."""
 
     value: float
     error: float
@@ -35,7 +35,7 @@ class OneSidedLimit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A place where a search ended; the steps of ``problem`` fit it. ``limits`` go by the index of the unknown."""
+    """The point where a search ended, with step sizes that suit it; ``limits`` by the index of the unknown."""
 
     inputs: FitInputs
     problem: Problem
@@ -48,12 +48,12 @@ class Candidate:
 
     @classmethod
     def of(cls, inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> Candidate:
-        """The place where search k ended."""
+        """The candidate where search k ended."""
         return cls(inputs, problem, *(part[k] for part in ends))
 
     @cached_property
     def determination(self) -> Determination:
-        """What is determined of all unknowns: of those with a limit by that, of the others as if these stay on their bounds."""
+        """The covariance of all unknowns: from the limit for those that have one, from the slopes for the others."""
         n = len(self.point)
         sloped = ~np.isin(np.arange(n), list(self.limits))
         found = self.determination_of(sloped)
@@ -71,7 +71,7 @@ class Candidate:
         return Determination(covariance, found.unidentified @ widen, found.prior_only @ widen, shares, found.rank)
 
     def determination_of(self, chosen: Any) -> Determination:
-        """What the slopes determine of the chosen unknowns if the others stay as they are."""
+        """The determination of the chosen unknowns by the slopes, with the others fixed."""
         problem = self.problem
         scale = np.where(self.only_a_start, np.maximum(problem.scale, abs(self.point)), problem.scale)
         steps = problem.steps(self.point)
@@ -79,29 +79,29 @@ class Candidate:
 
     @property
     def only_a_start(self) -> Any:
-        """Of each unknown, whether its scale says no more than where to start."""
+        """For each unknown, whether its scale is only a guide for where to start."""
         return self.problem.unbounded & ~self.inputs.has_prior
 
     @property
     def errors(self) -> Any:
-        """Standard errors; infinite for what is not identified."""
+        """Standard errors; infinite for unknowns that are not identified."""
         return np.sqrt(np.diagonal(self.determination.covariance))
 
     @property
     def free(self) -> Any:
-        """Of each unknown, whether it is not on a bound, as far as it is identified at all."""
+        """For each unknown, whether it is off its bounds; one that is not identified counts as off."""
         at_bound = (self.point <= self.problem.low) | (self.point >= self.problem.high)
         return ~(np.isfinite(self.errors) & at_bound)
 
     def agreed(self, ends: Ends) -> Any:
-        """By unknown, whether all searches that met this misfit ended together: what is unidentified stays where it began."""
+        """For each unknown, whether all searches with this misfit ended at one value, as they do not if it is unidentified."""
         here = (ends.state == CONVERGED) & (ends.chi_squared <= self.chi_squared + SAME_CHI_SQUARED)
         if np.count_nonzero(here) < 2:
             return np.zeros(len(self.point), dtype=bool)
         return np.ptp(ends.points[here], axis=0) < _AGREEMENT * self.problem.scale
 
     def rise(self, starts: Any, moved: Any) -> Any:
-        """By how much chi-squared rises at these points, one unknown held and the others fitted again; NaN where refused."""
+        """The rise of chi-squared at these points, with one unknown fixed and the others refitted; NaN where refused."""
         movable = np.ones(starts.shape, dtype=bool)
         movable[np.arange(len(starts)), moved] = False
         ends = minimise(self.problem, starts, movable, close=_NEAR)
@@ -109,7 +109,7 @@ class Candidate:
 
     @cached_property
     def moves(self) -> tuple[Any, Any]:
-        """By how many errors, up to two, each unknown is moved up and down (2, n), and by how many sigma the misfit rises."""
+        """Moves of each unknown up and down (2, n), up to two errors, and the rise of the misfit at each in sigma."""
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
         which, covariance = np.flatnonzero(self.free)[known], covariance[np.ix_(known, known)]
@@ -125,7 +125,7 @@ class Candidate:
 
     @property
     def nonlinearity(self) -> float:
-        """Relative error of the half-width of the 95 percent intervals: each unknown moved by two errors, others fitted again.
+        """Relative error of the half-width of the 95 percent intervals, by refitting with each unknown moved by two errors.
 
         Chi-squared then rises by 4 in a straight model; where a bound is nearer, by the square of the errors as far as that.
         NaN if the model refuses there.
@@ -138,13 +138,13 @@ class Candidate:
             return float(np.max(abs(far / risen - 1.0)[compared | np.isnan(risen)]))
 
     def overstates_errors(self, times: float) -> bool:
-        """Whether the errors of an unknown are so many times too large to both sides: its slope vanishes close by."""
+        """Whether an unknown's error is at least ``times`` too large on both sides: its slope vanishes nearby."""
         far, risen = self.moves
         return bool(np.any(np.all((risen > TWO_ERRORS) & (risen > times * far), axis=0)))
 
 
 def examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> Candidate:
-    """The place where search k ended, searched anew with slopes over steps that fit it rather than the bounds or the start."""
+    """The candidate where search k ended, refined with difference steps that suit it rather than the bounds or the start."""
     found = Candidate.of(inputs, problem, ends, k)
     most = np.where(found.only_a_start, np.inf, 10.0 * problem.scale)
     for _ in range(_STEP_ROUNDS):
@@ -160,7 +160,7 @@ def examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> Candida
 
 
 def with_limits(found: Candidate, ends: Ends) -> Candidate:
-    """The same candidate, with the unknowns beside a bound on which the model turns round put there, and their limits."""
+    """The candidate with unknowns near a bound put on it if the model turns back there, and with their limits."""
     together = found.agreed(ends)
     for j in range(len(found.point)):
         bound, other = (float(side[j]) for side in (found.problem.low, found.problem.high))
@@ -190,9 +190,9 @@ def _moved_to_bound(found: Candidate, j: int, bound: float) -> Candidate:
 
 
 def _limit(found: Candidate, j: int, bound: float, other: float, known: bool) -> OneSidedLimit | None:
-    """How far the unknown goes until chi-squared has risen by 4, or to its other bound; None if it never rises or is flat here.
+    """The value at which chi-squared has risen by 4, or the other bound; None if it never rises or is flat here.
 
-    The furthest place of all where it has not. Unless it is ``known`` that the model turns, it must rise near the bound too.
+    If it never has, the furthest point. Unless the model is ``known`` to turn back, chi-squared must rise near the bound too.
     """
 
     def rise(shares: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The inputs of a fit: unknowns with what is known of them, observations with their errors, and the model as numbers."""
+"""``FitInputs``: unknowns with their prior knowledge, observations with their errors, and the model as a numeric function."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 
 
 class Unknown(NamedTuple):
-    """What is known of one unknown before: a place to start, how far it may be from there, bounds, and a prior if any."""
+    """Prior knowledge of one unknown: a start, a scale, bounds, and a prior if any."""
 
     unit: str
     start: float
@@ -33,7 +33,7 @@ class Unknown(NamedTuple):
 
     @property
     def box(self) -> tuple[float, float]:
-        """Where searches start: the bounds, or as far as the scale goes."""
+        """The interval in which searches start: the bounds, or the scale about the start."""
         span = (_PRIOR_SPAN if self.prior else 1.0) * self.scale
         return max(self.low, self.start - span), min(self.high, self.start + span)
 
@@ -55,31 +55,31 @@ class FitInputs(NamedTuple):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the unknowns."""
+        """Names of the unknowns."""
         return tuple(self.unknowns)
 
     @property
     def has_prior(self) -> Any:
-        """Of each unknown, whether it has a prior."""
+        """For each unknown, whether it has a prior."""
         return np.array([unknown.prior is not None for unknown in self.unknowns.values()])
 
     @property
     def is_prior(self) -> Any:
-        """Of each row, whether it is a prior."""
+        """For each row, whether it is a prior."""
         return np.array([row.is_prior for row in self.rows])
 
     def numbers_of(self, part: str) -> Any:
-        """The start, scale, low or high of every unknown."""
+        """The "start", "scale", "low" or "high" of every unknown."""
         return np.array([getattr(unknown, part) for unknown in self.unknowns.values()])
 
     @property
     def box(self) -> tuple[Any, Any]:
-        """The lowest and the highest point where searches start."""
+        """The corners of the box in which searches start."""
         low, high = np.array([unknown.box for unknown in self.unknowns.values()]).T
         return low, high
 
     def computed(self, points: Any) -> Any:
-        """What the model makes of each row at these points (k, n), in SI; a refused point is NaN in all observations."""
+        """The model's value for each row at these points (k, n), in SI; a refused point is NaN in all observations."""
         answered = self.model({name: np.array(points[:, j]) for j, name in enumerate(self.names)}, len(points))
         observed = [row.name for row in self.rows if not row.is_prior]
         absent = [name for name in observed if name not in answered]
@@ -94,7 +94,7 @@ class FitInputs(NamedTuple):
         return np.concatenate([found, points[:, self.has_prior]], axis=1)
 
     def problem(self) -> Problem:
-        """The same in numbers, counted in standard deviations."""
+        """The least-squares problem, in units of standard deviations."""
         sigma = np.array([row.value.given_sd for row in self.rows])
         return Problem(
             evaluate=lambda points: self.computed(points) / sigma,
@@ -106,7 +106,7 @@ class FitInputs(NamedTuple):
         )
 
     def _is_angle(self, row: Stated) -> bool:
-        """Whether an observation goes round a circle, as far as the units show."""
+        """Whether an observation is an angle, judged by its unit."""
         returned, observed = self.model.units.get(row.name), row.value.unit
         if row.is_prior:
             return False
@@ -138,7 +138,7 @@ def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
 def _each(
     reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]
 ) -> list[tuple[str, T]]:
-    """What is read of each entry of a dict, by name; a refusal says which entry it is about."""
+    """Read each entry of a dict, by name; an error names its entry."""
     if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
         got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
         raise InputError(

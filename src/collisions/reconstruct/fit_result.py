@@ -1,4 +1,4 @@
-"""What a fit answers with: estimates and their errors, how each observation is met, and what stays unidentified."""
+"""``Fit``: the estimates of a fit, their errors, the residual of each observation, and the unknowns left unidentified."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _WEAK, _CONTRADICTION = 0.05, 0.01
 
 
 def _quantity(value: float, unit: str) -> Any:
-    """With its unit, or the number itself where that is not known."""
+    """The number as a Quantity, or as it is if its unit is unknown."""
     return to_quantity(value, unit) if unit else value
 
 
 class Values(dict[str, float]):
-    """SI numbers by name; with their units through ``.q``, as far as they were given any."""
+    """SI numbers by name; ``.q`` has them as Quantities where they were given units."""
 
     def __init__(self, values: Mapping[str, float], units: Mapping[str, str]) -> None:
         super().__init__(values)
@@ -36,19 +36,19 @@ class Values(dict[str, float]):
 
     @property
     def q(self) -> dict[str, Any]:
-        """The same as Quantities; a number of an unknown unit stays a number."""
+        """The same as Quantities; a number of unknown unit stays a number."""
         return {name: _quantity(value, self.units[name]) for name, value in self.items()}
 
 
 class WithUnit(Shown):
-    """Numbers that share one unit, which differs from one to the next."""
+    """Base of results whose numbers share one unit, which each instance sets."""
 
     __slots__ = ()
     unit: str
 
     @property
     def q(self) -> dict[str, Any]:
-        """The numbers that have the unit as Quantities; those of an unknown unit stay numbers."""
+        """The same with the unit; numbers if it is unknown."""
         shared = {f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN}
         return {name: _quantity(value, self.unit) for name, value in shared.items() if value is not None}
 
@@ -105,7 +105,7 @@ class Estimate(WithUnit):
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Residual(WithUnit):
-    """One observation or prior: what was stated, what the fit makes of it, and by how many sigma they differ.
+    """One observation or prior: the stated value, the fitted value, and their difference in sigma.
 
     ``residual`` is observed less computed; of angles by the short way round, in (-pi, pi].
     """
@@ -134,12 +134,12 @@ class Direction:
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """Those that take part."""
+        """The unknowns that move along this direction."""
         return tuple(self.changes)
 
     @property
     def sentence(self) -> str:
-        """The same in words."""
+        """The direction as a sentence."""
         what, *rest = self.changes
         if rest:
             moves = ", ".join(f"{name} by {self.changes[name] / self.changes[what]:+.4g}" for name in rest)
@@ -203,13 +203,13 @@ class Fit(Shown):
 
     @property
     def standard_errors(self) -> Values:
-        """By unknown; inf where nothing determines it."""
+        """Standard errors by unknown; inf where nothing determines it."""
         roots = np.sqrt(np.diagonal(self.covariance)).tolist()
         return Values(dict(zip(self.names, roots, strict=True)), self.units)
 
     @derived()
     def correlation_matrix(self) -> Any:
-        """In the order of ``names``; NaN for what is not determined."""
+        """Correlations in the order of ``names``; NaN for unknowns that are not determined."""
         errors = np.sqrt(np.diagonal(self.covariance))
         known = np.isfinite(errors)
         size = np.where(known, errors, np.nan)
@@ -219,7 +219,7 @@ class Fit(Shown):
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
-        """By pair of unknowns, as ``uncertainty.propagate`` takes it beside ``inputs``."""
+        """Correlations by pair of unknowns, as ``uncertainty.propagate`` takes them together with ``inputs``."""
         self._check_determined("correlation")
         matrix = self.correlation_matrix
         pairs = zip(*np.triu_indices(len(self.names), 1), strict=True)
@@ -233,12 +233,12 @@ class Fit(Shown):
 
     @property
     def consistent(self) -> bool | None:
-        """Whether a misfit this large has a chance of 0.01 or more; None where there is no more evidence than unknowns."""
+        """Whether a misfit this large has a probability of 0.01 or more; None with no more observations than unknowns."""
         return None if math.isnan(self.p_value) else self.p_value >= _CONTRADICTION
 
     @property
     def _chance(self) -> str:
-        """The chance of a misfit this large or larger, in two digits that round it past neither 0.05 nor 0.01."""
+        """The probability of a misfit this large or larger, in two digits that round it past neither 0.05 nor 0.01."""
         text = f"{self.p_value:.2g}"
         for limit in (_WEAK, _CONTRADICTION):
             if self.p_value < limit <= float(text):
@@ -253,7 +253,7 @@ class Fit(Shown):
 
     @property
     def bend(self) -> str:
-        """How far the standard errors can be relied on, in words."""
+        """How reliable the standard errors are, as a sentence."""
         if math.isnan(self.nonlinearity):
             return "the model refuses within two standard errors of the answer, so that the errors are not symmetric"
         return (
@@ -263,7 +263,7 @@ class Fit(Shown):
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What has to be said with the numbers, in sentences."""
+        """The statements that belong with the numbers, as sentences."""
         return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
@@ -334,7 +334,7 @@ class Fit(Shown):
 
 
 class Note(NamedTuple):
-    """What has to be said of a fit; a ``warning`` of it has a ``code``, and after the sentence the ``rest``."""
+    """A statement about a fit; one that is also a warning has a ``code``, and its ``rest`` follows the sentence."""
 
     warning: type[CollisionsWarning] | None
     sentence: str
@@ -343,7 +343,7 @@ class Note(NamedTuple):
 
 
 def notes_of(found: Fit) -> Iterator[Note]:
-    """In the order in which a reader needs them: first whether the evidence agrees."""
+    """The notes on a fit in the order of importance: first whether the evidence agrees."""
     if found.consistent is None:
         yield Note(None, "there is no more evidence than unknowns, so that nothing checks it")
     else:

@@ -1,4 +1,4 @@
-"""In-line closing speed from one delta-V, an energy loss or both EES: the shortcut for central impacts only."""
+"""``inline_closing_speed``: closing speed from one delta-V, an energy loss or both EES; central impacts only."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
 
 
 def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf) -> Value:
-    _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses what no restitution can mend
+    _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses inputs that are wrong whatever the restitution
 
     def speed(e: Any) -> Any:
         return _closing_speed(kind, {**numbers, "restitution": e})

@@ -1,4 +1,4 @@
-"""Weighted least squares within bounds, as numbers only: the searches, what their slopes determine, the chance of a misfit."""
+"""Weighted least squares within bounds on plain arrays: the searches, the covariance, and the probability of a misfit."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
-_LEAST_DAMPING = 1e-12  # that rounding leaves something of: where equations are singular without
+_LEAST_DAMPING = 1e-12  # the least that rounding does not absorb, for singular equations
 _LEAST_WEIGHT = 1e-6  # of the damping: an unknown that changes nothing is damped all the same
 _KINK = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
 FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
 _UNBOUNDED_SHARE = 0.1  # of a direction, in unknowns without bounds: along it a small slope may identify all the same
 _NEGLIGIBLE_SHARE = 1e-4  # of its scale: an unknown that moves less along a direction is not part of it
-_DIFFERENCE_ERROR = 10.0  # eps of what is computed, in a difference
+_DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
 _TERMS = 10_000  # both expansions of the chi-squared tail take about 6 sqrt(degrees of freedom) terms at worst
 
@@ -29,7 +29,7 @@ SEARCHING, CONVERGED, STALLED, AT_REFUSAL, REFUSED = range(5)
 
 
 class Problem(NamedTuple):
-    """What is fitted: everything is counted in standard deviations of what was observed.
+    """A least-squares problem in units of standard deviations.
 
     ``evaluate`` takes points (k, n) and gives what the model makes of them (k, m), NaN where it refuses; ``period`` is NaN for
     what does not go round a circle; ``scale`` is how far each unknown may be thought to move, and ``size`` the length over
@@ -46,7 +46,7 @@ class Problem(NamedTuple):
 
     @property
     def unbounded(self) -> Any:
-        """Of each unknown, whether it has no bound on either side."""
+        """For each unknown, whether it has no bound on either side."""
         return np.isinf(self.low) & np.isinf(self.high)
 
     def wrapped(self, difference: Any) -> Any:
@@ -56,15 +56,15 @@ class Problem(NamedTuple):
         return difference - np.where(np.isnan(self.period), 0.0, self.period * np.where(np.isnan(turns), 0.0, turns))
 
     def misfit(self, outputs: Any) -> Any:
-        """Computed less observed."""
+        """Computed minus observed values."""
         return self.wrapped(outputs - self.target)
 
     def sizes(self, points: Any) -> Any:
-        """The length over which the model is taken to change, by unknown."""
+        """The length, by unknown, over which the model is assumed to vary."""
         return np.clip(abs(points), 0.1 * self.scale, 10.0 * self.scale) if self.size is None else self.size
 
     def steps(self, points: Any) -> Any:
-        """How far to move each unknown to see what changes, small enough to stay within the bounds on one side."""
+        """Finite-difference steps by unknown, small enough to stay within the bounds on one side."""
         size = self.sizes(points)
         step = np.maximum(_EPS ** (1 / 3) * size, np.sqrt(_EPS * abs(points) * size))
         return np.minimum(step, 0.25 * (self.high - self.low))
@@ -82,13 +82,13 @@ class Problem(NamedTuple):
         return outputs, np.swapaxes(slopes, 1, 2)
 
     def has_kink(self, point: Any) -> bool:
-        """Whether the slopes to both neighbours differ by more than a smooth model's do: a bend or a jump between them."""
+        """Whether the one-sided slopes differ by more than a smooth model's do: a kink or a jump in between."""
         _, one, other, _, _ = self._differences(point[np.newaxis])
         sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (one, other, one - other)]
         return bool(np.any(sizes[2] > _KINK * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
 
     def _differences(self, points: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Outputs, the slopes to two neighbours along each unknown (k, n, m), and how far away these are (k, n, 1)."""
+        """Outputs, slopes towards two neighbours along each unknown (k, n, m), and the distances to these (k, n, 1)."""
         count, n = points.shape
         step = self.steps(points)
         first = np.where(points + step <= self.high, step, -step)
@@ -105,7 +105,7 @@ class Problem(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """Where the searches ended, one a row."""
+    """The ends of the searches, one per row."""
 
     points: Any
     outputs: Any
@@ -179,12 +179,12 @@ def _cost(problem: Problem, misfit: Any, slopes: Any) -> Any:
 
 
 def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
-    """What rounding of the outputs makes of slopes that are differences over these steps, for a whole scale."""
+    """Bound of the rounding error in finite-difference slopes, per scale of each unknown."""
     return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
 
 
 def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
-    """Gradient and curvature in scaled unknowns, without those that a bound holds or that may not move."""
+    """Gradient and curvature in scaled unknowns, with those held by a bound or not movable left out."""
     scaled = slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
     held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
@@ -194,7 +194,7 @@ def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, m
 
 
 def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, damping: Any) -> tuple[Any, Any]:
-    """The damped step within the bounds, and by how much chi-squared should fall."""
+    """The damped step within the bounds, and the predicted fall of chi-squared."""
     gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
     weight = np.einsum("kii->ki", curvature)
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
@@ -221,7 +221,7 @@ def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable
         gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows], movable[rows])
         size, direction = np.linalg.eigh(curvature)
         along = np.einsum("kij,ki->kj", direction, gradient)
-        # Within bounds what is too flat does not count either.
+        # With bounds, directions that are too flat do not count either.
         error = np.einsum(
             "kij,ki->kj", abs(direction), _slope_error(misfit + problem.target, problem.scale, problem.steps(points))
         )
@@ -233,7 +233,7 @@ def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable
 
 
 class Determination(NamedTuple):
-    """What evidence determines: covariance (inf and NaN where nothing does), and what each row contributed.
+    """The covariance from the evidence (inf and NaN where nothing determines it), and the contribution of each row.
 
     ``unidentified`` are directions that nothing determines, ``prior_only`` those that the priors determine and the evidence
     does not, each a row of changes in the units of the unknowns, the largest share of a scale being one whole scale. ``rank``
@@ -248,7 +248,7 @@ class Determination(NamedTuple):
 
 
 def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: Any) -> Determination:
-    """Of slopes (m, n) in standard deviations per unknown, some rows of them priors.
+    """The determination from slopes (m, n) in standard deviations per unknown; some rows are priors.
 
     A direction is unidentified if moving along it by one scale changes everything by less than a thousandth of a standard
     deviation, or by less than the rounding of the differences that the slopes came from.
@@ -261,7 +261,7 @@ def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: A
 
     size, direction = _directions(scaled[~is_prior])
     without_priors = direction[size <= np.maximum(FLAT, abs(direction) @ error)]
-    # Less what nothing determines at all.
+    # Minus the directions that nothing determines at all.
     size, direction = _directions(without_priors - without_priors @ unidentified.T @ unidentified)
     prior_only = direction[size > 0.5]
 
@@ -275,14 +275,14 @@ def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: A
 
 
 def _directions(matrix: Any) -> tuple[Any, Any]:
-    """All n singular values, those that are not there as 0, and their directions as rows."""
+    """All n singular values, padded with 0, and their directions as rows."""
     n = matrix.shape[1]
     _, size, direction = np.linalg.svd(matrix, full_matrices=True)
     return np.append(size, np.zeros(n - len(size))), direction
 
 
 def _reduced(directions: Any) -> Any:
-    """The same space spanned by rows of few unknowns each: reduced row echelon form, what is small left out."""
+    """The same space by rows that each involve few unknowns: reduced row echelon form with small entries dropped."""
     rows = np.array(directions)
     for i in range(len(rows)):
         rest = abs(rows[i:])

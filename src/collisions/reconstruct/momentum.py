@@ -1,4 +1,4 @@
-"""Planar momentum backwards ("360-degree momentum"): two unknown speeds from masses, courses and the other two."""
+"""``momentum``: two unknown speeds from planar momentum ("360-degree"), masses, courses and the other two speeds."""
 
 from __future__ import annotations
 
@@ -156,14 +156,14 @@ def momentum(
 
 
 def _as_given(value: Any) -> str | float:
-    """A text or a number; a Quantity as a text with all its digits."""
+    """The value as a text or a number; a Quantity becomes a text with all its digits."""
     if is_quantity(value):
         return f"{float(magnitude(value))!r} {value.units}"
     return value if isinstance(value, str) else float(value)
 
 
 def _share(given: dict[str, Any], kind: str) -> Any:
-    """Makes what is common to both vehicles after the impact known for both; where two differ, they contradict each other."""
+    """Give both vehicles the value of their common motion; where two were given and differ, refuse (in a batch: mark)."""
     names = [f"{kind}_a_after", f"{kind}_b_after"]
     found = [given[name] for name in names if name in given]
     if not found:
@@ -188,12 +188,12 @@ def _same_course(one: Angle, other: Angle) -> Any:
 
 
 def _angle_rounding(one: Angle, other: Angle, eps: float) -> Any:
-    """What rounding leaves open of the angle between two courses; whole degrees leave nothing but their conversion."""
+    """Rounding error of the angle between two courses; for whole degrees only that of their conversion."""
     return 4.0 * eps * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
 
 
 def _terms(numbers: dict[str, Any], angles: dict[str, Angle], together: bool) -> dict[str, Term]:
-    """The moving bodies, by the name of their speed; those that leave together are one."""
+    """The moving bodies by the name of their speed; two that leave together are one."""
     terms = {}
     for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
         mass, sign = numbers[f"mass_{name[6]}"], -1.0 if name.endswith("after") else 1.0
@@ -216,7 +216,7 @@ def _need_courses(terms: dict[str, Term]) -> None:
 
 
 class _Known(NamedTuple):
-    """Numbers, courses and headings by argument, the moving bodies, and where common values of both were given and differ."""
+    """The known numbers, courses and headings by argument, the moving bodies, and the cases in which common values differ."""
 
     cases: Cases
     numbers: dict[str, Any]
@@ -225,16 +225,16 @@ class _Known(NamedTuple):
     unlike: Any
 
     def pair(self, name: str) -> tuple[Any, Any] | None:
-        """An argument of two components."""
+        """Both components of an argument."""
         return (self.numbers[f"{name}[0]"], self.numbers[f"{name}[1]"]) if f"{name}[0]" in self.numbers else None
 
     def bodies(self, speed: str) -> str:
-        """The labels of the vehicles that move at a speed."""
+        """The vehicles that share a speed."""
         return "ab" if speed == "speed_a_after" and "speed_b_after" not in self.terms else speed[6]
 
 
 def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
-    """The answer, or the refusal, of one case or of many."""
+    """Solve one case or many; raises for a refused single case."""
     cases, impulse, normal = known.cases, known.pair("outside_impulse"), known.pair("normal")
     mass_a, mass_b = known.numbers["mass_a"], known.numbers["mass_b"]
     terms = [term for term in known.terms.values() if term.speed is not None]
@@ -286,7 +286,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
 
 
 def _faults(known: _Known, normal: tuple[Any, Any] | None) -> list[tuple[Any, int]]:
-    """What is wrong with values that the reader does not look into: those of arrays."""
+    """The faults of arrays, whose elements the reader does not check."""
     numbers = known.numbers | {name: angle.value for name, angle in known.angles.items()}
     masses = numbers["mass_a"], numbers["mass_b"]
     speeds = [value for name, value in numbers.items() if name.startswith("speed")]
@@ -304,7 +304,7 @@ def _any(findings: Iterable[Any]) -> Any:
 
 
 def _refusal(status: Status, first: str, second: str) -> CollisionsError:
-    """The refusal of a case with these unknowns."""
+    """The error for a case with these unknowns."""
     if status is Status.PARALLEL_HEADINGS:
         return NoSolutionError(
             f"the courses of {first} and {second} are parallel, so momentum cannot tell them apart; for an in-line impact "
@@ -327,7 +327,7 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
 
 
 def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | None) -> dict[str, Any]:
-    """What follows from all speeds and courses."""
+    """The solution from all speeds and courses."""
     velocity = {}
     for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
         c, s = known.angles[course_name].direction if course_name in known.angles else (0.0, 0.0)
@@ -357,7 +357,7 @@ def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | No
 def _sensitivity(
     known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], impulse: tuple[Any, Any] | None, sure: Any
 ) -> Sensitivity:
-    """Derivatives of both answers by every input, from the balance itself."""
+    """Derivatives of both unknown speeds by every input, from the momentum balance itself."""
     found = Sensitivity()
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
     for (name, wanted), (_, other) in (unknown, unknown[::-1]):
@@ -380,7 +380,7 @@ def _sensitivity(
 
 
 def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
-    """Says how little the answers may be worth, and where they are no impact."""
+    """Warn where the solution is ill-conditioned or not a possible impact."""
 
     def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, *, pick: Any = np.min, **field: Any) -> None:
         if np.any(where):
@@ -426,7 +426,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
 
 
 def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
-    """The course that an answer depends on most, and by how much."""
+    """The course to which a speed is most sensitive, and the sensitivity per degree."""
     moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
     name = max(moves, key=moves.__getitem__)
     return f"{answer} moves by {moves[name] * math.pi / 180.0:.3g} m/s per degree of {name}"

@@ -1,4 +1,4 @@
-"""The answer of planar momentum: courses and speeds before and after, and how firmly they stand."""
+"""``MomentumSolution``: the result of planar momentum, courses and speeds before and after, and their sensitivities."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SENSITIVITY_UNITS = {"mass": "m/s/kg", "speed": "m/s/(m/s)", "course": "m/s/deg
 
 
 class Sensitivity(dict[str, dict[str, Value]]):
-    """By answer, then by input: how much the answer moves when the input moves by one SI unit; per degree through ``.q``."""
+    """Sensitivities by unknown speed, then by input: change per SI unit of the input; per degree through ``.q``."""
 
     @property
     def q(self) -> dict[str, dict[str, Any]]:
@@ -39,7 +39,7 @@ class Sensitivity(dict[str, dict[str, Value]]):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class MomentumSolution(Shown):
-    """Two vehicles before and after an impact, as planar momentum has it, and how firmly.
+    """The result of planar momentum: two vehicles before and after an impact, and how sensitive the speeds are.
 
     Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
     or arrays in a batch.
@@ -87,5 +87,5 @@ class MomentumSolution(Shown):
 
     @derived()
     def ok(self) -> Any:
-        """Whether the case was answered, and without energy that came from nowhere."""
+        """Whether the case has a solution without a gain of energy."""
         return self.status == Status.OK

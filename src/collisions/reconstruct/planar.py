@@ -1,4 +1,4 @@
-"""Planar impact backwards, rotation included: from the motion after to the motion before.
+"""``planar``: reconstructs the motion before an impact from the motion after, rotation included.
 
 Time reversed, an impact is an impact: velocities change sign, closing and separation exchange places and the impulse stays. So
 every origin of an end state is a candidate impulse taken off that state; the forward kernel then says whether it leads there.
@@ -31,7 +31,7 @@ from .origins import End, Origin
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
 _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
-_NEARLY_STICKING = 0.05  # of the jump between both ways to slide: a slip so small may be none
+_NEARLY_STICKING = 0.05  # of the difference between both directions of sliding: a smaller slip may be 0
 
 
 def planar(
@@ -175,7 +175,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     texts = dict(inputs.given or {})
     staying = []
     for label, body in (("a", inputs.a), ("b", inputs.b)):
-        # The motion after is not that of the vehicles before.
+        # The motion after differs from that of the vehicles before.
         of_body, of_motion = split_texts(body, _MOTION)
         staying.append(of_body)
         texts |= {f"{label}_after.{name}": text for name, text in of_motion.items()}
@@ -244,7 +244,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
 
 
 def _first_that_fits(origins: Sequence[Origin]) -> Origin:
-    """In every case the first of the origins that fits, NaN without origins."""
+    """The first origin that fits in each case; NaN without one."""
     if not origins:
         nan = math.nan
         return Origin("", nan, nan, nan, nan, (nan, nan), False, ((nan, nan, nan), (nan, nan, nan)), False)
@@ -258,7 +258,7 @@ def _first_that_fits(origins: Sequence[Origin]) -> Origin:
 
 
 def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
-    """Says where the last digits of what was measured decide."""
+    """Warn where the result depends on the last digits of the measured motion."""
     if np.any(pressed):
         most = float(np.max(np.where(pressed, end.approach, 0.0)))
         text = (
@@ -281,7 +281,7 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
 
 
 def _interval(low: float, high: float, unit: str = "") -> str:
-    """A range in words, empty for all numbers."""
+    """An interval in words; "" for all numbers."""
     if math.isinf(low) or math.isinf(high):
         end = f"above {low:.4g}{unit}" if math.isfinite(low) else f"below {high:.4g}{unit}"
         return "" if math.isinf(low) and math.isinf(high) else end
@@ -289,7 +289,7 @@ def _interval(low: float, high: float, unit: str = "") -> str:
 
 
 def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
-    """The error of a single case, with what fits and its regimes; what it advises does not end in the same refusal."""
+    """The error for a single case, with the candidates and their regimes; its advice does not lead to the same error."""
     separation, slip = float(end.separation), float(end.slip)
     match status:
         case Status.AMBIGUOUS_INVERSE:
@@ -318,7 +318,7 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
 
 
 def _instead(end: End) -> str:
-    """What may be known in place of the restitution."""
+    """The inputs that could replace the restitution."""
     shares = end.rule == CRITICAL_FRACTION and 0.0 < end.bound < 1.0
     return "closing_speed=" if shares else "closing_speed= or energy_loss="
 
@@ -369,7 +369,7 @@ def _not_parting(end: End, separation: float) -> str:
 
 
 def _contradiction(end: End, separation: float, slip: float, regime: str | None) -> str:
-    """Why nothing fits, and what would."""
+    """The reason why no origin fits, and a remedy."""
     here = f"separation speed {separation:.6g} m/s, slip after {slip:.6g} m/s"
     given, known, bound = f"{end.rule}={float(end.bound):g}", float(end.known), float(end.bound)
     free = "give a finite friction=, or impulse_ratio="

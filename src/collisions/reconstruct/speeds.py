@@ -1,4 +1,4 @@
-"""Both impact speeds from the full geometry and two of: one speed, a delta-V, the energy dissipated, both EES."""
+"""``speeds``: both impact speeds from the geometry and two of: one speed, a delta-V, the energy dissipated, both EES."""
 
 from __future__ import annotations
 
@@ -200,7 +200,7 @@ def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
 
 
 def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
-    """Candidates where the restitution depends on the answer: solved on a grid of it, then where both agree."""
+    """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
     if scene.shares_critical():
         raise InputError(
             "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
@@ -230,7 +230,7 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
 
 
 def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
-    """The roots that fit, each once, by rising closing speed, and where in the batch they are."""
+    """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
     shape = cases.shape or ()
     if not roots:
         return []
@@ -247,7 +247,7 @@ def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root,
     for i in range(1, len(roots)):
         apart = sum(abs(values[k][i] - values[k][i - 1]) for k in range(2))
         fits[i] &= ~(fits[i - 1] & (apart <= ROOT_TOL * closing[i]))
-    # Those that fit come first in every case.
+    # Roots that fit come first in every case.
     order = np.argsort(~fits, axis=0, kind="stable")
     *values, fits = (np.take_along_axis(part, order, axis=0) for part in (*values, fits))
     return [(Root(*(value[k] for value in values)), fits[k]) for k in range(len(roots)) if np.any(fits[k])]
@@ -261,7 +261,7 @@ def _answers(
     known: dict[str, Any],
     function: RestitutionOf | None,
 ) -> tuple[Impact, ...]:
-    """The impact of every root, or the refusal of a single case that has none."""
+    """The impact of each root; raises for a single case without one."""
     faults = input_faults(scene.numbers)
     of_walls = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
@@ -307,7 +307,7 @@ def _answers(
 
 
 def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> CollisionsError:
-    """The error of a single case that has no answer."""
+    """The error for a single case without a solution."""
     names = " and ".join(known)
     values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
     speed_is_known = scene.kinds[0].startswith("speed")

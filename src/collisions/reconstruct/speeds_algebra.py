@@ -18,9 +18,9 @@ from ..kernels.reverse import PLACES, absorbed_energy, parabola_roots, quartic_r
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, forward
 
-# Part of itself by which one observation may be off another that is no other information.
+# Relative difference within which two observations hold the same information.
 REDUNDANT = 1e-9
-# Part of the closing speed by which two roots that are one may be apart.
+# Difference, relative to the closing speed, within which two roots are one.
 ROOT_TOL = 1e-6
 # Worst case of the forward kernel's rounding, in eps of the parts that it adds up.
 _KERNEL_ROUNDING = 32.0 * EPS
@@ -206,14 +206,14 @@ class Scene:
         return [self._with_known_speed(x) for x in xs]
 
     def _per_closing(self, regime: Any, slip: Any, e: Any) -> dict[str, Any]:
-        """What would be observed at a closing speed of one unit and a slip."""
+        """The observations at unit closing speed and this slip."""
         return self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
 
     def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         k1, k2 = self.kinds
         c1, c2 = self.targets[k1], self.targets[k2]
-        # Where both tell the same of every slip, every slip fits, or none.
+        # Where both observations depend on slip alike, every slip fits, or none.
         samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
         alike = self._redundant(c1, c2, samples) | np.logical_and.reduce(
             [
@@ -237,7 +237,7 @@ class Scene:
         return pairs
 
     def any_slip_at(self, regime: Any, e: Any) -> tuple[Any, Any]:
-        """Where both knowns tell the same of every slip: by which part of themselves they are apart, and the closing speed."""
+        """For two observations that depend on slip alike: their relative difference, and the closing speed."""
         k1, k2 = self.kinds
         samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
         q1, q2 = samples[1][k1], samples[1][k2]
@@ -246,7 +246,7 @@ class Scene:
         return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(self.targets[k1] / q1)
 
     def _redundant(self, p1: Any, p2: Any, samples: Sequence[dict[str, Any]]) -> Any:
-        """Whether both observations are in the proportion of p1 to p2 at every slip."""
+        """Whether both observations have the ratio p1 to p2 at every slip."""
         k1, k2 = self.kinds
         scale = sum(abs(p2 * seen[k1]) + abs(p1 * seen[k2]) for seen in samples)
         return np.logical_and.reduce([abs(p2 * seen[k1] - p1 * seen[k2]) <= REDUNDANT * scale for seen in samples])
@@ -276,7 +276,7 @@ class Scene:
             slopes = (abs(j11) + abs(j12), abs(j21) + abs(j22))
             condition = self._condition(rows, here["closing"])
         if slope is not None:
-            # The restitution moves with the closing speed, and what is observed with it.
+            # The restitution changes with the closing speed, and the observations with it.
             after, before = (self.observe(regime, speed_a, speed_b, e + step) for step in (_STEP, -_STEP))
             e_by_closing = slope(here["closing"])
             by_e = [e_by_closing * (after[kind] - before[kind]) / (2.0 * _STEP) for kind in self.kinds]
@@ -295,7 +295,7 @@ class Scene:
         return np.fmax(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))
 
     def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
-        """Of each observation by both speeds."""
+        """Derivatives of each observation by both speeds."""
         ahead_a, behind_a = (self.observe(regime, speed_a + h, speed_b, e) for h in (size, -size))
         ahead_b, behind_b = (self.observe(regime, speed_a, speed_b + h, e) for h in (size, -size))
         return [
@@ -304,14 +304,14 @@ class Scene:
         ]
 
     def _condition(self, rows: Sequence[Sequence[Any]], closing: Any) -> Any:
-        """By how much relative errors of what was given may be larger in the speeds, taken relative to the closing speed."""
+        """Condition: the factor by which relative input errors grow in the speeds, taken relative to the closing speed."""
         (j11, j12), (j21, j22) = rows
         d1, d2 = ((2.0 if kind.startswith(_SQUARED) else 1.0) * abs(self.targets[kind]) for kind in self.kinds)
         moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
     def fits(self, root: Root) -> tuple[Any, Any]:
-        """Whether the law that was given leads from these speeds to what was observed, and the closing speed.
+        """Whether the given law leads from these speeds to the observed values, and the closing speed.
 
         The speeds of a root are themselves rounded, which moves an observation by its slope; the kernel adds the rounding of
         the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
@@ -332,13 +332,13 @@ class Scene:
         return fits, seen["closing"]
 
     def _can_occur(self, regime: Any) -> Any:
-        """Whether the law may lead to a regime: not to sticking without friction, nor with less than the critical ratio."""
+        """Whether the law allows a regime: no sticking without friction, nor with less than the critical ratio."""
         if regime is _STICK:
             return self.bound == 1.0 if self.rule == CRITICAL_FRACTION else self.bound > 0.0
         return True
 
     def _any_speed_fits(self, regime: Any, e: Any) -> Any:
-        """With one speed known: whether at every other speed that leads to this regime the same is observed, and was."""
+        """With one speed known: whether every other speed in this regime gives the same observation, and the one observed."""
         size = abs(self.targets[self.kinds[0]]) + abs(self.rest["closing"]) + abs(self.rest["slip"])
         size = np.where(size > 0.0, size, 1.0)
         low: Any = np.full((), -np.inf)
@@ -357,7 +357,7 @@ class Scene:
         return self._can_occur(regime) & wide & self._all_fit(e, places)
 
     def _conditions(self, regime: Any, raw: Any) -> list[Any]:
-        """What must be above 0 for the law to lead to a regime."""
+        """The expressions that must be positive for the law to lead to a regime."""
         closing, normal, tangential = raw.closing_speed, raw.no_slip_normal, raw.no_slip_tangential
         if self.rule == IMPULSE_RATIO:
             return [closing]
@@ -371,7 +371,7 @@ class Scene:
         return [closing, np.where(self.bound > 0.0, np.copysign(1.0, regime) * across - most, 1.0)]
 
     def one_of_many(self, root: Root) -> Any:
-        """Whether to one side of a root the speeds lead to what was observed as well."""
+        """Whether the speeds on one side of a root also give the observed values: a continuous range of solutions."""
         e = root.restitution
         size = abs(root.speed_a) + abs(root.speed_b) + self.spinning
         many: Any = False
@@ -387,14 +387,14 @@ class Scene:
         return many
 
     def _scaled(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, Any]:
-        """The speeds of the same slip per closing speed that lead to the observation that is not a loss."""
+        """The speeds, scaled at the same slip per closing speed, that give the observation that is not a loss."""
         kind = self.kinds[1] if self.kinds[0] == "energy_loss" else self.kinds[0]
         seen = self.outcome(speed_a, speed_b, e)[1]
         factor = np.sqrt(self.targets[kind] / seen[kind])
         return self.speeds_at(factor * seen["closing"], factor * seen["slip"])
 
     def _all_fit(self, e: Any, pairs: Sequence[tuple[Any, Any]]) -> Any:
-        """Whether the law leads from all these speeds to what was observed, and to one and the same of it.
+        """Whether the law leads from all these speeds to the observed values, and to the same value from each.
 
         An energy that was given is known to the rounding of the energies that it is the difference of. What the kernel answers
         is known to that of the energies lost alone: close to a restitution of 1 it tells amounts apart that are far smaller.
@@ -418,13 +418,13 @@ class Scene:
 
 
 def _power_of_two(size: Any) -> Any:
-    """The power of two next to a number; 1 for what is 0 or none."""
+    """The power of two next to a number; 1 for 0, NaN and infinity."""
     usable = np.isfinite(size) & (size > 0.0)
     return np.ldexp(1.0, np.frexp(np.where(usable, size, 1.0))[1] - 1)
 
 
 def _observation_rounding(kind: str, seen: dict[str, Any]) -> Any:
-    """How far an observation may be off that was itself worked out from speeds, at worst.
+    """Worst rounding error of an observation that was itself computed from speeds.
 
     An energy that is the difference of those before and after is known to the rounding of the impulse times the speeds.
     """
@@ -434,7 +434,7 @@ def _observation_rounding(kind: str, seen: dict[str, Any]) -> Any:
 
 
 def _roots(regime: Any, at: Callable[[Any], Any], step: Any) -> Sequence[Any]:
-    """Roots of what a regime makes of the observations, on a scale that the step gives."""
+    """Roots of a regime's equation in the observations, on a scale that the step gives."""
     if regime is _SHARE:
         return quartic_roots([at(step * place) for place in PLACES], step)
     return parabola_roots([at(-step), at(0.0 * step), at(step)], step)
