@@ -78,9 +78,14 @@ def public() -> dict[str, Any]:
                 found[f"{prefix}.{name}".lstrip(".")] = value
     for kind in GIVEN_BACK:
         found.setdefault(kind.__name__, kind)
-    for name, kind in list(found.items()):
-        if inspect.isclass(kind):
-            for method, value in vars(kind).items():
+    classes = {name: kind for name, kind in found.items() if inspect.isclass(kind)}
+    for name, kind in classes.items():
+        # With those of bases that are not public themselves.
+        for base in (
+            kind,
+            *(base for base in kind.__mro__ if base not in classes.values() and "collisions" in base.__module__),
+        ):
+            for method, value in vars(base).items():
                 if not method.startswith("_") and (inspect.isfunction(value) or isinstance(value, classmethod | staticmethod)):
                     found[f"{name}.{method}"] = value
     return found

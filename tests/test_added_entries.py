@@ -104,7 +104,7 @@ def test_a_ratio_that_jams_is_named_by_its_rule():
     """As it was given."""
     impact = col.eccentric(A, B, 0.3, impulse_ratio=0.2, **CONTACT)
     inputs = replace(impact.inputs, rule="slope", rule_value=0.7)
-    error = solving.refusal(inputs, impact.answer._replace(status=Status.RATIO_JAMS))
+    error = solving.refusal(inputs, impact._answer._replace(status=Status.RATIO_JAMS))
     assert str(error).startswith("slope = 0.7 jams the bodies: at ")
     assert math.isfinite(error.fields["limit"])
 

@@ -211,7 +211,7 @@ def test_a_case_that_one_answer_refuses_has_no_other(cases):
     for name in ("energy_loss", "energy_loss_normal", "compression_impulse", "slip_before"):
         assert np.isnan(getattr(impact, name)).all(), name
         assert not getattr(impact, name).flags.writeable
-    assert not impact.answer.sticks.any()
+    assert not impact._answer.sticks.any()
 
 
 def test_a_batch_without_a_case_asks_for_what_one_with_cases_does():

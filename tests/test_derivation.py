@@ -1205,7 +1205,7 @@ def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch
     """Its meaning, its value and the impulse ratio that it led to, sliding or sticking; the impulses follow from that."""
     impact = crossroads(friction=friction)
     monkeypatch.setitem(RULES, "slope", Rule("slope", FINITE, "slope of the contact", RULES["friction"].decide))
-    text = explain(build(replace(impact.inputs, rule="slope", rule_value=value), impact.answer), form="text")
+    text = explain(build(replace(impact.inputs, rule="slope", rule_value=value), impact._answer), form="text")
     assert f"The slope of the contact was given: slope = {value:g}. With the impulse that just stops the slip it makes" in text
     assert "friction" not in text.lower()
     assert exact(equations) >= 6

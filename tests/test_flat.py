@@ -106,7 +106,7 @@ def test_extreme_scenes_answer_alike(family, monkeypatch):
     assert sum(isinstance(one, col.Impact) for one in found) > len(scenes) // 3
     for one, other in zip(found, wanted, strict=True):
         if isinstance(other, col.Impact):
-            assert [bits(value) for value in one.answer] == [bits(value) for value in other.answer]
+            assert [bits(value) for value in one._answer] == [bits(value) for value in other._answer]
         else:
             assert one == other
 

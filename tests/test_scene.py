@@ -142,7 +142,7 @@ def test_a_tolerance_of_zero_is_the_full_model():
     assert impact.model == "eccentric"
     assert "tolerance of 0" in impact.choice.reason
     full = col.eccentric(a, b, 0.2, normal=0.0, point=(0.0, 0.0), friction=0.5)
-    assert impact.answer == full.answer
+    assert impact._answer == full._answer
 
 
 def test_a_delta_v_test_alone_would_throw_the_rotation_away():
@@ -533,7 +533,7 @@ def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
         for name, errors in few.choice.errors.items():
             assert errors.dtype == dtype
             np.testing.assert_array_equal(whole.choice.errors[name][part], errors)
-        for mine, other in zip(whole.answer, few.answer, strict=True):
+        for mine, other in zip(whole._answer, few._answer, strict=True):
             assert mine.dtype == other.dtype
             assert not mine.flags.writeable
             np.testing.assert_array_equal(mine[part], other)

@@ -983,7 +983,7 @@ def test_every_output_of_an_answered_case_is_finite(model, ratio, kind, plain, c
         impact = model(a, b, 0.0, normal=math.pi / 4.0, impulse_ratio=ratio, on_failure="nan", **contact)
         fine = impact.status <= col.Status.ENERGY_GAIN
         for name in Answer._fields:
-            assert np.all(np.isfinite(getattr(impact.answer, name)) == fine) or name in ("status", "sticks"), (name, share)
+            assert np.all(np.isfinite(getattr(impact._answer, name)) == fine) or name in ("status", "sticks"), (name, share)
         assert np.all(fine == (share < math.sqrt(0.5))) or (share > 0.3 and not np.any(fine))
 
 

@@ -214,7 +214,7 @@ def test_blocks_in_another_process_hold_the_bits_of_the_whole(process, size):
         part = slice(start, start + size)
         rear = A.replace(vx=speeds[part], y=places[part])
         found = process.submit(solve, rear, B, 0.2, normal=normals[part]).result()
-        for mine, wanted in zip(found.answer, whole.answer, strict=True):
+        for mine, wanted in zip(found._answer, whole._answer, strict=True):
             np.testing.assert_array_equal(mine, wanted[part])
 
 
@@ -240,7 +240,7 @@ def test_eight_threads_find_the_same_bits(threads):
     many = A.replace(vx=rng.uniform(1.0, 20.0, 50_000), y=rng.normal(0.0, 0.4, 50_000))
     wanted = col.eccentric(many, B, 0.2, **SCENE)
     for found in at_once(8, lambda: col.eccentric(many, B, 0.2, threads=threads, **SCENE)):
-        for mine, other in zip(found.answer, wanted.answer, strict=True):
+        for mine, other in zip(found._answer, wanted._answer, strict=True):
             np.testing.assert_array_equal(mine, other)
 
 

@@ -183,7 +183,7 @@ def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
                 for body in (a, b)
             ]
             few = col.eccentric(*lanes, e[part], normal=normal[part], **options)
-            for mine, other in zip(whole.answer, few.answer, strict=True):
+            for mine, other in zip(whole._answer, few._answer, strict=True):
                 assert mine.dtype == other.dtype
                 np.testing.assert_array_equal(mine[part], other)
 
@@ -202,7 +202,7 @@ def test_refused_cases_touch_no_neighbour():
     assert [bad.status[i] for i in places] == [
         col.Status.NOT_POSITIVE, col.Status.NOT_FINITE, col.Status.NOT_FINITE, col.Status.SEPARATING, col.Status.BAD_RESTITUTION,
     ]  # fmt: skip
-    for mine, other in zip(list(bad.answer)[1:], list(good.answer)[1:], strict=True):
+    for mine, other in zip(list(bad._answer)[1:], list(good._answer)[1:], strict=True):
         np.testing.assert_array_equal(np.delete(mine, places), np.delete(other, places))
         if mine.dtype.kind == "f":
             assert np.isnan(mine[places]).all()
@@ -234,8 +234,8 @@ def test_what_is_asked_for_later_is_the_same_impact():
     impact = col.eccentric(a, b, e, normal=normal, point=(0.0, 0.1), friction=0.3, on_failure="nan")
     again = pickle.loads(pickle.dumps(impact))
     assert again == impact
-    assert len(tuple(impact.answer)) == len(Answer._fields)
-    assert impact.answer.slip_before is impact.slip_before
+    assert len(tuple(impact._answer)) == len(Answer._fields)
+    assert impact._answer.slip_before is impact.slip_before
     assert not impact.slip_before.flags.writeable
     assert np.flatnonzero(np.isnan(impact.compression_impulse)).tolist() == [3]
 

@@ -42,8 +42,7 @@ class Impact(Frozen):
     inputs: Inputs
     """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
-    answer: Any
-    """What the kernel answered: a status and numbers by name."""
+    _answer: Any
 
     def __init__(self) -> None:
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
@@ -56,12 +55,12 @@ class Impact(Frozen):
     @derived()
     def a(self) -> Side:
         """Vehicle A and what changed for it."""
-        return Side(self.inputs, self.answer, 0, vars(self).get("choice"))
+        return Side(self.inputs, self._answer, 0, vars(self).get("choice"))
 
     @derived()
     def b(self) -> Side:
         """Vehicle B and what changed for it."""
-        return Side(self.inputs, self.answer, 1, vars(self).get("choice"))
+        return Side(self.inputs, self._answer, 1, vars(self).get("choice"))
 
     @derived()
     def model(self) -> Any:
@@ -166,7 +165,7 @@ class Impact(Frozen):
 
         NaN, as it is not defined, for a contact with one degree of freedom: two parallel arms, or a gate against a wall.
         """
-        normal, tangential = self.answer.no_slip_normal, self.answer.no_slip_tangential
+        normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
         with np.errstate(invalid="ignore"):
             without_end = numeric(tangential).copysign(math.inf, tangential) + 0.0 * normal
@@ -270,7 +269,7 @@ class Impact(Frozen):
 
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
-        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self.answer.sticks
+        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self._answer.sticks
         if isinstance(sticks, np.ndarray):
             if rule != FRICTION:
                 found = np.full(sticks.shape, "given", dtype="U12")
@@ -291,21 +290,21 @@ class Impact(Frozen):
     @derived()
     def status(self) -> Any:
         """Outcome: a Status, whose ``sentence`` explains it; in a batch an array of its codes."""
-        code = self.answer.status
+        code = self._answer.status
         return code if isinstance(code, np.ndarray) else Status(code)
 
     @derived()
     def ok(self) -> Any:
         """Whether the case was answered without an energy gain."""
-        return self.answer.status == Status.OK
+        return self._answer.status == Status.OK
 
     @derived()
     def refused(self) -> Any:
         """Whether the case was refused, so that its numbers are NaN."""
-        return self.answer.status > Status.ENERGY_GAIN
+        return self._answer.status > Status.ENERGY_GAIN
 
     def _output(self, name: str) -> Value:
-        value: Value = getattr(self.answer, name)
+        value: Value = getattr(self._answer, name)
         return value
 
     def _answered(self, value: Any) -> Value:
@@ -410,7 +409,7 @@ class Impact(Frozen):
             impact = solved(inputs, on_failure=on_failure)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {inputs.model}") from error
-        return impact if origin is None else found_by(origin, inputs, impact.answer, status)
+        return impact if origin is None else found_by(origin, inputs, impact._answer, status)
 
     def to_columns(self) -> dict[str, list[Any]]:
         """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
@@ -421,10 +420,10 @@ class Impact(Frozen):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):
             return NotImplemented
-        return self.inputs == other.inputs and all(map(same, self.answer, other.answer))
+        return self.inputs == other.inputs and all(map(same, self._answer, other._answer))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.inputs, self.answer, {name: getattr(self, name) for name in ("reconstruction", "choice")})
+        return _rebuild, (self.inputs, self._answer, {name: getattr(self, name) for name in ("reconstruction", "choice")})
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -449,8 +448,13 @@ def build(inputs: Inputs, raw: Any) -> Impact:
     impact: Impact = object.__new__(Impact)
     found = impact.__dict__
     found["inputs"] = inputs
-    found["answer"] = raw
+    found["_answer"] = raw
     return impact
+
+
+def answer_of(impact: Impact) -> Any:
+    """What the kernel answered: a status and numbers by name."""
+    return impact._answer
 
 
 def solved(
@@ -481,7 +485,7 @@ def solve_changed(impact: Impact, **changes: Any) -> Impact:
 
 def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
     """The same impact with vehicles that differ in name or in how their numbers were given."""
-    other = build(replace(impact.inputs, a=a, b=b), impact.answer)
+    other = build(replace(impact.inputs, a=a, b=b), impact._answer)
     vars(other).update({name: getattr(impact, name) for name in ("reconstruction", "choice")})
     return other
 
@@ -492,7 +496,7 @@ def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFai
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
     choice = None if impact.choice is None else part_of_choice(impact.choice, take, inputs)
     part = solved(inputs, on_failure=on_failure, choice=choice)
-    return part if origin is None else found_by(part_of(origin, take), inputs, part.answer, take(impact.status))
+    return part if origin is None else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
 
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:

@@ -40,7 +40,7 @@ class Derived(Generic[T]):
         if owner is None:
             return self
         kept = getattr(owner, "__dict__", None)
-        if kept and type(getattr(kept.get("answer"), "status", None)) is Status:
+        if kept and type(getattr(kept.get("_answer"), "status", None)) is Status:
             value = self.work_out(owner)
         else:
             # Refused cases are NaN or infinite, and numpy need not say so again.

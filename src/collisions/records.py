@@ -185,7 +185,7 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
     columns: dict[str, Any] = {}
     for name, value in _results(impact):
         _add(columns, name, value)
-    columns["status"] = np.array([status.label for status in Status])[impact.answer.status]
+    columns["status"] = np.array([status.label for status in Status])[impact.status]
     columns[impact.inputs.rule] = impact.inputs.rule_value
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in ("before", "after", "at_compression"):
@@ -194,7 +194,7 @@ def to_columns(impact: Any) -> dict[str, list[Any]]:
                 _add(columns, f"{label}.{moment}.{name}", getattr(vehicle, name))
         for name, value in _results(side):
             _add(columns, f"{label}.{name}", value)
-    shape = np.shape(impact.answer.status)
+    shape = np.shape(impact.status)
     return {name: np.broadcast_to(np.asarray(value), shape).reshape(-1).tolist() for name, value in columns.items()}
 
 

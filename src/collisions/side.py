@@ -26,17 +26,17 @@ class Side(Frozen):
     """
 
     _inputs: Inputs
-    answer: Any
+    _answer: Any
     _index: int
     _choice: ModelChoice | None
 
     def __init__(self, inputs: Inputs, raw: Any, index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
         found = self.__dict__
-        found["_inputs"], found["answer"], found["_index"], found["_choice"] = inputs, raw, index, choice
+        found["_inputs"], found["_answer"], found["_index"], found["_choice"] = inputs, raw, index, choice
 
     def _change(self) -> tuple[Value, Value, Value]:
-        raw = self.answer
+        raw = self._answer
         if self._index:
             return raw.delta_vx_b, raw.delta_vy_b, raw.delta_yaw_rate_b
         return raw.delta_vx_a, raw.delta_vy_a, raw.delta_yaw_rate_a
@@ -167,7 +167,7 @@ class Side(Frozen):
             return self.delta_vx + turn_x, self.delta_vy + turn_y
 
     def _impulse(self) -> tuple[Value, Value]:
-        x, y = self.answer.impulse_x, self.answer.impulse_y
+        x, y = self._answer.impulse_x, self._answer.impulse_y
         return (x, y) if self._index else (-x, -y)
 
     def _at_contact(self) -> tuple[Value, Value, Value, Value]:
@@ -175,7 +175,7 @@ class Side(Frozen):
         before, place = self.before, self._inputs.point
         motion = before.vx, before.vy, self.delta_vx, self.delta_vy
         # ``solve`` keeps the point it was given, also where it took a central model; cases that it refused may lack a position.
-        answered = self.answer.status <= Status.ENERGY_GAIN
+        answered = self._answer.status <= Status.ENERGY_GAIN
         turns = True if self._choice is None else (self._choice.model == "eccentric") & answered
         if place is None or not np.any(turns):
             return motion

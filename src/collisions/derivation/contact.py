@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from ..impact import answer_of
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, RULES
 from .expressions import HALF, ZERO, Direction, Expression, magnitude, signed_total, total
 from .page import Page
@@ -74,8 +75,8 @@ def impulses(page: Page, s: Symbols, k: Mobility) -> None:
         page.equation("Normal impulse", s.normal, change / k.normal)
         return
     else:
-        no_slip = Symbol("N_s", s.impact.answer.no_slip_normal, "impulse")
-        no_slip_t = Symbol("T_s", s.impact.answer.no_slip_tangential, "impulse")
+        no_slip = Symbol("N_s", answer_of(s.impact).no_slip_normal, "impulse")
+        no_slip_t = Symbol("T_s", answer_of(s.impact).no_slip_tangential, "impulse")
         _without_slip(page, s, k, no_slip, no_slip_t)
         if rule == CRITICAL_FRACTION:
             fraction = Symbol("f", value, "number")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..impact import Impact
+from ..impact import Impact, answer_of
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page
@@ -234,7 +234,7 @@ def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
     page.equation("Along the tangent", k_tt, tangential)
     if not turning:
         return Mobility(k_nn, k_tt, None)
-    k_nt = Symbol("K_{nt}", s.impact.answer.coupling, "per mass")
+    k_nt = Symbol("K_{nt}", answer_of(s.impact).coupling, "per mass")
     page.equation("Across", k_nt, -total(*(body.n * body.t / body.resistance for body in turning)))
     return Mobility(k_nn, k_tt, k_nt)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..formatting import UnitSystem
-from ..impact import Impact, solved
+from ..impact import Impact, answer_of, solved
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..warning import quietly
@@ -70,7 +70,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes = begin(axes, (7.5, 6.0))
     factor = labels.factor("N*s")
     normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor
-    no_slip = impact.answer.no_slip_normal * factor, impact.answer.no_slip_tangential * factor
+    no_slip = answer_of(impact).no_slip_normal * factor, answer_of(impact).no_slip_tangential * factor
     plain = impact.model == "linear_central"
     shows_no_slip = not plain and no_slip[0] > 0.0 and math.hypot(*no_slip) <= _FAR * math.hypot(normal, tangential)
     seen = [(0.0, 0.0), (normal, tangential), *([no_slip] if shows_no_slip else [])]
@@ -80,7 +80,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     low, high = low - room, high + room
 
     e = impact.restitution
-    k_nn, k_nt = 1.0 / impact.effective_mass, impact.answer.coupling
+    k_nn, k_nt = 1.0 / impact.effective_mass, answer_of(impact).coupling
     closing = impact.closing_speed * factor
     if not plain:
         _draw_friction(axes, impact, right, low, high)
@@ -157,7 +157,7 @@ def _tangential_yield(impact: Impact) -> float:
     """Change of slip by a unit of tangential impulse [1/kg]: read off the solver's answer to another impulse ratio."""
     if impact.model != "eccentric":
         return 1.0 / impact.effective_mass
-    coupling = impact.answer.coupling
+    coupling = answer_of(impact).coupling
     # Of this sign the contact cannot jam.
     ratio: Any = math.copysign(1.0, coupling)
     with quietly():

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import CollisionsError, InputError, Status
-from ..impact import Impact, found_by, solved
+from ..impact import Impact, answer_of, found_by, solved
 from ..inputs import Inputs
 from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
@@ -214,7 +214,7 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
     impact = solved(inputs, on_failure=on_failure)
     if np.any(found & impact.refused):
         inputs = inputs_of(found & np.logical_not(impact.refused))
-    return found_by(origin, inputs, impact.answer, status)
+    return found_by(origin, inputs, answer_of(impact), status)
 
 
 def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
