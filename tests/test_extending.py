@@ -1,6 +1,8 @@
 """A law put into the table of laws from here is solved, written down, explained and drawn; nothing else has to know its name."""
 
+import inspect
 import math
+import re
 from typing import get_args
 
 import numpy as np
@@ -10,7 +12,7 @@ import collisions as col
 from collisions import inputs, plot
 from collisions.derivation import explain
 from collisions.diagnostics import diagnose
-from collisions.kernels import contact_laws
+from collisions.kernels import central, contact_laws, eccentric
 from collisions.reporting import report
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, vx=15.0, vy=2.0, yaw_rate=0.1, x=-2.0, y=0.4, name="A")
@@ -31,9 +33,12 @@ def third_law(monkeypatch):
     monkeypatch.setitem(contact_laws.LAWS, law.name, law)
 
 
-def test_type_checkers_know_the_laws(monkeypatch):
+def test_type_checkers_and_docstrings_know_the_laws(monkeypatch):
     monkeypatch.delitem(contact_laws.LAWS, "half back")
     assert get_args(inputs.Law) == tuple(contact_laws.LAWS)
+    listed = ", ".join(f'"{name}"' for name in contact_laws.LAWS)
+    for solver in (col.oblique_central, col.eccentric):
+        assert f"law : {{{listed}}}" in solver.__doc__
 
 
 @pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
@@ -116,3 +121,11 @@ def test_speeds_go_back_and_planar_says_that_it_does_not():
     with pytest.raises(col.InputError, match="planar cannot go back under law 'half back'") as refused:
         col.reconstruct.planar(impact.a.after, impact.b.after, restitution=0.3, **CONTACT)
     assert refused.value.code == "bad_law"
+
+
+@pytest.mark.parametrize("kernel", [central, eccentric])
+def test_what_a_kernel_refuses_has_a_message(kernel):
+    """A single case raises it; without one the error would be empty."""
+    raised = set(re.findall(r"Status\.([A-Z_]+)\)", inspect.getsource(kernel))) - {"OK", "ENERGY_GAIN"}
+    assert {"SEPARATING", "OUT_OF_RANGE"} < raised
+    assert not [name for name in raised if not col.Status[name].message]
