@@ -58,14 +58,14 @@ class System(Numbers):
         return _unit(self.label(kind), self.scale(kind))
 
     def working(self, value: float, kind: str, more: int = 0) -> str:
-        """A number in the working: exact if six figures hold it, else to four figures or a result's decimals; ``more`` adds some."""
+        """A number in the working: exact if six figures hold it, else four or the decimals of a result; ``more`` adds some."""
         if not math.isfinite(value):
             return "not known" if math.isnan(value) else "infinite"
         number = self.converted(value, kind)
         return "0" if _is_zero(value, kind) else self.figures(number, decimals_of(kind, self.name), more)
 
     def figures(self, number: float, least: int | None = None, more: int = 0) -> str:
-        """A number, exact if six figures hold it, else to four figures, with at least ``least`` decimals and two more at most."""
+        """A number, exact if six figures hold it, else to four figures, with ``least`` decimals and at most two more."""
         exact = f"{number:.6g}"
         near = abs(float(exact) - number) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(number)
         if near and len(exact) <= 9 and "e" not in exact:

@@ -1,4 +1,4 @@
-"""What every picture begins with: matplotlib, the Axes to draw on, the units to label in, and one answered impact."""
+"""Shared by all pictures: matplotlib, the Axes, the units of the labels, and the check that the impact is solved."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ class Units:
         self._system: str = system
 
     def factor(self, unit: str) -> float:
-        """What a number in this SI unit is multiplied by."""
+        """The factor from this SI unit to the unit shown."""
         kind = _kind(unit)
         return 1.0 if kind is None else scale_of(kind, self._system)
 
     def name(self, unit: str) -> str:
-        """The unit a number in this SI unit is shown in, as it is printed."""
+        """The name of the unit shown for this SI unit."""
         kind = _kind(unit)
         printed = unit if kind is None else unit_of(kind, self._system)
         return printed.replace("**2", "²").replace("*", " ").replace("deg", "°")
@@ -78,7 +78,7 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
 
 
 def answered(impact: Any, function: str) -> Impact:
-    """The impact, if it is a single one that has an answer."""
+    """The impact; refused unless it is a single solved one with numbers that can be drawn."""
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
     answer: Impact = impact
@@ -93,7 +93,7 @@ def answered(impact: Any, function: str) -> Impact:
 
 
 def check_size(name: str, value: float, least: float = 0.0) -> None:
-    """Refuses what is so large, or so small beside nothing larger, that axes cannot be laid out for it."""
+    """Raise if a number is too large, or smaller than ``least``, for axes to be laid out."""
     if not least <= abs(value) <= LARGEST:
         raise InputError(
             f"{name} = {value:.3g} cannot be drawn: a picture shows what is between {SMALLEST:g} and {LARGEST:g} in SI; look "
@@ -110,12 +110,12 @@ def who(index: int, vehicle: Vehicle) -> str:
 
 
 def drawable(text: str) -> str:
-    """The text with a sign in place of each half of a letter, which no font has."""
+    """The text with a mark in place of each lone surrogate, which no font has."""
     return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
-    """A text in lines that are no longer than this; what does not go into so many lines is left out, and shown to be."""
+    """A text broken into lines of this length; the rest after so many lines is cut off with a mark."""
     text = drawable(text)
     if len(text) <= width:
         return text
@@ -147,7 +147,7 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
 
 
 def tidy(axes: Axes, in_full: tuple[int, int] = (-3, 6)) -> None:
-    """Only the lines that are read, and numbers in full beside them, or beyond these with a power of ten at the end."""
+    """Hide unneeded spines; write tick labels in full, or with a power of ten at the axis's end outside this range."""
     from matplotlib.ticker import ScalarFormatter
 
     from .ticks import PlainTicks

@@ -1,4 +1,4 @@
-"""Arrows that are not drawn on each other, and labels that keep clear of them."""
+"""``Drawing``: arrows that do not overlap each other, and labels placed clear of them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _Label(NamedTuple):
 
 
 class Drawing:
-    """What is drawn on one Axes in its own coordinates; limits and labels are settled at the end."""
+    """The drawing on one Axes in data coordinates; limits and label places are settled at the end."""
 
     def __init__(self, axes: Axes) -> None:
         self.axes = axes
@@ -78,7 +78,7 @@ class Drawing:
         self.avoid(one, other)
 
     def include(self, *places: Place) -> None:
-        """Make these places visible."""
+        """Extend the limits to include these points."""
         self._seen.extend(places)
 
     def avoid(self, one: Place, other: Place) -> None:
@@ -174,7 +174,7 @@ def _cost(box: _Box, at: Any, lines: Any, boxes: list[_Box], inside: Any) -> flo
 
 
 def _on(box: _Box, area: Any) -> float:
-    """Which share of a label stands on a convex area with its corners anticlockwise."""
+    """The share of a label's area that lies on a convex area with its corners anticlockwise."""
     across, up = np.meshgrid(np.linspace(box[0], box[2], 7), np.linspace(box[1], box[3], 3))
     inside = np.ones(across.shape, dtype=bool)
     for (x0, y0), (x1, y1) in zip(area, np.roll(area, -1, axis=0), strict=True):
@@ -183,7 +183,7 @@ def _on(box: _Box, area: Any) -> float:
 
 
 def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:
-    """Which of the lines a way to a label crosses, but for those it begins on."""
+    """Which of the lines the line to a label crosses, except those that begin where it starts."""
     way, lines, gap = np.subtract(end, start), tips - tails, tails - start
     turn = way[0] * lines[:, 1] - way[1] * lines[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -204,17 +204,17 @@ def covers(start: Place, vector: Place, other: Place, along: Place, longest: flo
 
 
 def cross(one: Place, other: Place) -> float:
-    """What one has across the other."""
+    """The cross product of two plane vectors."""
     return one[0] * other[1] - one[1] * other[0]
 
 
 def beside(place: Place, direction: Place, far: float = 1.0) -> Place:
-    """The place so far away in a direction, or at the tip of a vector from there."""
+    """The point at this distance in a direction, or at the tip of a vector from there."""
     return place[0] + far * direction[0], place[1] + far * direction[1]
 
 
 def off_line(place: Place, start: Place, vector: Place) -> float:
-    """How far a place is from an arrow."""
+    """The distance of a point from an arrow."""
     length = math.hypot(*vector)
     along = vector[0] / length, vector[1] / length
     way = (place[0] - start[0]) * along[0] + (place[1] - start[1]) * along[1]
@@ -223,7 +223,7 @@ def off_line(place: Place, start: Place, vector: Place) -> float:
 
 
 class Arrows:
-    """The arrows drawn so far, so that none is drawn on another one; ``size`` is that of the whole scene."""
+    """The arrows drawn so far, which new ones must not cover; ``size`` is that of the whole scene."""
 
     def __init__(self) -> None:
         self.size = 0.0

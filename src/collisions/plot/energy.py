@@ -1,4 +1,4 @@
-"""Where the energy went: from the kinetic energies before, over what was lost, to those after."""
+"""``energy``: a chart of the kinetic energies before, the losses, and the energies after."""
 
 from __future__ import annotations
 

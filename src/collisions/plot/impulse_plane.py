@@ -138,7 +138,7 @@ def _regime(impact: Impact) -> str:
 
 
 def _draw_friction(axes: Axes, impact: Impact, right: float, low: float, high: float) -> None:
-    """What the rule allows: a cone, or the one ratio that was given."""
+    """Draw the tangential rule: a friction cone, or the given impulse ratio."""
     mu = impact.friction
     if mu is None:
         ratio = impact.impulse_ratio

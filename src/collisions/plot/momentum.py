@@ -135,7 +135,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
 
 
 def _momentum(side: Side, when: str, factor: float) -> Place:
-    """The momentum of a body whose mass is finite; of another one what it does not have is not drawn."""
+    """The momentum of a body; 0 for an infinite mass, of which only the momentum it gives is drawn."""
     state = side.before if when == "before" else side.after
     if math.isinf(state.mass):
         return 0.0, 0.0
@@ -158,7 +158,7 @@ def _common_normal(vectors: list[Place], longest: float) -> Place | None:
 
 
 def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float) -> Place:
-    """How far a chain of arrows must stand beside others, so that none of it lies on one of them."""
+    """The offset of a chain of arrows from others at which none of it covers one of them."""
     chief = max(second, key=lambda vector: math.hypot(*vector))
     length = math.hypot(*chief)
     for step in range(_TRIED):
@@ -180,7 +180,7 @@ def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
 
 
 def _by_whom(impact: Impact) -> str:
-    """What gives the momentum that the bodies drawn do not have from each other."""
+    """A phrase naming the infinite masses and pivots that give momentum to the bodies drawn."""
     parts = []
     for index, side in enumerate((impact.a, impact.b)):
         if math.isinf(side.before.mass):

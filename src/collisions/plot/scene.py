@@ -149,7 +149,7 @@ def scene(
 
 
 def _places(impact: Impact) -> tuple[list[Place | None], Place, bool]:
-    """Both centres of mass, None for what only its contact is known of; the contact; and whether they are only a sketch."""
+    """Both centres of mass (None if unknown), the contact, and whether they are only a sketch."""
     states = impact.a.before, impact.b.before
     given: list[Place | None] = [None if state.x is None or state.y is None else (state.x, state.y) for state in states]
     if impact.point is not None:
@@ -193,7 +193,7 @@ def _size(known: list[Place], labels: Units, sketched: bool) -> float:
 
 
 def _scale(values: list[float], factor: float, most: float) -> float:
-    """How much one unit of length stands for: 1, 2 or 5 times a power of ten, so that the longest is no more than ``most``."""
+    """The magnitude per unit of length: 1, 2 or 5 times a power of ten, so that the longest is at most ``most``."""
     largest = max(values) * factor
     if largest == 0.0:
         return 0.0
@@ -203,7 +203,7 @@ def _scale(values: list[float], factor: float, most: float) -> float:
 
 
 class _Picture:
-    """What is drawn of a scene, in the units of its labels."""
+    """The parts of the scene, drawn in the units of its labels."""
 
     def __init__(self, axes: Axes, labels: Units) -> None:
         self.axes, self.labels = axes, labels
@@ -214,7 +214,7 @@ class _Picture:
         return place[0] * self.labels.factor("m"), place[1] * self.labels.factor("m")
 
     def wall(self, at: Place, n: Place, index: int, vehicle: Vehicle) -> None:
-        """A body without a place is met along the tangent: a hatched edge."""
+        """Draw a body of unknown position as a hatched edge along the tangent."""
         away, size = 1.0 if index else -1.0, self.arrows.size
         along = -n[1] * 0.32 * size, n[0] * 0.32 * size
         deep = away * 0.05 * size * n[0], away * 0.05 * size * n[1]

@@ -1,4 +1,4 @@
-"""Numbers beside an axis as plain text; imported when something is drawn, as it needs matplotlib."""
+"""Tick labels as plain text; imported when something is drawn, as it needs matplotlib."""
 
 from __future__ import annotations
 

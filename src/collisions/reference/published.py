@@ -1,4 +1,4 @@
-"""What a published value carries with it, and what is done outside the range it was published for."""
+"""``Published`` and ``Fit``: published values and formulas with source and range, and the handling of inputs outside it."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Fit:
 
 
 def check_outside(reader: ArgumentReader, outside: Any) -> None:
-    """Refuses a choice that is none."""
+    """Raise unless ``outside`` is one of the choices."""
     if not isinstance(outside, str) or outside not in ("warn", "refuse"):
         reader.refuse(
             InputError(
@@ -118,7 +118,7 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
 
 
 def settle(fit: Fit, found: Any, given: dict[str, Any], unusable: Any, outside: str) -> Any:
-    """The value of a fit; NaN in the cases of a batch that it cannot answer, refused or warned of outside its ranges."""
+    """The value of a fit; NaN for batch cases without one; inputs outside its ranges raise or warn."""
     beyond: Any = False
     for name, (low, high, _) in fit.ranges.items():
         if name in given:

@@ -1,4 +1,4 @@
-"""A report of one impact: a page for people, with the record at its end from which it can be made again."""
+"""Reports of one impact: a page for people, ending with the record from which it can be made again."""
 
 from .making import report
 from .record import options, replay

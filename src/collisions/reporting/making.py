@@ -1,4 +1,4 @@
-"""report: the whole page of one answer, with its figures, from the first heading to the record."""
+"""``report``: the whole page of one result with its figures, from the first heading to the record."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from .uncertainty import Spread, varies
 
 Form: TypeAlias = Literal["html", "markdown"]
 _SURROGATE = re.compile("[\ud800-\udfff]")
-# What no page of these answers has a part for.
+# Options that do not apply to these results.
 _OTHER_PARTS: dict[type, tuple[str, ...]] = {
     MomentumSolution: ("outline_a", "outline_b", "share_a"),
     Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
@@ -190,7 +190,7 @@ _USUAL = {name: parameter.default for name, parameter in signature(report).param
 
 
 def _is_usual(name: str, value: Any) -> bool:
-    """Whether an option was left as it is by default; what cannot be compared, such as an array, was not."""
+    """Whether an option has its default value; a value that cannot be compared, such as an array, has not."""
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
@@ -250,7 +250,7 @@ def _title(impact: Impact | MomentumSolution | Fit) -> str:
 
 
 def _readable(impact: Impact) -> Impact:
-    """The same impact with names that a file can hold, where one has half a letter."""
+    """The same impact with vehicle names that a file can hold: lone surrogates are replaced."""
     vehicles = impact.inputs.a, impact.inputs.b
     if not any(_SURROGATE.search(vehicle.name) for vehicle in vehicles):
         return impact
@@ -288,7 +288,7 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
 
 
 def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, **options: Any) -> None:
-    """One figure, drawn with nobody's settings but these; a sentence where its numbers give none."""
+    """One figure, drawn with default matplotlib settings; a sentence if the numbers allow none."""
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
     from matplotlib.text import Text
@@ -312,7 +312,7 @@ def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown:
 
 
 def _standalone(svg: str, name: str, caption: str) -> str:
-    """The svg element alone, its ids apart from those of other figures, its style left to the page."""
+    """The svg element of a figure, its ids made unique on the page and its style left to the page."""
     svg = visible(svg[svg.index("<svg") :].rstrip())
     svg = re.sub(r"\n\s*<defs>\s*<style[^>]*>[^<]*</style>\s*</defs>", "", svg, count=1)
 

@@ -1,4 +1,4 @@
-"""The record at the end of a report: written as JSON, found again in a page, and its answer and options read back."""
+"""``record``, ``replay`` and ``options``: the JSON at the end of a report, its result solved again, and its options."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .render import FENCE, RECORD
 from .sections import contradicted
 
 _FORMAT = "collisions report 2"
-# The options that make another page, and the unit in which one is read; None for what is no number.
+# The options that change the page, with the unit in which each is read; None for one that is not a number.
 _UNITS: dict[str, str | None] = {
     **dict.fromkeys(("title", "form", "units", "outline_a", "outline_b", "limits", "notes", "figures", "derivation")),
     "duration": "s",
@@ -41,7 +41,7 @@ _UNITS: dict[str, str | None] = {
     "damage_delta_v_b": "m/s",
 }
 EVIDENCE = tuple(name for name in _UNITS if name.startswith(("crush", "damage")))
-# Arguments of a vehicle that may be given as a text.
+# Arguments of a vehicle that may be texts.
 _NUMBERS = (*DOMAINS, "pivot[0]", "pivot[1]", "speed", "course")
 # The velocity of a pinned vehicle may differ by 1e-9 from the text that it was given as.
 _READ_AGAIN = 2e-9
@@ -54,7 +54,7 @@ _SENTENCES = ("choice.reason",)
 def record(
     impact: Impact | MomentumSolution | Fit, version: str, options: Mapping[str, Any], uncertainty: Propagation | None
 ) -> str:
-    """The answer, how its inputs were given, and the options of the report, as JSON."""
+    """The record: result, inputs as given, and options of the report, as JSON."""
     whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": strict(options)}
     if uncertainty is not None:
         whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
@@ -72,7 +72,7 @@ def record(
 
 
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The options with every number as a float or as the text it was given as; what cannot be read stays, to be refused."""
+    """The options with numbers as floats or the texts given; a value that cannot be read stays, for the reader to refuse."""
     found = {name: value for name, value in given.items() if name in _UNITS}
     for name, unit in _UNITS.items():
         if unit is not None and given[name] is not None:
@@ -91,7 +91,7 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _number(value: Any, unit: str, name: str) -> Any:
-    """A float, or a text that reads as the same number here."""
+    """A number as a float, or as its text if that reads as the same number here."""
     if isinstance(value, str):
         return value
     reader = ArgumentReader(trusted=(name,))
@@ -104,20 +104,20 @@ def _number(value: Any, unit: str, name: str) -> Any:
 
 
 def _other_texts(vehicle: Vehicle, inputs: Mapping[str, Any]) -> dict[str, str]:
-    """Texts that the record of the impact does not hold, as they do not read as the number here."""
+    """The vehicle's texts that the record of the impact does not hold, because they do not read as the number here."""
     texts = vehicle.given or {}
     return {name: text for name, text in texts.items() if _argument(inputs.get, name) != text}
 
 
 def _argument(find: Callable[[str], Any], name: str) -> Any:
-    """What is found for an argument, or for one of the two of a place."""
+    """The value for an argument, or for one component such as "pivot[0]"."""
     field, _, index = name.partition("[")
     value = find(field)
     return value[int(index[0])] if index and value is not None else value
 
 
 def _results(solution: MomentumSolution) -> Any:
-    """Every number of planar momentum."""
+    """The fields of a planar-momentum result."""
     return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"})
 
 
@@ -180,7 +180,7 @@ def replay(text: str) -> Impact | MomentumSolution:
 
 
 def _momentum(whole: Any) -> MomentumSolution:
-    """Planar momentum again, by the arguments of a record."""
+    """Planar momentum solved again from a record."""
     try:
         inputs, results = dict(whole["inputs"]), whole["results"]
         pairs = {name: tuple(value) for name, value in inputs.items() if isinstance(value, list)}
@@ -194,7 +194,7 @@ def _momentum(whole: Any) -> MomentumSolution:
 
 
 def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
-    """The vehicle with other texts that it was given as; one that can be read here must be of its number."""
+    """The vehicle with these texts added; a text that can be read here must agree with its number."""
     if not isinstance(texts, Mapping) or not all(isinstance(text, str) for text in texts.values()):
         raise _bad(f"what it says of how {label} was given is no dict of texts")
     for name, text in texts.items():
@@ -255,7 +255,7 @@ def options(text: str) -> dict[str, Any]:
 
 
 def _whole(text: Any) -> Mapping[str, Any]:
-    """The record of a report."""
+    """The parsed record at the end of a report."""
     if not isinstance(text, str):
         raise InputError(
             f"text must be the text of a report, got {type(text).__name__}; write replay(open(path, encoding='utf-8').read())",
@@ -283,7 +283,7 @@ def _whole(text: Any) -> Mapping[str, Any]:
 
 
 def _check(recorded: Any, found: Any) -> None:
-    """Results of the record that its inputs do not give, by more than another machine may round; all must be there."""
+    """Raise if the record's results are incomplete or differ from those of its inputs by more than rounding may."""
     scale = max((abs(number) for number in _floats(found)), default=0.0)
     differing = next(_differences(recorded, found, "", max(_OTHER_MACHINE, 1e-12 * scale)), None)
     if differing is not None:

@@ -1,4 +1,4 @@
-"""The sheet that a report is written on: Markdown, or one HTML file that needs nothing from outside and prints well."""
+"""``Sheet``, ``Html`` and ``Markdown``: the output formats of a report. The HTML is one self-contained file."""
 
 from __future__ import annotations
 
@@ -41,27 +41,27 @@ pre { font-size: 8.5pt; line-height: 1.3; white-space: pre-wrap; overflow-wrap: 
 """
 FENCE = "```json\n"
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~&])")
-# What would begin a list or underline a line at the start of one.
+# Characters that start a list or underline the line above when they begin a line.
 _START = re.compile(r"^(\d*)([-+=.)])")
-# Signs that join letters; what else has no shape of its own could make a line read as another.
+# Joiners, which some scripts need; other invisible characters could change how a line reads.
 _JOINERS = "\u200c\u200d"
-_AS_PRINTED = 1e-9  # relative: what six figures show of a number that they hold
+_AS_PRINTED = 1e-9  # relative: a number this near to its six figures is shown by them
 _DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
 
 
 def plain(text: str) -> str:
-    """A text that somebody gave, in one line and without signs that cannot be seen."""
+    """A user's text in one line and without invisible characters."""
     return visible(" ".join(text.split()))
 
 
 def visible(text: str) -> str:
-    """A text of one line or more with a mark in place of each sign that cannot be seen."""
+    """A text with a visible mark in place of each invisible character."""
     hidden = {sign for sign in set(text) if unicodedata.category(sign)[0] == "C" and sign not in _JOINERS + "\n"}
     return "".join("\ufffd" if sign in hidden else sign for sign in text)
 
 
 class Sheet(Page):
-    """A page of the derivation as a report has it: without equations, and with lists, pictures and a record."""
+    """A derivation page with the additions of a report, such as lists, pictures and the record."""
 
     def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
         super().__init__(System(units), False, deviations, ranges)
@@ -88,15 +88,15 @@ class Sheet(Page):
         self.items([("", line) for line in lines])
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
-        """A list, each line with what it begins with, which may be nothing."""
+        """A list of items, each with a lead-in that may be empty."""
         raise NotImplementedError
 
     def working(self, text: str) -> None:
-        """The derivation, as it is written in this form."""
+        """The derivation in this output format."""
         raise NotImplementedError
 
     def record(self, text: str) -> None:
-        """What the report can be made again from, as JSON."""
+        """The record, as JSON, from which the report can be made again."""
         raise NotImplementedError
 
     def whole(self, version: str) -> str:

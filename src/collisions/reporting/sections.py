@@ -1,4 +1,4 @@
-"""The parts of a report: what was given, assumed, answered and found, and where it is published."""
+"""The sections of a report: inputs, assumptions, results, findings and sources."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from ..vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
 _VELOCITY = {"vx": "velocity along x", "vy": "velocity along y", "speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
-# What a reverse solver may be given beside the contact: in words, its kind, and where the answer has it, which may be nowhere.
+# Known inputs of the reverse solvers other than the contact: description, kind, and path in the result, which may be "".
 _KNOWN: dict[str, tuple[str, str, str]] = {
     "energy_loss": ("energy lost", "energy", "energy_loss"),
     "closing_speed": ("closing speed", "speed", "closing_speed"),
@@ -74,7 +74,7 @@ _RANGE = (
 
 
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
-    """An energy gain comes before anything else."""
+    """Write the warning of an energy gain, before anything else."""
     if impact.status == Status.ENERGY_GAIN:
         sheet.stress(
             f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {impact.status.sentence}, which no impact "
@@ -83,7 +83,7 @@ def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
 
 
 def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
-    """What went in, with the texts that it was given as, and why this model or how the state was found."""
+    """Write the inputs with the texts they were given as, and the choice of the model or how the state was found."""
     backwards = impact.reconstruction is not None
     sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
@@ -135,7 +135,7 @@ def _input(
 
 
 def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """Speed and course, where the velocity was given by them; somebody at rest has no course but the one that was given."""
+    """Rows of speed and course if the velocity was given by them; at rest, the course only if it was given."""
     for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
         if not math.isnan(value) and texts.keys() & {"speed", "course"}:
             number = sheet.number(value, kind)
@@ -145,7 +145,7 @@ def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator
 
 
 def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
-    """The texts of what a reverse solver was given beside the contact, as rows of a table."""
+    """Table rows with the texts of a reverse solver's known inputs."""
     rows = []
     for name, text in (impact.inputs.given or {}).items():
         if name in _KNOWN:
@@ -155,7 +155,7 @@ def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
 
 
 def _read(text: str, name: str) -> float | None:
-    """The number of a text; None where its unit is of another registry."""
+    """The number of a text; None if its unit is of another registry."""
     reader = ArgumentReader()
     kind = _KNOWN[name][1]
     read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
@@ -163,7 +163,7 @@ def _read(text: str, name: str) -> float | None:
 
 
 def contradicted(impact: Impact) -> Iterator[str]:
-    """What a reverse solver was given, by its text, that is not what the impact has."""
+    """The known inputs of a reverse solver, by their texts, that the impact contradicts."""
     sides = (impact.a, impact.b)
     speeds = impact.closing_speed + sum(state.speed for side in sides for state in (side.before, side.after))
     turning = sum(abs(side.before.yaw_rate) + abs(side.after.yaw_rate) for side in sides)
@@ -180,7 +180,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
         if read is None:
             continue
         number = attrgetter(path)(impact)
-        # Of a speed that came out backwards the course is the opposite one; somebody at rest has none.
+        # A speed may come out negative, with the opposite course; a vehicle at rest has no course.
         apart = math.remainder(read - number, math.pi) if kind == "angle" else read - number
         if abs(apart) > allowed[kind]:
             yield f"{name} was given as {text!r}, but the {what} is {number!r} {SI_UNITS[kind]}"
@@ -216,7 +216,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
 
 
 def _in_words(name: str) -> str:
-    """An argument of planar momentum."""
+    """An argument of planar momentum in words."""
     kind, label, *rest = name.split("_")
     if kind == "outside":
         return f"impulse from outside, along {rest[0]}"
@@ -224,7 +224,7 @@ def _in_words(name: str) -> str:
 
 
 def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    """What the damage shows."""
+    """Table rows with the PDOF and delta-V that the damage shows."""
     for name, (of, what, kind) in _EVIDENCE.items():
         if evidence[name] is not None:
             read = ArgumentReader(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
@@ -235,7 +235,7 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
 def assumptions(
     sheet: Sheet, impact: Impact, found: LeftOut, outlines: Mapping[str, Any], limits: Mapping[str, Any] | None
 ) -> None:
-    """The model and its law, the conventions, and what an impulse leaves out, as numbers."""
+    """Write the model and its law, the conventions, and numbers for what an impulse neglects."""
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
@@ -295,7 +295,7 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
 
 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
-    """What came out, with the EES of a stated share."""
+    """Write the results, with the EES for a stated share."""
     rows = list(impact_answers(sheet, impact))
     if share_a is not None:
         share = ArgumentReader().number(share_a, "", "share_a")
@@ -312,7 +312,7 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
 
 
 def findings(sheet: Sheet, found: Findings) -> None:
-    """What is odd, each with its measure and its limit; what was measured, and what not."""
+    """Write the findings, each with measure and limit; also the checks that were made, and those that were not."""
     sheet.heading("Findings")
     others = ", ".join(code for code in LIMITS if code not in found.measured)
     others = f" Not made, as they lack what they need, do not apply, or are switched off: {others}." if others else ""
@@ -331,7 +331,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
 
 
 def sources(sheet: Sheet, found: Sequence[Finding]) -> None:
-    """Where equations, limits and comparable values are published."""
+    """Write the sources of equations, limits and comparable values."""
     sheet.heading("References")
     lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; its equations are cited as (5).']
     for finding in found:

@@ -1,4 +1,4 @@
-"""What a propagation says of the answer on a report: the spread of each number it knows, and a table of its own."""
+"""``Spread``: adds a propagation to a report: the spread of each result it covers, and a section of its own."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ..uncertainty import Output, Propagation
 from ..units import shown
 from .render import Sheet, plain
 
-# A spread of less than this part of the mean, or than what rounding leaves of nothing in SI, is none.
+# A smaller spread, relative to the mean or in SI for results that should be 0, is rounding.
 _NO_SPREAD, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
 
 
 class Spread:
-    """The outputs of a propagation that are answers, by the name of the answer."""
+    """The outputs of a propagation that are results of the report, by the name of the result."""
 
     def __init__(self, impact: Impact | MomentumSolution | Fit, uncertainty: Propagation | None) -> None:
         self.impact = impact
@@ -33,17 +33,17 @@ class Spread:
 
     @property
     def deviations(self) -> dict[str, float]:
-        """Standard deviations; what an interval leaves open has none, only ranges."""
+        """Standard deviations by result; an output that depends on an interval has none, only a range."""
         found = {name: _ends_of(output.std) for name, output in self.outputs.items() if varies(output, self.kinds[name])}
         return {name: std[0] for name, std in found.items() if len(std) == 1 and math.isfinite(std[0])}
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
-        """What an interval among the inputs leaves open."""
+        """The ranges of the outputs that depend on an interval."""
         return {name: output.interval() for name, output in self.outputs.items() if len(_ends_of(output.std)) > 1}
 
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
-        """The figures of every output, what they are given, and whether they are of this answer."""
+        """Write the figures of every output and the inputs they assume."""
         sheet.heading("Uncertainty, given the stated inputs")
         for name, output in self.outputs.items():
             self._check(sheet, name, output)
@@ -68,7 +68,7 @@ class Spread:
             sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
 
     def _check(self, sheet: Sheet, name: str, output: Output) -> None:
-        """The answer must lie where the propagation says it does, or one of the two is of something else."""
+        """Warn if the result is outside the propagation's interval: one of the two is then of another case."""
         value: Any = self.impact
         for part in name.split("."):
             value = getattr(value, part)
@@ -119,13 +119,13 @@ def _ends_of(figure: Any) -> tuple[float, ...]:
 
 
 def varies(output: Output, kind: str = "") -> bool:
-    """Whether an output is another in other cases, by more than rounding."""
+    """Whether an output varies between cases by more than rounding."""
     size = max(map(abs, _ends_of(output.mean)))
     return max(_ends_of(output.std)) > max(_NO_SPREAD * size, _NOTHING.get(kind, _NO_SPREAD))
 
 
 def _shares(output: Output) -> list[tuple[str, str]]:
-    """What each input brings of the variance, by itself and in all."""
+    """Table rows with each input's share of the variance, by itself and in all."""
     try:
         shares = output.contributions
     except InputError:
@@ -151,5 +151,5 @@ def _share(share: float, error: float = math.nan) -> str:
 
 
 def _within(share: float) -> float:
-    """A share, which sampling may put outside of 0 to 1."""
+    """A share limited to 0 to 1, which sampling errors may exceed."""
     return share if math.isnan(share) else min(max(share, 0.0), 1.0)

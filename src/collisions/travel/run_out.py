@@ -1,4 +1,4 @@
-"""The run-out of a vehicle that yawed as it slid, from positions along its path."""
+"""``path``: speed at separation of a vehicle that yawed as it slid, from positions along its path."""
 
 from __future__ import annotations
 
@@ -214,7 +214,7 @@ def _run_out(
     grades: Sequence[Any],
     end: Any,
 ) -> tuple[RunOut, list[Any]]:
-    """The run-out of numbers, of one case or of many, and how long each segment takes."""
+    """The run-out from plain numbers, one case or many, and the duration of each segment."""
     steps = [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
     lengths: list[Any] = [hypot(dx, dy) for dx, dy in steps]
     crabs = [
@@ -242,7 +242,7 @@ def _run_out(
 
 
 def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks: Sequence[tuple[str, Any]]) -> RunOut:
-    """The answers of a batch, NaN where a case has none, all of its shape and locked."""
+    """The results of a batch as locked arrays of its shape; NaN where a case has none."""
     of_run = {f.name: getattr(run, f.name) for f in fields(run)}
     flat = [part for value in of_run.values() for part in (value if isinstance(value, tuple) else (value,))]
     settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, named, shape, checks))))
@@ -271,7 +271,7 @@ def _wrapped(angle: Any) -> Any:
 
 
 def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, shape: str) -> list[Any] | None:
-    """The entries of a list, or the rows of an array of shape (n,) or (n, 2); None if it is neither."""
+    """The entries of a list, or the rows of an array of shape (n,) or (n, 2); None for anything else."""
     if isinstance(value, (list, tuple)):
         return list(value)
     count = len(reader.problems)
@@ -364,7 +364,7 @@ def _read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> 
 
 
 def _in_radians(heading: Angle) -> Any:
-    """A float stays one."""
+    """Degrees to radians; a float stays a float."""
     return heading.value * (math.pi / 180.0) if heading.in_degrees else heading.value
 
 

@@ -1,4 +1,4 @@
-"""Speed, distance and time of a vehicle that slows along a line."""
+"""``speed``, ``distance`` and ``time`` of a vehicle that slows along a line."""
 
 from __future__ import annotations
 
@@ -247,7 +247,7 @@ def _never_gets_there(start: float, end: float, drop: float) -> NoSolutionError 
 
 
 def _answer(found: Any, named: dict[str, Any], shape: tuple[int, ...] | None) -> Any:
-    """The answer, refused if a single one is none; of a batch those cases are NaN, and one warning says how many and why."""
+    """The result: a single non-finite one is refused, in a batch such cases are NaN and counted by reason in one warning."""
     if shape is None:
         if not math.isfinite(found):
             raise out_of_range()

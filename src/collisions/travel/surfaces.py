@@ -36,7 +36,7 @@ _BELOW_ZERO = {
 
 
 def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, read: _Reader) -> list[Any]:
-    """One number for each segment; a single value stands for all.
+    """Broadcast a value to one number per segment.
 
     ``count`` is 0 for one surface, not given as a list, and None if the segments could not be read.
     """
@@ -58,7 +58,7 @@ def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, r
 
 
 def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: Domain = FINITE) -> Any:
-    """A float or an array; a list here is neither segments nor cases."""
+    """A float or an array; a list is refused, as it would be neither segments nor cases."""
     if isinstance(value, (list, tuple)):
         return reader.refuse(
             ShapeError(
@@ -71,13 +71,13 @@ def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: 
 
 
 def read_length(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """A length of way [m], >= 0."""
+    """A length along the path [m], >= 0."""
     read = one_value(reader, value, "m", name)
     return at_least_zero(reader, read, value, name, "negative_distance", "it is counted along the way travelled")
 
 
 def read_speed(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """A speed along the way [m/s], >= 0."""
+    """A speed along the path [m/s], >= 0."""
     read = one_value(reader, value, "m/s", name)
     return at_least_zero(reader, read, value, name, "negative_speed", "it is counted along the way travelled")
 
@@ -187,7 +187,7 @@ def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Seque
 
 
 def out_of_range() -> InputError:
-    """The refusal of a single case whose answer is no finite number."""
+    """The error for a single case with a result that is not finite."""
     return InputError(
         "the answer is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
     )

@@ -1,4 +1,4 @@
-"""How sure an answer is: what is known of every input, and what follows for every output."""
+"""Uncertainty of results: distributions and intervals of the inputs, and their propagation to every output."""
 
 from .distributions import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from .propagation import propagate

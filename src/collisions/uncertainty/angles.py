@@ -1,4 +1,4 @@
-"""Directions as numbers on a line: the circle is cut opposite their mean, so that those on both sides of pi stand together."""
+"""Directions as numbers on a line: the circle is cut opposite their mean, so that directions near pi and -pi stay together."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _NEAR_PI = 2.0
 
 
 def are_directions(angles: Any) -> bool:
-    """Whether all lie from -pi to pi, as a course and a PDOF do; a rotation of more than that counts its turns."""
+    """Whether all values lie within -pi to pi, as a course and a PDOF do; larger ones are rotations that count their turns."""
     return not np.any(np.abs(angles) > math.pi * (1.0 + _ANGLE_TOL))
 
 
 def counted(angles: Any) -> Any:
-    """Directions counted round the circle from where their spread is the least, for every row along the last axis.
+    """Unwrap directions about their mean, where their spread is least, for every row along the last axis.
 
     Their mean, in (-pi, pi], then is the direction to which the mean square of the way round is the least: the intrinsic mean
     (T. Hotz and S. Huckemann, "Intrinsic means on the circle", Annals of the Institute of Statistical Mathematics 67 (2015)).
@@ -46,12 +46,12 @@ def counted(angles: Any) -> Any:
 
 
 def cut(angles: Any) -> float | None:
-    """The middle of the widest gap between directions of any likelihood; None for what is no direction, or without a gap."""
+    """The middle of the widest gap between directions; None for values that are not directions, or without a wide gap."""
     found = np.sort(angles[~np.isnan(angles)])
     if not found.size or not are_directions(found):
         return None
     gaps = np.diff(found, append=found[0] + _TURN)
-    # As they are if that is as good.
+    # If the gap across pi is as wide, the directions stay as they are.
     widest = len(gaps) - 1 if gaps[-1] >= gaps.max() else int(np.argmax(gaps))
     if gaps[widest] < _EMPTY:
         return None
@@ -60,17 +60,17 @@ def cut(angles: Any) -> float | None:
 
 
 def folded(angles: Any, where: float | None) -> Any:
-    """Directions within the turn that ends at this cut; those that already are stay as they are to the bit."""
+    """Directions moved into the turn that ends at this cut; those in it already stay bit for bit."""
     return angles if where is None else angles - _TURN * np.ceil((angles - where) / _TURN)
 
 
 def beside(angles: Any, middle: float) -> Any:
-    """Directions within half a turn of one of them."""
+    """Directions moved to within half a turn of ``middle``."""
     return folded(angles, middle + math.pi) if are_directions(angles) else angles
 
 
 def jump(values: Any) -> bool:
-    """Whether numbers without a unit look like directions around pi: within half a turn, at both of its ends, few between."""
+    """Whether numbers without a unit look like directions around pi: within half a turn, many near both ends, few between."""
     found = values[~np.isnan(values)]
     if not found.size or not are_directions(found) or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI):
         return False
@@ -79,7 +79,7 @@ def jump(values: Any) -> bool:
 
 
 def point_everywhere(values: Any) -> bool:
-    """Whether of counted directions half as many lie opposite their mean as there would be if they pointed evenly to all sides.
+    """Whether so many unwrapped directions are opposite their mean that it loses its meaning: half as many as if evenly spread.
 
     The error of the mean then is twice what their spread makes it (Hotz and Huckemann), and the mean soon without meaning.
     """
@@ -87,7 +87,7 @@ def point_everywhere(values: Any) -> bool:
 
 
 def point_to_opposite_sides(values: Any) -> bool:
-    """Whether of counted directions another mean, an eighth of a turn away or more, is as good to a tenth of their variance."""
+    """Whether another mean of unwrapped directions, an eighth of a turn away or more, fits to a tenth of their variance."""
     count = values.size
     if not count:
         return False

@@ -1,4 +1,4 @@
-"""First and second order: derivatives at the mean of the inputs, and a test of whether they are enough.
+"""First- and second-order propagation: derivatives at the mean of the inputs, and a test of whether they suffice.
 
 First order is the law of propagation of uncertainty of the "Guide to the expression of uncertainty in measurement" (JCGM
 100:2008, eq 13); second order adds the curvature, exactly so where the model is a quadratic of independent or of normal inputs.
@@ -30,11 +30,11 @@ _NOTICED = 0.1  # standard deviations by which a local figure may differ at the 
 # Of the slope: a change of it within the steps, beyond what a curvature makes, which is a kink or a jump. That of a smooth
 # model is a millionth of its fourth derivative.
 _KINK = 0.01
-_NO_DIFFERENCE = 1e-12  # of the values: what rounding may make
+_NO_DIFFERENCE = 1e-12  # of the values: differences this small are rounding
 
 
 class Local(Output):
-    """An output from derivatives at the mean of the inputs, whose quantiles are those of a normal, with skewness if known."""
+    """An output propagated by derivatives at the mean of the inputs: normal quantiles, with skewness if known."""
 
     def __init__(self, name: str, unit: str | None, mean: float, std: float, skewness: float, shares: Shares) -> None:
         super().__init__(name, unit)
@@ -43,7 +43,7 @@ class Local(Output):
         self._known_shares = shares
 
     def turned(self, turns: float) -> Local:
-        """The same direction, counted by so many turns more."""
+        """The same direction plus this many turns."""
         mean, std = self._figures
         return Local(self.name, self.unit, mean + 2.0 * math.pi * turns, std, self.skewness, self._known_shares)
 
@@ -72,7 +72,7 @@ class Local(Output):
 
 
 class Slopes(NamedTuple):
-    """Value, gradient and second derivatives of an output at the mean of the inputs, each input in its standard deviations."""
+    """Value, gradient and second derivatives of an output at the mean of the inputs, per standard deviation of each."""
 
     value: float
     gradient: Any
@@ -80,7 +80,7 @@ class Slopes(NamedTuple):
 
 
 def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes], int]:
-    """The derivatives of every output by central differences, from one call of the model; and how many cases that took."""
+    """Derivatives of every output by central differences, from one call of the model; and the number of cases it took."""
     inputs = joint.inputs.values()
     count = len(inputs)
     mean, sd = np.array([one.mean for one in inputs]), np.array([one.sd for one in inputs])
@@ -120,21 +120,21 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
         curvature = np.diag((16.0 * (above + below) - (two_above + two_below)) / (12.0 * step**2))
         for (i, j), (mm, mp, pm, pp) in zip(pairs, values[1 + 4 * count :].reshape(-1, 4), strict=True):
             curvature[i, j] = curvature[j, i] = ((pp - pm) - (mp - mm)) / (4.0 * step[i] * step[j])
-        # What rounding of the values can make by itself is no curvature.
+        # A curvature that rounding of the values could make is taken as 0.
         curvature[np.abs(curvature) * np.outer(step, step) < 8.0 * rounding] = 0.0
         found[name] = Slopes(float(values[0]), gradient, curvature)
     return found, len(at)
 
 
 def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, second: bool) -> Local:
-    """An output by its derivatives: of first order, or with the curvature too."""
+    """The output propagated at first order, or with the curvature too."""
     value, gradient, curvature = slope
     # Counted in the largest of them, so that no square leaves the range of floats.
     scale = max(float(np.max(np.abs(gradient))), float(np.max(np.abs(curvature))) if second else 0.0) or 1.0
     gradient, curvature = gradient / scale, curvature / scale if second else np.zeros_like(curvature)
     inputs = joint.inputs.values()
     skewness = np.array([one.skewness for one in inputs])
-    # What the fourth moments have beyond those of a normal, whose own part is in the trace.
+    # Excess fourth moments; the part of a normal distribution is in the trace.
     excess = np.array([one.kurtosis for one in inputs]) - 3.0
     correlated = joint.correlations()
     product, diagonal = curvature @ correlated, np.diag(curvature)
@@ -171,7 +171,7 @@ def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, secon
 
 
 def differences(model: Model, drawn: Mapping[str, Any], outputs: Mapping[str, Local]) -> tuple[dict[str, float], int]:
-    """By how many standard deviations local figures differ from the model at cases drawn from the inputs, if by too many.
+    """Differences, in standard deviations, of the local figures from cases drawn from the inputs, where they are too large.
 
     Also at how many of them there was no answer.
     """

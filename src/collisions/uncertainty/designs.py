@@ -1,4 +1,4 @@
-"""Points of the unit cube to draw from: independent, stratified, or evenly spread.
+"""Sampling designs: independent, stratified or evenly spread points of the unit cube.
 
 A design says which points, one row of numbers in (0, 1) for each input. They come in ``REPLICATES`` independent sequences side
 by side, whose spread gives every standard error, and each is found from its place alone: not from what was drawn before, in
@@ -46,7 +46,7 @@ def monte_carlo(dimensions: int, seed: int, length: int) -> Design:
 
 
 def latin_hypercube(dimensions: int, seed: int, length: int) -> Design:
-    """Sheets of points, in each of which every input takes a value from each of as many equal shares of its probability.
+    """Latin hypercube samples: in each, every input takes one value from each of as many equally likely strata.
 
     A sheet is as long as the run of ``length`` places, at most 512: a longer run has more sheets, not longer ones, so that it
     begins like a shorter one of at least that length.

@@ -1,4 +1,4 @@
-"""What every input of an uncertainty has in common: read with units once, frozen, compared by value, shown with its unit."""
+"""Base classes of the uncertain inputs: read with units once, frozen, compared by value, shown with their unit."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .normal import both_tails
 
 
 class Stated:
-    """Base of what can be stated about a quantity: a frozen value made of SI numbers and the unit they are in.
+    """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are in.
 
     ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and sets all else.
     """
@@ -135,11 +135,11 @@ class Distribution(Stated):
         return self._at(*both_tails(z))
 
     def _at(self, below: Any, above: Any) -> Any:
-        """The value with these probabilities below and above it, which together are 1."""
+        """The value with these probabilities below and above it, which add up to 1."""
         raise NotImplementedError
 
     def _describe(self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]) -> None:
-        """Sets the moments, of which none may have overflowed."""
+        """Set the moments; refused if one has overflowed."""
         if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
             raise self._too_large()
         if not sd > 0.0:
@@ -161,14 +161,14 @@ T = TypeVar("T", bound=Stated)
 
 
 def from_numbers(kind: type[T], unit: str, parts: Mapping[str, Any]) -> T:
-    """One made of SI numbers, which are not read again."""
+    """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
     made._make(unit, **parts)
     return made
 
 
 def probability(given: Any, argument: str = "p") -> Any:
-    """A probability, or an array of them, as float64; a text or a Quantity is none."""
+    """A probability or an array of them, as float64; texts and Quantities are refused."""
     reader = ArgumentReader()
     found = _plain_number(reader, given, argument)
     if reader.problems or not np.all((found >= 0.0) & (found <= 1.0)):
@@ -179,7 +179,7 @@ def probability(given: Any, argument: str = "p") -> Any:
 
 
 def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
-    """A float64 or an array of them, from what has no unit."""
+    """A float64 or an array of them, from a value without unit."""
     if isinstance(given, str) or is_quantity(given):
         return reader.refuse(
             InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
@@ -201,7 +201,7 @@ def show(value: Any, unit: str) -> str:
 def read_alike(
     needed: Mapping[str, Any], optional: Mapping[str, Any] | None = None, arrays: bool = False
 ) -> tuple[list[Any], str]:
-    """SI numbers of one kind, and its SI unit: either all have a unit or none has; what is optional may be None."""
+    """SI numbers of one kind, and their unit: all have a unit or none has; an optional one may be None."""
     optional = optional or {}
     given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
     measured = [name for name, value in given.items() if has_unit(value)]

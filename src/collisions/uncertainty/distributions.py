@@ -1,4 +1,4 @@
-"""The inputs of an uncertainty: what is known of a quantity, as a distribution or as nothing but two bounds."""
+"""Uncertain inputs: ``Uniform``, ``Triangular``, ``Samples``, and ``Interval``, which only bounds a quantity."""
 
 from __future__ import annotations
 
@@ -293,7 +293,7 @@ class Interval(Stated):
 
 
 def read_input(name: str, value: Any) -> Any:
-    """What a model is to be called with: a stated input or another object as it is, a number or a text as an SI float.
+    """The input for a model: a stated input or other object as it is, a number or a text as an SI float.
 
     Raises
     ------
@@ -351,19 +351,19 @@ def read_input(name: str, value: Any) -> Any:
 
 
 def pair_hints(fixed: Mapping[str, Any]) -> str:
-    """What to write for pairs of numbers in order, which as inputs are places in the scene, if they were meant as ranges."""
+    """Hints for inputs that are pairs of numbers in order: they are read as points, but may be meant as ranges."""
     return "".join(
         f". {name} is the pair {value!r} in every case{hint}" for name, value in fixed.items() if (hint := range_hint(value))
     )
 
 
 def range_hint(value: Any) -> str:
-    """What to write for a pair of numbers in order, or of texts, if it was meant as a range; "" for others."""
+    """A hint for a pair of numbers or texts in order that may be meant as a range; "" for others."""
     kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
     rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
     return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
 
 
 def _chosen(lower: Any, rising: Any, falling: Any) -> Any:
-    """The one of two forms that keeps its digits at this end."""
+    """The form (plain or complement) that keeps the digits at this end."""
     return np.where(lower, rising, falling) if isinstance(lower, np.ndarray) else rising if lower else falling

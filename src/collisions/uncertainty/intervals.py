@@ -1,4 +1,4 @@
-"""Inputs of which only bounds are known: where between them an output is least and greatest, and the range of its figures.
+"""Propagation of ``Interval`` inputs: searches for the least and greatest outputs between the bounds.
 
 An interval is never drawn from. Without distributions, the values of the outputs are searched for their extremes. Mixed with
 distributions, the mean, the standard deviation and both ends of the 95 percent interval are, over the same few drawn cases at
@@ -23,13 +23,13 @@ from .model import Model
 from .normal import power_of_two
 from .result import COVERAGE, Output, Sampled, Shares
 
-COMMON_CASES = 16 * REPLICATES  # drawn ones that every place is judged by
+COMMON_CASES = 16 * REPLICATES  # drawn cases, the same at every point
 _BLOCK = 2**16  # cases a call
 _PATIENCE = 10  # steps for each halving, at most
 
 
 class _Effort(NamedTuple):
-    """How long to search: most intervals, places to begin with and of them along one interval, halvings of the search box.
+    """Limits of the search: number of intervals, points of the grid in all and along one interval, halvings of the search box.
 
     Every interval doubles the corners, which are always among the places. Up to ``diagonal`` intervals it also steps along
     diagonals.
@@ -54,7 +54,7 @@ _FIGURES: tuple[Callable[[Any], Any], ...] = (
 
 
 class Extremes(NamedTuple):
-    """Least and greatest value by output, the places of all extremes, what it took to find them, and where means were cut."""
+    """Least and greatest value by output, the points of all extremes, the cost, and the cuts of mean directions."""
 
     values: dict[str, tuple[float, float]]
     places: list[dict[str, float]]
@@ -65,7 +65,7 @@ class Extremes(NamedTuple):
 
 
 def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> Extremes:
-    """Where the outputs, or their figures over the ``common`` drawn cases, are least and greatest.
+    """Find where the outputs, or their figures over the ``common`` drawn cases, are least and greatest.
 
     A grid finds where to look, then a shrinking box around the best place finds the extreme: exact where there is a single one
     between the bounds or the figure is monotone, as those of solver outputs are but for friction limits.
@@ -106,7 +106,7 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
 
 
 class _Places:
-    """The model at places between bounds, given as shares of the way from the lower to the upper bound."""
+    """The model at points between bounds, given as shares of the way from the lower to the upper bound."""
 
     def __init__(self, model: Model, bounds: Mapping[str, tuple[float, float]], common: Mapping[str, Any]) -> None:
         self.model = model
@@ -118,13 +118,13 @@ class _Places:
         self.cuts: dict[str, float | None] = {}
 
     def at(self, shares: Any) -> Any:
-        """The upper bound from above, so that a share of 1 is that bound to the bit."""
+        """The inputs at these shares; measured from the nearer bound, so that a share of 1 is exactly the upper one."""
         with np.errstate(all="ignore"):
             width = self.high - self.low
             return np.where(shares < 0.5, self.low + shares * width, self.high - (1.0 - shares) * width)
 
     def answers(self, shares: Any) -> dict[str, Any]:
-        """By output the values at every place, one row a place."""
+        """The values at every point by output, one row per point."""
         step = max(1, _BLOCK // self.cases)
         parts = [self._answers(self.at(shares[i : i + step])) for i in range(0, len(shares), step)]
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -139,7 +139,7 @@ class _Places:
         return {name: self._counted(name, one.reshape(len(at), -1)) for name, one in found.items()}
 
     def count_directions(self, first: Mapping[str, Any]) -> dict[str, Any]:
-        """The first answers, and from now on all others, with directions about their mean, and the means within one turn."""
+        """Decide from the first values which outputs are directions; unwraps them, and all later ones, within one turn."""
         for name, values in first.items():
             if self.model.units[name] == "rad" and angles.are_directions(values):
                 self.cuts[name] = angles.cut(_means(angles.counted(values)))
@@ -154,7 +154,7 @@ class _Places:
 
 
 def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, effort: _Effort) -> tuple[Any, float]:
-    """The place of the least figure (of the greatest for a sign of -1) and the figure there, from the best of the grid."""
+    """The point of the least figure (greatest for a sign of -1) and the figure there, from the best of the grid."""
     best = int(np.nanargmin(sign * judged))
     place, value, size = grid[best], sign * float(judged[best]), 0.5
     steps = _steps(grid.shape[1], effort)
@@ -172,14 +172,14 @@ def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, ef
 
 
 def _means(values: Any) -> Any:
-    """Of the answers at each place, NaN where there is none."""
+    """Mean of the values at each point; NaN without any."""
     known = ~np.isnan(values)
     with np.errstate(invalid="ignore"):
         return np.sum(np.where(known, values, 0.0), axis=1) / np.count_nonzero(known, axis=1)
 
 
 def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
-    """The figure of the answered cases of every row; NaN for a row of which less than two are. Of one case it is the value."""
+    """The figure over the answered cases of every row; NaN for fewer than two. If the row is one case, its value."""
     if values.shape[1] == 1:
         return values[:, 0]
     rows = (row[~np.isnan(row)] for row in values)
@@ -188,13 +188,13 @@ def _by_place(figure: Callable[[Any], Any], values: Any) -> Any:
 
 
 def _grid(count: int, effort: _Effort) -> Any:
-    """Shares of the way from lower to upper bound: as fine a grid as is cheap, corners included."""
+    """Grid points as shares from lower to upper bound, as fine as is cheap; corners included."""
     fineness = max(2, min(effort.finest, int(effort.places ** (1.0 / count) + 1e-9)))
     return np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, fineness)] * count, indexing="ij"), axis=-1).reshape(-1, count)
 
 
 def _steps(count: int, effort: _Effort) -> Any:
-    """One along each input both ways, and along each diagonal of few."""
+    """Search directions: along each input both ways, and along the diagonals if there are few inputs."""
     unit = np.eye(count)
     steps = np.concatenate((unit, -unit))
     if count <= effort.diagonal:
@@ -265,7 +265,7 @@ class Bounds(Output):
 
 
 def _within_turn(direction: Local | Sampled, cut: float) -> Local | Sampled:
-    """A direction with its mean within the turn that ends at the cut."""
+    """A direction's figures with the mean within the turn that ends at the cut."""
     turns = round((float(angles.folded(direction.mean, cut)) - direction.mean) / (2.0 * math.pi))
     return direction.turned(turns) if turns else direction
 

@@ -1,4 +1,4 @@
-"""The user's model: a function called with arrays of cases, whose answers are read and checked to be one for each case."""
+"""``Model``: the user's function, called with arrays of cases; its outputs are checked to be one value per case."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Model:
         return found
 
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
-        """The outputs of the cases, as new float arrays; what is not finite has no answer and is NaN.
+        """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
         The first time, a few cases are asked again one by one. ``check=False`` leaves that to another call: of calls from
         several threads always the same one is to do it.
@@ -68,7 +68,7 @@ class Model:
                 f"cases be NaN: on_failure='nan' where the solver has it (reconstruct.speeds gives NaN by itself)"
                 f"{pair_hints(self.fixed)}"
             )
-            # What Python and numpy raise where an array is used as a number, or a number as a Quantity.
+            # Raised by Python and numpy where an array is used as a number, or a number as a Quantity.
             if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(error, CollisionsError):
                 raise _bad_model(f"model raised {_described(error)}. It is {called}") from error
             error.add_note(f"The model is {called}.")
@@ -107,7 +107,7 @@ class Model:
 
 
 def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:
-    """Refuses inputs, or unknowns, that the model has no argument for, and arguments without one."""
+    """Raise for inputs (or unknowns) that are not arguments of the model, and for arguments without an input."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
@@ -126,7 +126,7 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
 def check_elementwise(
     answer: Callable[[Mapping[str, Any]], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
 ) -> bool:
-    """Refuses a model that answers one case otherwise than among others; False if these cases cannot show it.
+    """Raise if the model treats a case differently alone than among others; False if these cases cannot show it.
 
     ``answer`` takes a case as arrays of one. Cases that are all the same show nothing, those without an answer little, and
     those in rising order no sort.
@@ -164,7 +164,7 @@ def check_elementwise(
 
 
 def _revealing_cases(answers: Mapping[str, Any]) -> list[int]:
-    """The last case, which all others came before, those of the greatest and the least answers, two without, and the middle."""
+    """Cases likely to reveal mixing: the last, those of the greatest and least outputs, two without, and the middle."""
     count = len(next(iter(answers.values())))
     found = [count - 1]
     refused: list[int] = []
@@ -177,7 +177,7 @@ def _revealing_cases(answers: Mapping[str, Any]) -> list[int]:
 
 
 def _agree(batched: float, single: float, answers: Any) -> bool:
-    """Whether the answer to a case is the same in a batch and by itself, but for what rounding or convergence explains."""
+    """Whether a case's value in a batch and by itself agree up to rounding or the convergence of an iteration."""
     if math.isnan(batched) or math.isnan(single):
         return math.isnan(batched) and math.isnan(single)
     away = abs(batched - single)

@@ -70,7 +70,7 @@ def quantile(p: Any) -> Any:
 
 
 def from_median(offset: Any) -> Any:
-    """The quantile at 0.5 + offset, for an offset from -0.425 to 0.425 that may be too small for that sum to hold."""
+    """The quantile at 0.5 + offset, for an offset from -0.425 to 0.425; accurate for offsets too small to add to 0.5."""
     return offset * _ratio(_MIDDLE_TOP, _MIDDLE_BOTTOM, _MIDDLE * _MIDDLE - offset * offset)
 
 
@@ -139,7 +139,7 @@ def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
 
 
 def _tails(z: Any) -> Any:
-    """The probabilities above the elements of an array."""
+    """The upper-tail probabilities of an array."""
     distance = np.minimum(np.abs(z), _NOTHING_BEYOND)
     density = np.exp(-0.5 * np.square(distance))
     smaller = _TAIL[0] * (u := (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
@@ -154,5 +154,5 @@ def _tails(z: Any) -> Any:
 
 
 def power_of_two(values: Any) -> float:
-    """A power of two about as large as the largest of them, to divide by before squares: it changes no digit."""
+    """A power of two close to the largest magnitude: dividing by it before squaring avoids overflow and changes no digit."""
     return math.ldexp(1.0, math.frexp(float(np.max(np.abs(values), initial=0.0)))[1] - 1)

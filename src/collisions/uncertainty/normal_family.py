@@ -1,4 +1,4 @@
-"""Normal and lognormal inputs, whole or truncated.
+"""``Normal`` and ``LogNormal`` inputs, whole or truncated.
 
 What a truncation leaves is counted from an anchor, the most likely of the values left, in standard deviations of the whole.
 From there the density falls as exp(-t (t + 2 m) / 2), m the score of the anchor, which neither underflows nor cancels however
@@ -38,7 +38,7 @@ Truncation = tuple[Input | None, Input | None]
 
 
 class NormalFamily(Distribution):
-    """Base of what is normal on some scale: ``given_mean`` and ``given_sd`` are those before truncation."""
+    """Base of distributions that are normal on some scale; ``given_mean`` and ``given_sd`` are those before truncation."""
 
     __slots__ = ("_split", "given_mean", "given_sd", "truncate")
 
@@ -109,7 +109,7 @@ class NormalFamily(Distribution):
             self._truncate(max(low, self.support[0]), min(high, self.support[1]))
 
     def _truncate(self, low: float, high: float) -> None:
-        """Leaves what lies between two bounds, if that is enough."""
+        """Truncate to two bounds; refused if too little probability is left."""
         steepness = self._steepness
         anchor = min(max(self._value(0.0), low), high)
         left = None
@@ -135,12 +135,12 @@ class NormalFamily(Distribution):
 
     @property
     def _steepness(self) -> float:
-        """Growth of the logarithm of the quantity with the score; 0 where the quantity itself grows with it."""
+        """Derivative of the quantity's logarithm by the score; 0 for Normal, whose quantity is linear in the score."""
         return 0.0
 
     @staticmethod
     def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
-        """Mean and standard deviation of the whole whose scores at two values are these, minus and plus."""
+        """Mean and standard deviation, before truncation, for which these two values have the scores -score and +score."""
         raise NotImplementedError
 
     def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
@@ -160,7 +160,7 @@ class NormalFamily(Distribution):
         raise NotImplementedError
 
     def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
-        """Mean and standard deviation of what is left, from those about the anchor."""
+        """Mean and standard deviation after truncation, from those about the anchor."""
         raise NotImplementedError
 
     def _scored(self, z: Any) -> Any:
@@ -181,7 +181,7 @@ class NormalFamily(Distribution):
         return np.where(lower <= upper, score, -score)
 
     def _inside(self, value: Any) -> Any:
-        """The value, held inside bounds that rounding may have crossed."""
+        """The value, clipped to bounds that rounding may have crossed."""
         if self.truncate is None:
             return value
         low, high = self.support
@@ -310,7 +310,7 @@ class LogNormal(NormalFamily):
 
 
 class Moments(NamedTuple):
-    """The share of the probability that a truncation leaves, and the moments of what is left."""
+    """The probability that a truncation leaves, and the moments of the rest."""
 
     share: float
     mean: float
@@ -343,7 +343,7 @@ def moments(anchor: float, low: float, high: float, steepness: float = 0.0) -> M
 
 
 def _fall(score: float) -> float:
-    """How far from a score on, away from the centre, the density is more than negligible beside that at the score."""
+    """The distance from a score, away from the centre, over which the density is not negligible."""
     return 2.0 * _NEGLIGIBLE / (math.sqrt(score * score + 2.0 * _NEGLIGIBLE) + abs(score))
 
 

@@ -1,4 +1,4 @@
-"""``propagate``: what a model's outputs are, given how well its inputs are known."""
+"""``propagate``: the distribution of a model's outputs from distributions and intervals of its inputs."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _SHARE_SAMPLES = 8192
 
 @dataclass
 class Run:
-    """The outputs of one run, how it went, and what there is to warn of."""
+    """The outputs of one run, its counts, and the warnings it needs."""
 
     outputs: Mapping[str, Local | Sampled]
     samples: int
@@ -188,7 +188,7 @@ def propagate(
 
 
 def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
-    """Refuses what is no option, or none of this method."""
+    """Raise for an unknown option, or one that this method does not have."""
     if not isinstance(method, str) or method not in METHODS:
         raise _bad_option("method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}")
     if samples is not None and tolerance is not None:
@@ -253,11 +253,11 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
 def _run_at(
     places: Sequence[Mapping[str, float]], whole: Model, run: Callable[[Model, Report | None], Run], report: Report | None
 ) -> list[Run]:
-    """A run at each place between the bounds of intervals; an interrupt returns those that are done."""
+    """One run at each point between the bounds of intervals; an interrupt returns those that are done."""
     runs: list[Run] = []
 
     def overall(done: int, total: int) -> None:
-        """Progress of one of several runs, as that of all of them."""
+        """The progress of one of several runs, as progress of all of them."""
         before = sum(one.samples for one in runs)
         if report is not None:
             report(before + done, before + (len(places) - len(runs)) * total)
@@ -274,7 +274,7 @@ def _run_at(
 
 
 def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Run:
-    """A run by derivatives at the mean: of so few cases that there is no progress to report."""
+    """A run by derivatives at the mean: too few cases for a progress report."""
     second = method == "second_order"
     with np.errstate(all="ignore"):
         found, count = slopes(model, joint, second)
@@ -294,7 +294,7 @@ def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
 def _sampled(
     method: str, joint: Joint, count: int, tolerance: Any, seed: int, threads: int, model: Model, report: Report | None
 ) -> Run:
-    """A run by cases drawn from the inputs: this many, and with a tolerance more."""
+    """A run by drawn cases: this many, and with a tolerance as many more as it takes."""
 
     def design(dimensions: int) -> Design:
         return DESIGNS[method](dimensions, seed, -(-count // REPLICATES))
@@ -368,7 +368,7 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
 
 
 def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int) -> None:
-    """Warns of what was left out of all cases, what was not reached, and what a local method does not know."""
+    """Warn of cases left out, of a tolerance not reached, and of the limits of a local method."""
     if method in LOCAL:
         _warn_if_not_local(method, runs, failed)
     elif failed:

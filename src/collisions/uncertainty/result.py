@@ -1,4 +1,4 @@
-"""The answer of a propagation: every output with mean, spread, quantiles, their standard errors, and what it depends on."""
+"""``Propagation``: every output with mean, spread, quantiles, their standard errors, and shares of variance by input."""
 
 from __future__ import annotations
 
@@ -217,7 +217,7 @@ class Sampled(Output):
         return int(np.count_nonzero(np.isnan(self.values)))
 
     def turned(self, turns: float) -> Sampled:
-        """The same directions, counted by so many turns more."""
+        """The same directions plus this many turns."""
         values = self.values if self._directions is None else self._directions
         return Sampled(self.name, self.unit, values, self._all_shares, turns)
 
@@ -324,7 +324,7 @@ class Sampled(Output):
 
     @cached_property
     def _sequences(self) -> list[Any]:
-        """The cases of each independent sequence; directions as each of them by itself would count them."""
+        """The cases of each independent sequence; directions unwrapped as each sequence alone would be."""
         if self._directions is None:
             return [self.values[which::REPLICATES] for which in range(REPLICATES)]
         counted = [angles.counted(self._directions[which::REPLICATES]) for which in range(REPLICATES)]

@@ -1,4 +1,4 @@
-"""Cases drawn from the inputs with their correlations, the model run on them, and each input's share of the variance."""
+"""Draws cases from the inputs with their correlations, runs the model on them, and finds each input's share of the variance."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
 
 
 class Joint:
-    """The uncertain inputs and how they are drawn together: ``rows`` says from which rows of the unit cube each group is."""
+    """The joint distribution of the uncertain inputs: ``rows`` maps each group to its rows of the unit cube."""
 
     def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
         self.inputs = inputs
@@ -91,7 +91,7 @@ class Joint:
 
 
 def _read_correlation(inputs: Mapping[str, Distribution], correlation: Any) -> dict[frozenset[str], float]:
-    """The correlations by pair; wrong ones are refused."""
+    """The correlations by pair; invalid ones are refused."""
     if not isinstance(correlation, Mapping):
         raise InputError(
             f"correlation must be a dict such as {{('mass_a', 'mass_b'): 0.8}}, got {type(correlation).__name__}",
@@ -189,7 +189,7 @@ class Sample:
         return int(np.count_nonzero(np.any([np.isnan(values) for values in self.outputs.values()], axis=0)))
 
     def _each(self, blocks: list[tuple[int, int]]) -> Iterator[dict[str, Any]]:
-        """The answers of every block, in order."""
+        """The outputs of each block, in order."""
         if self.threads == 1 or len(blocks) < 2:
             yield from map(self._answers, blocks)
             return
@@ -214,7 +214,7 @@ class Sample:
 
 
 def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
-    """From start to stop, the first ones smaller, so that a slow model soon tells how far it is and can be stopped."""
+    """Blocks from start to stop, the first ones smaller, so that a slow model soon shows progress and can be stopped."""
     found, size = [], BLOCK if start else min(FIRST_BLOCK, BLOCK)
     while start < stop:
         found.append((start, min(start + size, stop)))
@@ -223,7 +223,7 @@ def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
 
 
 def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], samples: int) -> dict[str, Shares]:
-    """How much of the variance of every output each input brings, by drawing it anew while the others stay.
+    """Each input's share of the variance of every output, by redrawing that input while the others stay.
 
     ``samples`` cases for each input and two more times as many. First-order shares by the estimator of A. Saltelli et al.,
     "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares by that of
