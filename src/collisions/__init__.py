@@ -75,7 +75,7 @@ __all__ = [
 ]
 
 
-# Where to find what not every caller needs, by name.
+# Modules of the lazily imported names.
 _LATER = {
     "ModelChoice": "model_choice",
     "diagnose": "diagnostics",

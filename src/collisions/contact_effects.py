@@ -23,7 +23,7 @@ from .warning import quietly, warn_of_cases
 
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
-# Cases at a time: from two blocks on the solver repeats recorded steps, which halves the cost.
+# Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
 _BLOCK = 16384
 
 
@@ -215,7 +215,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
         def cut(value: Any, block: slice = block) -> Any:
             return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
 
-        # What is to be said of its cases was said of the impact.
+        # The impact itself gave the warnings about its cases.
         with quietly():
             some = part_of_impact(impact, cut, on_failure="nan")
         for name, value in _estimated(some, cut(time), cut(pull), cut(unusable)).items():
@@ -228,7 +228,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
 def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
-    # One case that was refused cannot be solved again, and has nothing that could be left out.
+    # A refused single case cannot be solved again.
     lost = impact.refused is True
     point = impact.point
     with np.errstate(all="ignore"):

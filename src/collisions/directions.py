@@ -135,7 +135,7 @@ def angle_of(x: Any, y: Any) -> Value:
     else:
         atan2 = np.arctan2
     angle = atan2(y, x)
-    # Of what points straight back but for the last bit, or for the sign of a 0.
+    # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi.
     angle = select(angle <= -math.pi, -angle, angle)
     # Adding 0 turns the -0 of a 0 into 0.
     found: Value = select((x == 0.0) & (y == 0.0), math.nan, angle + 0.0)

@@ -17,7 +17,7 @@ from .quantities import hypot, numeric
 from .side import Side
 from .vehicle import moved, needed
 
-# Moments that weigh the same in time, as shares of the duration.
+# Midpoints of equal time intervals, as shares of the duration.
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
 # Finite-difference step in the tyre impulse, small enough that the regime does not change; a power of 2 to avoid rounding.
 _LITTLE = 2.0**-6
@@ -54,14 +54,14 @@ class Kick(NamedTuple):
             return cls(x, y, 0.0, x, y, pull, most)
         arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
         square = arm_x * arm_x + arm_y * arm_y
-        # One without an inertia has no answer either.
+        # A pinned body without an inertia has no result anyway.
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         turning = before.mass / (inertia + before.mass * square)
         yaw = turning * (arm_x * y - arm_y * x)
-        # Without a point no case has an answer, nor a contact that could move.
+        # Without a point no case has a result, so any place will do.
         place = before.pivot if point is None else point
         at_point = turning_velocity(yaw, place[0], place[1], before.pivot[0], before.pivot[1])
-        # Of wheels at the radius of gyration k from the centre, the mean distance from the pivot is hypot(arm, k) at most.
+        # For wheels at the radius of gyration k from the centre, the mean distance from the pivot is at most hypot(arm, k).
         return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * (turning * square) ** 0.5)
 
 
@@ -71,7 +71,7 @@ def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
     a, b = kicks
     closing = impact.closing_speed
     nearer = nx * (a.contact_x - b.contact_x) + ny * (a.contact_y - b.contact_y)
-    # Taken the way round that brings the vehicles nearer, for which the restitution that is wanted is below 1.
+    # The step is taken in the direction that raises the closing speed, for which the restitution stays below 1.
     part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
     faster = closing + part * nearer
     # The pull need not be along the normal, which the linear model would refuse; without friction the oblique one is the same.
@@ -114,7 +114,7 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
             )
         )
         turns.append(turn)
-        # Without one the body is not known to be fixed, and a central model answered, or nothing did.
+        # A body without an inertia is not known to be fixed; a central model solved it, or none.
         inertia = 0.0 if before.yaw_inertia is None else before.yaw_inertia
         fixed.append(numeric(before.mass).isinf(before.mass) & numeric(inertia).isinf(inertia))
         if before.x is None or before.y is None:

@@ -9,8 +9,8 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 from .errors import InputError
 from .units import shown, to_quantity
 
-_FIGURES = 3  # of answers that have no decimals of their own: impulses and energies
-_NO_SPREAD = 1e-12  # relative: a deviation this small is what rounding left of none
+_FIGURES = 3  # of results without a fixed number of decimals: impulses and energies
+_NO_SPREAD = 1e-12  # relative: a standard deviation this small is rounding
 
 
 def in_words(value: float) -> str:
@@ -78,7 +78,7 @@ class Numbers:
         return with_decimals(number, places(number, _FIGURES) if known is None else known) + unit
 
 
-# In which explanations, reports, findings and figures can be written.
+# The unit systems of explanations, reports, findings and figures.
 UnitSystem: TypeAlias = Literal["si", "metric", "us"]
 SYSTEMS: tuple[UnitSystem, ...] = ("si", "metric", "us")
 
@@ -87,7 +87,7 @@ class _Kind(NamedTuple):
     si: str
     metric: str
     us: str
-    decimals: tuple[int, int, int] | None = None  # of an answer, by system; without them its writer sets the figures
+    decimals: tuple[int, int, int] | None = None  # of a result, by system; without an entry, figures are used
 
 
 # Decimals: 0.1 km/h, 0.1 mph, 0.1 degree, 1 degree/s, and in SI the next finer power of ten.

@@ -183,7 +183,7 @@ class Impact(Frozen):
         for side in (self.a, self.b):
             ux, uy, dux, duy = side._at_contact()
             found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
-        # Built on the body that changes less, which is exact for a barrier.
+        # From the body whose velocity changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
         common: Value = select(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)
         return common

@@ -83,7 +83,7 @@ class Inputs:
         vars(self).update(lock(state))
 
 
-# The numbers and pairs with a unit of their own: records and their schema have each by its name.
+# The numbers and pairs with their units: records and their schema list each by name.
 UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
 
 
@@ -223,7 +223,7 @@ def read_inputs(
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
         reader.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
     reader.close()
-    # Of a vector only the direction counts.
+    # Only the direction of a vector counts.
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
     plain = a.given is b.given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
     return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None), plain
@@ -236,7 +236,7 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
         if type(body) is not Vehicle or _is_complete(body):
             continue
         inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
-        # Element by element: beside an array without a case, a plain number still says that the body moves.
+        # Element by element: with an empty array among them, a plain number still says that the body moves.
         fixed = np.all(np.isinf(body.mass)) and np.all(np.isinf(inertia)) and without_turning(body.yaw_rate)
         needed = ("yaw_inertia",) if fixed else ("yaw_inertia", "x", "y")
         found += [(label, name) for name in needed if getattr(body, name) is None]

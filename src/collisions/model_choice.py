@@ -85,7 +85,7 @@ class ModelChoice(Shown):
     errors: Mapping[str, Value]
     missing: Mapping[str, tuple[str, ...]]
     tolerance: Value = field(metadata={"unit": "m/s"})
-    # Which of the models, by number.
+    # The number of the model chosen.
     _which: Any
 
     def __post_init__(self) -> None:

@@ -15,7 +15,7 @@ from .reading import ArgumentReader, warn_if_large
 from .units import has_unit, is_quantity, shown
 from .vehicle import Vehicle, needed
 
-# Sines of corners closer to straight than this are no dents.
+# A corner whose sine is within this of 0 is straight, not a dent.
 _STRAIGHT = 1e-9
 # In metres: no road vehicle is larger, so a bare number beyond is in another unit.
 _LONGEST, _WIDEST = 30.0, 3.5
@@ -194,7 +194,7 @@ def overlap(one: Placed, other: Placed) -> float:
 def _edges(corners: Any) -> tuple[Any, Any]:
     """The directions of the edges, (0, 0) between equal corners, and their lengths."""
     largest = float(np.max(np.abs(corners))) or 1.0
-    # Of numbers up to 1, whose differences stay in the range of floats.
+    # Scaled to numbers up to 1, whose differences cannot overflow.
     edges = np.roll(corners / largest, -1, axis=0) - corners / largest
     lengths = np.hypot(*edges.T)
     return edges / np.where(lengths == 0.0, 1.0, lengths)[:, np.newaxis], lengths * largest

@@ -31,7 +31,7 @@ def passed(e: Any, share: float) -> Any:
     xp = numeric(e)
     phase = share * (1.0 + e)
     compressing = 1.0 - xp.cos(_QUARTER * phase)
-    # Not before restitution: over the least restitution that would be infinite, which has no sine.
+    # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
     restoring = 1.0 + e * xp.sin(_QUARTER * (late / safe_divisor(True, e)))
     return select(phase <= 1.0, compressing, restoring) / (1.0 + e)

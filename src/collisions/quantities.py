@@ -43,7 +43,7 @@ class Derived(Generic[T]):
         if kept and type(getattr(kept.get("_answer"), "status", None)) is Status:
             value = self.work_out(owner)
         else:
-            # Refused cases are NaN or infinite, and numpy need not say so again.
+            # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
         if kept is not None:
@@ -51,7 +51,7 @@ class Derived(Generic[T]):
         return value
 
     if TYPE_CHECKING:
-        # Of no type is there a value: checkers refuse every assignment.
+        # ``Never`` has no values, so type checkers refuse every assignment.
         def __set__(self, owner: Any, value: Never) -> None: ...
 
 
@@ -93,7 +93,7 @@ def unit_of(kind: type[Any], name: str) -> str | None:
 class NoQuantityError(MissingInputError, AttributeError):
     """An attribute is None as an input is missing. Also an AttributeError, so that ``hasattr`` and completion pass over it."""
 
-    name: Any = None  # Python would suggest another attribute.
+    name: Any = None  # Otherwise Python would suggest another attribute.
 
 
 class Quantities:

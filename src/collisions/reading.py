@@ -379,7 +379,7 @@ def need_one_case(
             code="not_an_impact",
             argument="impact",
         )
-    # A fit that was refused is an error.
+    # There are no refused fits: a fit raises instead.
     status = getattr(answer, "status", Status.OK)
     if isinstance(status, np.ndarray):
         how = "ask the solver again with the numbers of that case, such as mass=float(masses[0])"

@@ -212,7 +212,7 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
             add(None, (vehicle.mass, *inertia), (either_infinite, Status.PINNED_INFINITE))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
             if vehicle.x is not None and vehicle.y is not None:
-                # In float64, too, a velocity in float32 is no closer.
+                # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
                 add(None, motion, (partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY))
     add_array(inputs.restitution, RESTITUTION)

@@ -92,7 +92,7 @@ _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
-# Names that mean one thing to pint, or to one version of it, and another to those who write them.
+# Names that mean one thing to pint, or to one version of it, and another to their users.
 _AMBIGUOUS = {
     "mil": "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of pint: write 'deg' or 'rad'",
     "ton": "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'",
@@ -100,7 +100,7 @@ _AMBIGUOUS = {
 }
 _NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
-# Of each registry the texts of units that it has read, and what it multiplies by. Neither holds the registry itself.
+# Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
 _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
@@ -145,7 +145,7 @@ def has_unit(value: Any) -> bool:
     """Whether a unit is written with it; a text that is no plain number is taken to have one."""
     if isinstance(value, str):
         return re.fullmatch(_NUMBER, value.strip()) is None
-    # Asked of the units alone: a registry that counts in Decimal cannot convert a float to find out.
+    # Decided by the units alone: a Decimal registry cannot convert a float to find out.
     return is_quantity(value) and bool(value._units)
 
 

@@ -95,7 +95,7 @@ class Vehicle(_AsGiven):
         name: str = "",
     ) -> None:
         if not (
-            # Plain floats in order need none of the reader; anything else goes through it.
+            # Valid plain floats skip the reader; everything else goes through it.
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
             and mass > 0.0
             and _isfinite(vx + vy)
@@ -311,7 +311,7 @@ class Vehicle(_AsGiven):
         if broadcast({"point[0]": px, "point[1]": py} | own) is not None:
             from .kernels.batch import precision
 
-            # Beside float32 arrays a plain number beyond them would be infinite.
+            # Among float32 arrays, a plain number beyond their range would become infinite.
             kind = precision([px, py, *own.values()])
         numbers = (px, py, *own.values())
         px, py, vx, vy, yaw_rate, x, y = (v.astype(kind) if isinstance(v, np.ndarray) else v for v in numbers)
@@ -352,7 +352,7 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
     raise FrozenInstanceError(f"a Vehicle is frozen: {name} cannot be set; write vehicle.replace({name}=...)")
 
 
-# The ones that dataclass makes fail with a TypeError for names that are no field, because of the slots.
+# Those that dataclass generates raise a TypeError for names that are not fields, because of the slots.
 for _name in ("__setattr__", "__delattr__"):
     setattr(Vehicle, _name, _refuse_setting)
 
@@ -549,7 +549,7 @@ def _pinned_velocity(
         # Single cases never come here, and the import of the package need not wait for it.
         from .kernels.batch import precision
 
-        # Both in the precision of the vehicle: what is too small for it counts as not given.
+        # Both in the precision of the vehicle: a velocity that underflows in it counts as not given.
         given = (part for part in (vx, vy) if isinstance(part, np.ndarray))
         kind = precision(value for value in (mass, yaw_inertia, yaw_rate, x, y, *pin, *given) if value is not None)
         vx, vy = (np.asarray(v, dtype=kind) for v in (vx, vy))

@@ -12,7 +12,7 @@ from .expressions import ZERO, Direction, Expression, Function, magnitude, signe
 from .page import Page
 from .symbols import Symbol, delta_v
 
-# The answers of planar momentum: of what, in words, and the kind.
+# The results of planar momentum: vehicle, description and kind.
 _ANSWERS = {
     "speed_a": ("A", "speed before", "speed"),
     "speed_b": ("B", "speed before", "speed"),
@@ -135,7 +135,7 @@ def _solved(page: Page, m: _Momenta, name: str, across: Symbol) -> None:
     own, when = [name], _when(name)
     if when == "after" and _together(m.solution):
         own, mass = ["speed_a_after", "speed_b_after"], m.mass["a"] + m.mass["b"]
-    # What is on the other side of the balance counts forwards, what is on the side of the unknown backwards.
+    # Terms on the other side of the balance count as positive, those on the side of the unknown as negative.
     terms: list[tuple[float, Expression]] = [
         (-1.0 if _when(other) == when else 1.0, m.mass[other[6]] * m.speed[other] * Function("sin", course - across))
         for other, course in m.course.items()

@@ -306,7 +306,7 @@ def _spread(uncertainty: Any, kinds: Mapping[str, str]) -> tuple[dict[str, float
         outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}
         if not outputs:
             raise _unknown(", ".join(uncertainty), kinds)
-        # With an interval among the inputs there are two deviations, and how far the interval goes is in neither.
+        # With an interval among the inputs there are two deviations, and neither includes the width of the interval.
         deviations = {name: float(output.std) for name, output in outputs.items() if not isinstance(output.std, tuple)}
         return deviations, {name: output.interval() for name, output in outputs.items() if name not in deviations}
     if not isinstance(uncertainty, Mapping):

@@ -113,7 +113,7 @@ class Lever(Body):
         assert impact.point is not None
         self.point = impact.point
         self.center = self.start.pivot or (self.start.x, self.start.y)
-        # Of a body without a position the lever does not matter.
+        # For a body without a position the lever arm does not matter.
         rx, ry = (0.0 if at is None else there - at for there, at in zip(self.point, self.center, strict=True))
         nx, ny = impact.normal
         self.n = Symbol(rf"r_{{{label}n}}", nx * rx + ny * ry, "length")

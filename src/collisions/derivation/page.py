@@ -158,7 +158,7 @@ class Page:
         if not math.isfinite(value):
             return True  # "infinite" and "not known" promise no figures
         printed = float(self.system.working(value, kind))
-        # A little more than half a unit, for the rounding of what is just between two numbers.
+        # A little more than half a unit, for the rounding of a value midway between two printed numbers.
         return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
 
     def _lines(self, caption: str, left: str, chain: Sequence[str], below: Sequence[str] = (), fits: bool = True) -> None:
@@ -174,7 +174,7 @@ class Page:
             formula = formula if len(lines) > 1 else lines[0].replace("&=", "=")
             self.parts.append(f"{caption}:\n\n$$\n{formula}\n$$")
         if not fits:
-            # Instead of seeming to be wrong.
+            # Otherwise the line would seem to be wrong.
             self.say(
                 "In this form the numbers cancel, or are too far apart for it: what is printed last is the result's own, "
                 "worked out in a form that keeps its digits."

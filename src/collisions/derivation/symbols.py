@@ -15,7 +15,7 @@ from .expressions import ATOM, SUM, Expression, Pen, Written, signed_total
 # At the start, at the end of compression, and after.
 BEFORE, COMPRESSED, AFTER = "before", "at_compression", "after"
 _PRIME = {BEFORE: "", COMPRESSED: "", AFTER: "'"}
-# How plain text writes what LaTeX has a command for; every other command is written as its name.
+# Plain text for LaTeX commands; every other command is written as its name.
 _PLAIN = {
     r"\Delta ": "d",
     r"\omega": "w",

@@ -23,7 +23,7 @@ from ..side import Side
 from ..solvers import required_model
 from ..vehicle import Vehicle
 
-# A ratio that comes out of an answer and rounds to its limit has not passed it.
+# A computed ratio that equals its limit up to rounding has not passed it.
 RATIO_ROUNDING = 1e-9
 # How far the normal is turned, in degrees, to see what depends on it.
 _TURN = 10.0

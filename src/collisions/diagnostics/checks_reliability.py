@@ -26,7 +26,7 @@ _YAW_RATE_SEEN = 0.1
 def near_collinear(case: MomentumCase) -> Iterator[Measured]:
     names = case.answer.unknowns
     one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
-    # Ten degrees themselves count, also where rounding makes more of them.
+    # Exactly ten degrees still count, also where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
     sentence = (
         f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: across it, momentum tells little "

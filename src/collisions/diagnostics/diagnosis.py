@@ -113,7 +113,7 @@ def diagnose(
     >>> diagnose(impact, limits={"restitution": 0.9, "normal": 1.0})
     ()
     """
-    # A limit beyond what is plausible is one on purpose.
+    # An implausible limit is intended, so the unit check is skipped.
     reader = ArgumentReader(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
     outlines = {

@@ -22,7 +22,7 @@ from .tracing import Replay, aligned, record
 BLOCK = 8192
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
-# What most callers read of a large batch, and the rest, which needs the status to blank the refused cases.
+# Outputs that most callers read of a large batch; and the rest, with the status, which marks the cases to set to NaN.
 FIRST = (
     "status",
     "closing_speed",
@@ -37,7 +37,7 @@ FIRST = (
     "delta_yaw_rate_b",
 )
 LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
-# Plain numbers within these make nothing that float32 cannot hold: slip, coupling and impulse without slip are at most 1e30.
+# With plain numbers in this range no output overflows float32: slip, coupling and impulse without slip are at most 1e30.
 _SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
@@ -193,7 +193,7 @@ def _refuse_beyond(outputs: Sequence[Any]) -> None:
             beyond |= np.isinf(output)
     closing, normal = (outputs[Answer._fields.index(name)] for name in ("closing_speed", "normal_impulse"))
     if closing is not None and normal is not None:
-        # The work of the normal impulse, of which an elastic contact loses nothing, however large it is.
+        # The work of the normal impulse; an elastic contact loses none of it, so the loss does not show its overflow.
         with np.errstate(over="ignore"):
             beyond |= np.isinf(closing * normal)
     beyond &= outputs[0] <= Status.ENERGY_GAIN
@@ -230,7 +230,7 @@ def _in_blocks(
     columns = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
     numbers = None if which is None else flat(which, shape)
     prepared = [_prepared(work, size, kinds, np.dtype(dtype)) for work in works]
-    # A thread keeps the scratch of every model, and of several an output of a block, and has at a time the inputs of a block.
+    # Scratch per thread: that of every model, with several models one set of outputs, and the inputs of one block.
     gathered = 0 if which is None else sum(not isinstance(column, float) for column in columns.values()) + len(works)
     length = block_length(size, threads, sum(scratch for _, scratch in prepared) + gathered * np.dtype(dtype).itemsize)
     per_block = length * len(works)
@@ -245,7 +245,7 @@ def _in_blocks(
         inputs = [[cut[id(value)] for value in work.inputs] for work in works]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
-            # Before anything is gathered: this reads the inputs in the order of the cases, which brings them into the cache.
+            # Before gathering: the checks read the inputs in the order of the cases, which brings them into the cache.
             faults = _faults(checks, cut)
             if numbers is None:
                 mine.runs[0](inputs[0], answers)

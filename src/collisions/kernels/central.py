@@ -167,7 +167,7 @@ def oblique_central(
     impulse_y = effective_mass * change_y
     no_slip_impulse = effective_mass * no_slip_t
     total = normal + impulse_t + loss + loss_n + loss_t + slip_after + change_x + change_y
-    # Zeros of what is finite, so that these cannot overflow in the sum.
+    # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_impulse)
     spins: Any = False if carrying else (spin_a != 0.0) | (spin_b != 0.0)
     fine = (closing > 0.0) & (total - total == 0.0) & ((gains | pulls | spins) ^ True)

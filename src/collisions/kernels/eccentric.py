@@ -111,7 +111,7 @@ def eccentric(
     determinant = a + ((b_a / trace) * cross) * (b_b * cross)
     regular = determinant > threshold
 
-    # The impulse that ends with the slip a sticking contact keeps.
+    # The impulse that leaves the slip of a sticking contact (0, or what the law leaves).
     sticking_slip = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
     change_t = 0.0 - (1.0 - sticking_slip) * slip
@@ -154,7 +154,7 @@ def eccentric(
     impulse_y = ny * normal + nx * impulse_t
     dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, torque_a, -impulse_x, -impulse_y, x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
     dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
-    # Finite only if all of it is: of what is finite zeros are added, which cannot overflow in the sum.
+    # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_n + 0.0 * no_slip_t)
     if LAWS[law].compression_limit:

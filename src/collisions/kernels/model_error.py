@@ -46,7 +46,7 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     lacking: Any = False
     approach: Any = True
     if not known.all:
-        # Without a place the lever is open, which matters to what can turn or does.
+        # Without a position the lever arm is unknown, which matters for a body that can turn or is turning.
         beside_a_pivot = any(known.pinned)
         for body, torque, placed, weighed in zip(bodies, torques, known.places, known.inertias, strict=True):
             _, inertia, _, _, spin, x, y, *_ = body
@@ -54,7 +54,7 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
                 approach = approach & (spin == 0.0)
                 lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
             elif not weighed:
-                # No torque on a body that could not turn: none on one that can.
+                # Solved with infinite inertia: if there is no torque then, the true inertia does not matter.
                 lever = _LEVER * eps * (abs(x) + abs(y) + abs(contact[4]) + abs(contact[5]))
                 lever = select(lever < _LONGEST, lever, _LONGEST)
                 lacking = lacking | ((torque <= lever * impulse) ^ True)
@@ -93,7 +93,7 @@ def _errors(
     beyond: Any = select(answered, inf, nan)
     if any(pinned):
         return beyond, beyond, closing, torques, impulse
-    # Of a body its mass, velocity and yaw rate.
+    # Mass, velocity and yaw rate of each body.
     point_masses = *bodies[0][:1], *bodies[0][2:5], *bodies[1][:1], *bodies[1][2:5]
     central, pulls, central_normal, central_tangential = _oblique(
         *contact[:4], *point_masses, rule, law, True, eps, impulse_only=True
@@ -103,7 +103,7 @@ def _errors(
     # Both central models have the same normal impulse, and the linear one no other.
     for off_tangential in (tangential_impulse, tangential_impulse - central_tangential):
         squared = [
-            # The last is (radius of gyration times change of yaw rate) squared.
+            # The last term is (radius of gyration times change of yaw rate) squared.
             _square(a * off_normal) + _square(a * off_tangential) + (a * torque) * (b * torque)
             for a, b, torque, _ in (for_a, for_b)
         ]

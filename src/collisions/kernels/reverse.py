@@ -22,7 +22,7 @@ VELOCITIES = ("va", "vb", "va_after", "vb_after")
 Pair: TypeAlias = tuple[Any, Any]
 # Cosine and sine of the angle from one course to another.
 Between: TypeAlias = Callable[[Any, Any], tuple[Any, Any]]
-# Where a quartic is read off: nowhere a multiple of another or 0, for what is at rest there tells nothing.
+# Sample points of a quartic: no point is 0 or a multiple of another, where a body at rest would carry no information.
 PLACES = np.array([-1.06, -0.47, 0.13, 0.61, 1.27])
 _FROM_PLACES = np.linalg.inv(np.vander(PLACES, increasing=True)).T
 # A double root comes out of rounding as a pair with imaginary parts of the square root of it.
@@ -128,7 +128,7 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
     match _names(v):
         case ("va", "vb"):
             left = (difference - root) * (difference + root)
-            # What rounding leaves below 0 of an impact that loses all it can.
+            # Rounding may leave a value below 0 for an impact that loses all it can.
             return [(difference, np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left)))]
         case ("va_after", "vb_after"):
             return [(np.hypot(difference, root), difference)]
@@ -212,7 +212,7 @@ def quartic_roots(samples: Sequence[Any], step: Any) -> list[Any]:
     coefficients = (values / largest) @ _FROM_PLACES
     leading = coefficients[..., 4:]
     below = -coefficients[..., :4] / np.where(abs(leading) < EPS, EPS, leading)
-    # Nothing is known where a value is none, or all of them are 0; eigvals would raise.
+    # No roots where a value is not finite, or all are 0; eigvals would raise.
     known = np.all(np.isfinite(below), axis=-1, keepdims=True)
     companion = np.zeros((*values.shape[:-1], 4, 4))
     companion[..., range(1, 4), range(3)] = 1.0

@@ -112,7 +112,7 @@ class Tape:
             return self.operand(values[1])
         elif function is np.power and type(values[1]) is float and values[1] == 0.5:
             return self.call(np.sqrt, values[0])
-        # A plain number takes the type of the array beside it: the same value, read faster.
+        # A plain number is cast to the dtype of the array operand: the same value, read faster.
         operands = [self.operand(value, beside if type(value) is float else None) for value in values]
         return self.add(function, tuple(one.index for one in operands), function(*(one.sample for one in operands)))
 

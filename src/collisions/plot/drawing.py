@@ -23,10 +23,10 @@ _TURNS = tuple(math.radians(angle) for angle in (0, 20, -20, 40, -40, 60, -60, 9
 # Of the larger extent: what is left free around, and the least there is of the other one.
 _MARGIN, _STRIP = 0.14, 0.42
 _AWAY = (5.0, 14.0, 26.0, 42.0, 60.0)
-# All within this of one line hide each other: sine of the angle.
+# Arrows within this sine of one line hide each other.
 ALONG_ONE_LINE = 0.03
 APART = 0.045  # of the size of the scene: between arrows that would hide each other
-_WIDE = 0.04  # of the size of the scene: what is nearer to an arrow is beneath it
+_WIDE = 0.04  # of the size of the scene: anything nearer to an arrow is beneath it
 
 
 class _Label(NamedTuple):

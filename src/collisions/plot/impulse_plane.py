@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
-_NO_YIELD = 64.0 * EPS  # relative: what differences of speeds leave of a coefficient that is 0
+_NO_YIELD = 64.0 * EPS  # relative: a coefficient this small is the rounding of differences of speeds
 
 
 def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
@@ -158,7 +158,7 @@ def _tangential_yield(impact: Impact) -> float:
     if impact.model != "eccentric":
         return 1.0 / impact.effective_mass
     coupling = answer_of(impact).coupling
-    # Of this sign the contact cannot jam.
+    # With this sign the contact cannot jam.
     ratio: Any = math.copysign(1.0, coupling)
     with quietly():
         other = solved(replace(impact.inputs, model="eccentric", rule=IMPULSE_RATIO, rule_value=ratio), on_failure="nan")

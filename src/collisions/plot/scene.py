@@ -27,7 +27,7 @@ _TITLES = {
     "both": "Velocities before (dashed, arriving) and after (solid, leaving)",
 }
 _RESOLVED = 1e-12  # of the coordinates: a picture smaller than this is made of their rounding
-_NOTHING = 1e-9  # of the impulse: what rounding leaves of none
+_NOTHING = 1e-9  # of the impulse: a smaller one is rounding
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
 
@@ -274,7 +274,7 @@ class _Picture:
             return 0.0
         share = factor / scale
         vectors = [(side.impulse_x * share, side.impulse_y * share) for side in sides]
-        # Both the same way, so that they still are seen to be equal and opposite.
+        # Both are scaled alike, so that they are still seen to be equal and opposite.
         for index, (start, vector) in enumerate(self.arrows.free(list(zip(starts, vectors, strict=True)))):
             text = f"impulse on {'AB'[index]}\n{self.labels.text(impulse, 'N*s')}"
             self._impulse(start, vector, f"impulse.{SIDES[index]}", text, index, 2.6)

@@ -178,7 +178,7 @@ def contributions(
                 percent[:, column], rows + aside, xerr=percent[:, 2 + column], fmt="none", ecolor=INK, lw=1.4, capsize=3,
                 zorder=4, label=None if column else "standard error",
             )  # fmt: skip
-    # Each figure beside its own mark: that of the bar above, that of the diamond below.
+    # Each number next to its own mark: that of the bar above, that of the diamond below.
     ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
     for row, share in enumerate(percent[:, :2]):
         for column, (before, aside) in enumerate((("", -_ASIDE), ("in all ", _ASIDE))):

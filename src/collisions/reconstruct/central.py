@@ -25,7 +25,7 @@ from .common import Cases, exactly, finish, input_faults, read_amounts, read_mas
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
-_MOST_ROUNDING = 0.01  # of e; beyond it the data say nothing, and are not bent further
+_MOST_ROUNDING = 0.01  # of e: the largest excess beyond 0 and 1 that is taken for rounding
 _STEP = 1e-6  # relative, for the sensitivity: between the rounding of a quotient and the curvature of a square root
 
 
@@ -142,7 +142,7 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
         return cases.provenance("central", known, condition, count, (found.closing, 0.0 * found.closing), where)
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
-        # In line, so that nothing moves across or turns; of a state that was not found nothing is said.
+        # In line, so that nothing moves across or turns; no warnings for states that were not found.
         still: Any = 0.0 if np.all(keep) else cases.where(keep, 0.0)
         bodies = []
         for label, speed in (("a", found.va), ("b", found.vb)):
@@ -195,7 +195,7 @@ def _candidate(
         vb = known["vb_after"] - share_b * total if "vb_after" in known else None
     va = vb + closing if va is None else va
     vb = va - closing if vb is None else vb
-    # What rounding leaves of an e of exactly 0 or 1; the change of velocity of a heavy body says little of the impact.
+    # Rounding may move an e of exactly 0 or 1; the change of velocity of a heavy body says little about the impact.
     scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
     rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)

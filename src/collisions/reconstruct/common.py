@@ -29,7 +29,7 @@ forward: Callable[..., Any] = eccentric
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # Prefixes of the names of numbers that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
-# For functions whose answer has no status to look at.
+# For functions whose result has no status.
 ASK_ALONE = "asked alone, each says why"
 
 
@@ -104,7 +104,7 @@ class Cases(NamedTuple):
         """A float for a single case, a locked copy of the array for a batch."""
         if self.shape is None:
             return float(found)
-        # Of what is too large for float32 the forward solver says so.
+        # The forward solver reports values too large for float32.
         with np.errstate(over="ignore"):
             return lock(np.array(np.broadcast_to(found, self.shape), dtype=self.dtype))
 
@@ -199,7 +199,7 @@ def finish(
                 solve_case(index)
         except CollisionsError as problem:
             return problem
-        # In double precision there may be none.
+        # In double precision the case may have a solution.
         outcome = Status(int(found.status[index]))
         return error_of(outcome, outcome.sentence)
 

@@ -129,7 +129,7 @@ def crush_energy(
             )
         )
     if cases.shape is None and status != Status.OK:
-        # The reader has seen to the rest.
+        # The reader has checked the rest.
         raise InputError(
             "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
         )

@@ -31,7 +31,7 @@ _STARTS = 64
 _MORE_STARTS = 4096  # looked at where the model refuses all of the first
 _FEW = 2  # searches that ended at the best: more are begun around it
 _CLOSER, _CLOSEST = 4.0, 6  # how many times closer each time, and how often
-_OVERSTATED = 10.0  # times the errors that chi-squared shows: the slope vanishes close by
+_OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
 _APART = 1.0  # standard errors
 _AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
 
@@ -115,7 +115,7 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     >>> round(3.6 * found["speed_golf"].value, 1), round(3.6 * found["speed_pinto"].value, 1)
     (63.2, 55.6)
     """
-    # What leaves the range of floats is a point that is refused.
+    # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
         inputs = read_fit_inputs(model, unknowns, observed)
         problem = inputs.problem()
@@ -160,7 +160,7 @@ def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     except CollisionsError as error:
         reason = f": {error}"
     except Exception:
-        # A model of arrays need not take floats, and why it does not is no reason of the scene.
+        # A model of arrays need not take floats; an error about that says nothing about the scene.
         pass
     tried = _STARTS + _MORE_STARTS
     return NoSolutionError(

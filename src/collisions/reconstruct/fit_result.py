@@ -18,7 +18,7 @@ from ..units import shown, to_quantity
 
 TWO_ERRORS = 2.0
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
-# Chances of the misfit below which evidence is said to agree with itself weakly, and to contradict itself.
+# Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict itself.
 _WEAK, _CONTRADICTION = 0.05, 0.01
 
 

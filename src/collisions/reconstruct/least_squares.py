@@ -10,7 +10,7 @@ import numpy as np
 
 _EPS = 2.0**-52
 _ROUNDS = 200
-# Of a standard error, or of the misfit where that is larger: what is left to go where a search ends.
+# Convergence limit: the remaining step in standard errors, or relative to the misfit where that is larger.
 _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3

@@ -246,7 +246,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     speeds.setdefault("speed_b_after", speeds["speed_a_after"])
     outcome = _outcome(known, speeds, normal)
     condition = np.divide(1.0 + abs(cosine), abs(sine))
-    # What rounding makes of the answers, as speeds of the lighter vehicle.
+    # Rounding error of the results, as a speed of the lighter vehicle.
     flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
     lighter = np.minimum(mass_a, mass_b)
     rounding = 16.0 * cases.eps * condition * (flow / lighter)
@@ -403,7 +403,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
         say(IllConditionedWarning, near, text, "nearly_collinear", pick=np.max, condition=found["condition"])
     for name in solution.unknowns:
         text = f"{name} = {{:.6g}} m/s: backwards along its course; check the courses, or turn this one by 180 deg"
-        # What rounding leaves of 0 is no motion backwards.
+        # A negative speed within rounding of 0 is not a backward motion.
         say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", value=found[name])
     text = "the vehicles leave with {:.6g} J more than they came with, which no impact gives; check courses and speeds"
     say(EnergyGainWarning, gains, text, "energy_gain", pick=np.max, gain=-found["translational_energy_loss"])

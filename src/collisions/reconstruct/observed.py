@@ -94,7 +94,7 @@ def restitution(
         status = cases.first_status((*faults, (cases.beyond(found), Status.OUT_OF_RANGE)))
         _check(cases, status, before)
         answer = np.where(np.equal(status, Status.OK), found, np.nan)
-        # The velocities are rounded themselves, so an e of exactly 0 or 1 may be seen a little outside.
+        # The velocities themselves are rounded, so an e of exactly 0 or 1 may come out slightly outside.
         error = 4.0 * cases.eps * (before.speeds + after.speeds) / closing
         below, above = answer < -error, answer > 1.0 + error
     if np.any(below | above):
@@ -215,7 +215,7 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     numbers = {"normal[0]": read.normal[0], "normal[1]": read.normal[1]}
     numbers |= {f"{label}.{name}": value for label, body in used.items() for name, value in body.items()}
     numbers |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    # What no motion needs is 0 above and what was given here, where it is looked at as it is in a single vehicle.
+    # Fields that no motion needs are 0 above; here they are as given, to be checked as in a single vehicle.
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in _as_given(body).items()}
     numbers |= given
     cases = Cases.of(numbers)
@@ -286,7 +286,7 @@ def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -
 def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Faults:
     """Cases in which the bodies before and after differ in more than motion; single numbers that differ are refused at once."""
     within = _SAME_BODY if cases.shape is None else max(_SAME_BODY, 8.0 * cases.eps)
-    # A coordinate may be 0 but for rounding, so what is small is judged by the size of the scene.
+    # A coordinate may be 0 but for rounding, so differences are judged by the size of the scene.
     scene = np.zeros(())
     for place in (*(value for name, value in given.items() if name.endswith((".x", ".y"))), *(contact or ())):
         scene = np.fmax(scene, abs(place))

@@ -202,7 +202,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     found = _first_that_fits(origins)
     low, high = end.slip_range()
     jump = high - low
-    # Of a range that is open its one end says how far a slip of none is.
+    # For a half-open range, the distance to its one end counts as half its length.
     reach = np.where(np.isinf(jump), 2.0 * np.minimum(abs(low - end.slip), abs(high - end.slip)), jump)
     nearly = sure & (abs(end.slip) < _NEARLY_STICKING * reach)
     condition = np.where(nearly, np.maximum(found.condition, jump / abs(end.slip)), found.condition)
@@ -220,7 +220,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
 
     def refusal() -> CollisionsError:
         stuck = status == Status.STICK_INVERSE
-        # Those of a range are its ends, whichever regime was given.
+        # The solutions of a range are its ends, whichever regime was given.
         fitting = [one for one in end.origins(None if stuck else regime) if one.fits]
         count = math.inf if stuck else len(fitting)
         solutions = tuple(
@@ -342,7 +342,7 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     if math.isfinite(jamming):
         low, high = (max(low, jamming), high) if jamming < 0.0 else (low, min(high, jamming))
     allowed = _interval(low, high)
-    # At rest nothing is left of the slip under the other law either.
+    # At rest the slip before is lost under the other law too.
     other = f", or law={KUDLICH_SLIBAR!r} if that is the model" if end.law == BRACH and abs(end.separation) > end.noise else ""
     return (
         f"the contact ended without slip (slip after {slip:.3g} m/s, no more than rounding leaves), and under {end.law!r} any "

@@ -25,7 +25,7 @@ from .common import ASK_ALONE, Cases, exactly, input_faults, numbers_by_name, re
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
 
-# A restitution above this loses next to nothing along the normal.
+# Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 
 
@@ -166,7 +166,7 @@ def speeds(
         (*known.values(), *(angle.value for angle in courses.values())),
     )
     numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
-    # A course is as precise as everything else, the other one too.
+    # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
     for label, angle in courses.items():
         numbers |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}

@@ -28,11 +28,11 @@ _KERNEL_ROUNDING = 32.0 * EPS
 _STICK = "stick"
 _SHARE = "share"
 _NEWTON_STEPS = 3
-# Part of the speeds, and of a restitution of 1, that a derivative is taken over: exact for quadratics, to 1e-8 for quotients.
+# Finite-difference step, relative to the speeds and to a restitution of 1: exact for quadratics, to 1e-8 for quotients.
 _STEP = 1e-4
-# Part of the speeds by which a root is moved, to see whether the knowns hold there too.
+# Relative shift of the speeds at a root, to see whether the observations fit there too.
 _BESIDE = 0.02
-# Where a range of speeds is looked at: five places, for what is observed along it is a quotient of quartics at most.
+# Sample points along a range of speeds: five, because an observation along it is a quotient of quartics at most.
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
 _SQUARED = ("delta_v", "ees")
 
@@ -146,7 +146,7 @@ class Scene:
             "whole": whole,
             "normal": normal,
             "impulse": np.sqrt(squared),
-            # What the loss is summed up from, with the contact velocities as large as what they are the difference of.
+            # The terms of the loss, with each contact velocity as large as the velocities it is the difference of.
             "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
             "speed_a": speed_a,
             "speed_b": speed_b,
@@ -194,7 +194,7 @@ class Scene:
             here = seen(x)
             return (here[kind] - target) * here["weight"]
 
-        # The speeds that are there, and the one that one unit of speed would have to grow to.
+        # The step: the speeds at 0, plus the unknown speed that reaches the target if its effect grows from that of one unit.
         rest, one = seen(np.zeros(())), seen(np.ones(()))
         needed = np.sqrt(abs(target / (one[kind] - rest[kind])))
         step = abs(self.targets[fixed]) + abs(rest["closing"]) + abs(rest["slip"])
@@ -319,13 +319,13 @@ class Scene:
         """
         status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
         # A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
-        # makes of speeds so large is none.
+        # makes of such large speeds counts as 0.
         fits = (status <= Status.ENERGY_GAIN) & (seen["closing"] > _KERNEL_ROUNDING * seen["whole"])
         for kind, slope in zip(self.kinds, root.slopes, strict=True):
             scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
             if kind == "energy_loss":
                 scale = seen["closing"] * seen["normal"]
-                # Where friction has a loss touch its least, speeds are found to the square root of rounding only.
+                # Where friction makes the loss touch its minimum, speeds are accurate only to the square root of rounding.
                 parts = seen["lost"] + np.where(self.bound == 0.0, 0.0, scale)
             rounding = _KERNEL_ROUNDING * (slope * seen["whole"] + parts)
             fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, ROOT_TOL * scale))
@@ -345,7 +345,7 @@ class Scene:
         high: Any = np.full((), np.inf)
         raws = (self.run(*self._with_known_speed(x), e, FRICTION, 0.0) for x in (-size, size))
         for behind, ahead in zip(*(self._conditions(regime, raw) for raw in raws), strict=True):
-            # Each is linear in the speed, so it begins or ends to hold at one place.
+            # Each is linear in the speed, so it changes sign at one place.
             middle = size * (behind + ahead) / (behind - ahead)
             low = np.where(ahead > behind, np.maximum(low, middle), low)
             high = np.where(ahead < behind, np.minimum(high, middle), high)

@@ -156,7 +156,7 @@ CONTACT_DURATION = Published(
 
 # Half the width of the range that SAE 931842 measured, taken as the scatter about the fit.
 _SCATTER = 0.5 * (RESTITUTION_LOW_SPEED.high - RESTITUTION_LOW_SPEED.low)
-# At any speed above that of the fit: the highest value published for those speeds, 0.253, and a little to spare.
+# Upper bound above the speeds of the fit: the highest value published there, 0.253, with a small margin.
 _HIGHEST = 0.3
 
 

@@ -296,7 +296,7 @@ def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown:
     with rc_context(), warnings.catch_warnings():
         rcdefaults()
         rcParams.update(_SETTINGS)
-        # A name may have letters that this font lacks, and the font of whoever reads the page has.
+        # A name may have letters that this font lacks, but that the reader's font has.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         figure = Figure(figsize=_SIZES.get(name, _SIZE), layout="constrained")
         try:

@@ -45,9 +45,9 @@ EVIDENCE = tuple(name for name in _UNITS if name.startswith(("crush", "damage"))
 _NUMBERS = (*DOMAINS, "pivot[0]", "pivot[1]", "speed", "course")
 # The velocity of a pinned vehicle may differ by 1e-9 from the text that it was given as.
 _READ_AGAIN = 2e-9
-# Results that another machine gives may differ by its rounding, relative or in SI; nobody would read more.
+# Results of another machine may differ by its rounding, relative or in SI; a page does not show that many digits.
 _OTHER_MACHINE = 1e-6
-# Words about the numbers, which another version may choose otherwise.
+# Sentences, which another version may word differently.
 _SENTENCES = ("choice.reason",)
 
 
@@ -99,7 +99,7 @@ def _number(value: Any, unit: str, name: str) -> Any:
     if reader.problems or not isinstance(read, float):
         return value
     text = reader.texts.get(name)
-    # A unit of another registry may be another here, or none.
+    # A unit of another registry may differ here, or not exist.
     return text if text is not None and ArgumentReader().number(text, unit, name, UNCHECKED) == read else read
 
 

@@ -46,7 +46,7 @@ _START = re.compile(r"^(\d*)([-+=.)])")
 # Joiners, which some scripts need; other invisible characters could change how a line reads.
 _JOINERS = "\u200c\u200d"
 _AS_PRINTED = 1e-9  # relative: a number this near to its six figures is shown by them
-_DIGITS = 12  # a number of no more was written by somebody; the record has those of all others
+_DIGITS = 12  # numbers with no more digits are shown in full, as somebody typed them; the record has all digits of the others
 
 
 def plain(text: str) -> str:

@@ -48,7 +48,7 @@ for _label in "ab":
         f"delta_v_{_label}": (f"delta-V{_of}", "speed", f"{_label}.delta_v"),
         f"ees_{_label}": (f"EES{_of}", "speed", ""),
     }
-# A reverse solver comes out at what it was given within this, relative to the speeds or energies of the impact; end states
+# A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states
 # that still approach by up to a hundredth of the closing speed are taken to stay together.
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
 _EVIDENCE = {

@@ -24,7 +24,7 @@ GRAVITY = 9.80665
 # No road tyre holds more than this on any road, and no road is steeper: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
 _STEEPEST_GRADE = 0.5
-# What the reader refuses of a single number, by argument; the cases of arrays are looked at here.
+# Refusal codes of negative single numbers by argument; the elements of arrays are checked here.
 _BELOW_ZERO = {
     "distance": "negative_distance",
     "drag": "negative_drag",
@@ -181,7 +181,7 @@ def durations_along(lengths: Sequence[Any], grades: Sequence[Any], speeds: Seque
         length = plan * numeric(grade).hypot(1.0, grade)
         double = before + after
         duration = 2.0 * length / select(double == 0.0, math.nan, double)
-        # A speed beyond floats would make it 0, which looks like an answer.
+        # A speed that overflowed would make the duration 0, which looks like a result.
         found.append(select(length == 0.0, 0.0, select(double == math.inf, math.inf, duration)))
     return found
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 _TURN = 2.0 * math.pi
-_EMPTY = 0.25 * _TURN  # less than this is no gap to cut in, where only some of many places were looked at
+_EMPTY = 0.25 * _TURN  # narrower gaps are not cut in, as only some of many points were looked at
 _OPPOSITE = _TURN / 16.0  # on either side of the point opposite the mean
 _ANGLE_TOL = 1e-9  # rounding of an angle
 _NEAR_PI = 2.0
@@ -33,7 +33,7 @@ def counted(angles: Any) -> Any:
     count = np.maximum(np.count_nonzero(answered, axis=-1, keepdims=True), 1)
     summed = np.cumsum(np.where(answered, ordered, 0.0), axis=-1)
     mean = summed[..., -1:] / count
-    # By how much a turn more for the first so many changes the variance, in 2 turns over their number.
+    # The change of the variance if the first n values get one more turn, in units of 2 turns over the count.
     first = np.arange(1, angles.shape[-1] + 1)
     change = np.where(first < count, summed - mean * first + math.pi * first * (1.0 - first / count), 0.0)
     best = np.argmin(change, axis=-1, keepdims=True)
@@ -74,7 +74,7 @@ def jump(values: Any) -> bool:
     found = values[~np.isnan(values)]
     if not found.size or not are_directions(found) or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI):
         return False
-    # Of directions to all sides a third lies there, of a quantity about 0 more.
+    # Of directions to all sides a third lies within 1 of 0; of a quantity spread about 0, more.
     return bool(np.mean(np.abs(found) < 1.0) < 0.16)
 
 
@@ -93,7 +93,7 @@ def point_to_opposite_sides(values: Any) -> bool:
         return False
     first = np.arange(1, count + 1)
     ahead = np.cumsum(np.sort(values - np.mean(values)))
-    # With a turn more for the first so many the mean moves by that share of a turn.
+    # If the first n values get one more turn, the mean moves by n / count turns.
     change = (2.0 * _TURN / count) * (ahead + math.pi * first * (1.0 - first / count))
     far = (first >= 0.125 * count) & (first <= 0.875 * count)
     return bool(np.any(change[far] < 0.1 * np.var(values)))

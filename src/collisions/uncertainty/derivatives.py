@@ -26,8 +26,8 @@ _LEAST_STEP = 1e6  # roundings of the mean, so that the step itself is known to 
 _EPSILON = float(np.finfo(np.float64).eps)
 _LEAST = float(np.finfo(np.float64).tiny)  # below, floats have few digits
 PROBES = 4096  # cases drawn from the inputs
-_NOTICED = 0.1  # standard deviations by which a local figure may differ at the probes before it is said so
-# Of the slope: a change of it within the steps, beyond what a curvature makes, which is a kink or a jump. That of a smooth
+_NOTICED = 0.1  # standard deviations by which a local figure may differ at the probes without a warning
+# Relative change of the slope within the steps, beyond the effect of curvature, that is a kink or a jump. That of a smooth
 # model is a millionth of its fourth derivative.
 _KINK = 0.01
 _NO_DIFFERENCE = 1e-12  # of the values: differences this small are rounding
@@ -129,7 +129,7 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
 def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, second: bool) -> Local:
     """The output propagated at first order, or with the curvature too."""
     value, gradient, curvature = slope
-    # Counted in the largest of them, so that no square leaves the range of floats.
+    # In units of the largest, so that no square overflows.
     scale = max(float(np.max(np.abs(gradient))), float(np.max(np.abs(curvature))) if second else 0.0) or 1.0
     gradient, curvature = gradient / scale, curvature / scale if second else np.zeros_like(curvature)
     inputs = joint.inputs.values()

@@ -19,7 +19,7 @@ Design: TypeAlias = Callable[[int, int], Any]
 REPLICATES = 16
 MOST_DIMENSIONS = 64
 _SHEET = 512
-_BITS = 52  # so that a half beside the integer is exact and no number is 0 or 1
+_BITS = 52  # so that adding a half to the integer is exact and no number is 0 or 1
 # Made by benchmarks/lattice.py, which names the source of the construction.
 _VECTOR = (
     1, 676721, 1020265, 898277, 180061, 182105, 868669, 774733, 63087, 936555, 97147, 221963, 709561, 473463, 994195, 370017,

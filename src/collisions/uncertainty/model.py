@@ -18,9 +18,9 @@ from .distributions import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
-_COMPARED_CASES = 5  # asked again: a call costs as much as some hundred cases, so that more would be felt beside a run of 8192
+_COMPARED_CASES = 5  # cases solved again: a call costs as much as some hundred cases, so more would be felt in a run of 8192
 # Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
-# differently for one case. What is less than this changes no figure that anyone reads, whatever it comes from.
+# differently for one case. A smaller difference, whatever its cause, changes no digit that anyone reads.
 _UNNOTICED = 1e-6
 _ROUNDINGS = 64.0 * float(np.finfo(np.float64).eps)  # of an answer: numpy adds in another order for one number than for many
 

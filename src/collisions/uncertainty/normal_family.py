@@ -29,10 +29,10 @@ _WEIGHTS = (
 )  # fmt: skip
 _NODES = np.array((*_POSITIVE, *(-x for x in _POSITIVE)))
 _PANELS = 2.0  # to a standard deviation
-_NEGLIGIBLE = 55.0  # beyond exp(-55) of its peak an integrand is nothing beside 1e-16
+_NEGLIGIBLE = 55.0  # below exp(-55) of its peak an integrand is negligible relative to 1e-16
 _LEAST_SHARE = 1e-12  # of the probability, that a truncation must leave
 _FARTHEST = 8.0  # less than the least share is left beyond this many standard deviations
-_UNNOTICED = 1e-40  # a share lost beyond 13 standard deviations shifts nothing by as much as rounding does
+_UNNOTICED = 1e-40  # probability cut off beyond 13 standard deviations shifts results by less than rounding
 
 Truncation = tuple[Input | None, Input | None]
 

@@ -258,13 +258,13 @@ def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
         if len(a) < 2:
             return math.nan, math.nan
         both = np.concatenate((a, b))
-        # In its own deviations, whose squares leave no range of floats.
+        # In units of its standard deviation, so that squares cannot overflow.
         middle, scale = average(both), deviation(both)
         if not scale > 0.0:
             return math.nan, math.nan
         a, b, c, both = ((part - middle) / scale for part in (a, b, c, both))
         variance = float(np.var(both))
-        # The mean taken away first: the estimator is free of it, its scatter is not.
+        # The mean is subtracted first: it does not affect the estimate, but its scatter.
         first = float(np.mean((b - both.mean()) * (c - a)))
         total = 0.5 * float(np.mean((a - c) ** 2))
         return (first / variance, total / variance) if variance > 0.0 else (math.nan, math.nan)
