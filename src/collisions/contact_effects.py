@@ -29,7 +29,7 @@ _BLOCK = 16384
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class LeftOutSide(Shown):
-    """What was left out for one vehicle. Shares are of the vehicle's own delta-V in the impact.
+    """The effects neglected for one vehicle. Shares are of the vehicle's own delta-V in the impact.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class LeftOutSide(Shown):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class LeftOut(Shown):
-    """What ``left_out`` found; floats, or arrays in a batch.
+    """The result of ``left_out``; floats, or arrays in a batch.
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ _LITTLE = 2.0**-6
 
 
 class Kick(NamedTuple):
-    """What the tyres of one vehicle alone would do over the contact: to its centre, its yaw rate and its contact point."""
+    """The effect of one vehicle's tyres alone over the contact: on its centre of mass, its yaw rate and its contact point."""
 
     x: Any
     y: Any

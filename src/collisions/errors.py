@@ -8,7 +8,7 @@ from .kernels.status import Status as Status
 
 
 class _Carrying(BaseException):
-    """Carries a label and named fields beside the message, through pickling too."""
+    """Base that carries a label and named fields in addition to the message, through pickling too."""
 
     def __init__(self, message: str = "", *, code: str = "", **fields: Any) -> None:
         super().__init__(message)
@@ -61,7 +61,7 @@ class NoSolutionError(CollisionsError, ValueError):
 
     @property
     def solutions(self) -> tuple[Any, ...]:
-        """What the refusal tells of answers: every one that fits, or the ends of their range; empty if there is none."""
+        """The solutions known to the refusal: all that fit, or the ends of their range; empty if there is none."""
         return tuple(self.fields.get("solutions", ()))
 
 

@@ -47,7 +47,7 @@ class Model:
     assumptions: str
 
     def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
-        """What the kernel is called with; what is not known is filled in so that it makes no torque."""
+        """The kernel's arguments; an unknown position or inertia is filled in so that it makes no torque."""
         contact = inputs.point or (0.0, 0.0)
         found = [inputs.restitution, *inputs.normal, inputs.rule_value, *contact]
         for body in (inputs.a, inputs.b):

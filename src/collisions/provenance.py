@@ -48,7 +48,7 @@ class Reconstruction:
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
-    """The same with NaN condition and no count of answers in refused cases; a refusal for several answers keeps its count."""
+    """The reconstruction with refused cases blanked: NaN condition, and no count of solutions unless there were several."""
     refused = status > Status.ENERGY_GAIN
     if not np.any(refused):
         return origin

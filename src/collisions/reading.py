@@ -88,7 +88,7 @@ class ArgumentReader:
         return self.number(parts[0], unit, f"{argument}[0]"), self.number(parts[1], unit, f"{argument}[1]")
 
     def angle(self, value: Any, argument: str) -> tuple[Any, bool]:
-        """An angle, and whether it is in degrees: those are handed on as given, so that they can be reduced exactly."""
+        """An angle, and whether it is in degrees; these are kept as given, so that they can be reduced exactly."""
         try:
             quantity = parse(value, "rad", argument) if isinstance(value, str) else value
             if in_degrees(quantity):

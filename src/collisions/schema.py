@@ -35,7 +35,7 @@ _TYPES: dict[str, dict[str, Any]] = {
 
 
 def impact_schema() -> dict[str, Any]:
-    """The JSON schema (draft 2020-12) of what ``Impact.to_dict`` gives, as a dict of its own that may be changed.
+    """The JSON schema (draft 2020-12) of the record from ``Impact.to_dict``, as a new dict that may be changed.
 
     It covers every solver, single cases, batches and refused cases. An infinity and NaN stand in a record as the texts
     "inf", "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor

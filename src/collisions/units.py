@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     class Quantity(Protocol):
-        """A pint Quantity of any registry, by what the reader asks of it; the types of pint are not known to every checker."""
+        """The interface of a pint Quantity of any registry; pint's own types are not known to every type checker."""
 
         @property
         def magnitude(self) -> Any: ...
@@ -142,7 +142,7 @@ def magnitude(quantity: Any) -> Any:
 
 
 def has_unit(value: Any) -> bool:
-    """Whether a unit is written with it; a text that is no plain number is taken to have one."""
+    """Whether a value has a unit; a text that is not a plain number is taken to have one."""
     if isinstance(value, str):
         return re.fullmatch(_NUMBER, value.strip()) is None
     # Decided by the units alone: a Decimal registry cannot convert a float to find out.

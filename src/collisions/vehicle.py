@@ -181,7 +181,7 @@ class Vehicle(_AsGiven):
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
-        """The same vehicle with some fields changed; the velocity of a pinned one is worked out again.
+        """The vehicle with some fields changed; the velocity of a pinned one is worked out again.
 
         Examples
         --------
@@ -403,7 +403,7 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, st
 
 
 def with_given(vehicle: Vehicle, given: dict[str, str]) -> Vehicle:
-    """The same vehicle with other texts that its numbers were given as."""
+    """The vehicle with other texts for its numbers."""
     other: Vehicle = object.__new__(Vehicle)
     _fill(other, (*(getattr(vehicle, name) for name in NAMES), given))
     return other
@@ -431,7 +431,7 @@ def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: 
 
 
 def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> Any:
-    """The value of an optional field, or a MissingInputError that says what it is needed for."""
+    """The value of an optional field, or a MissingInputError that names the purpose."""
     value = getattr(vehicle, name)
     if value is None:
         raise missing(vehicle, name, purpose, label)

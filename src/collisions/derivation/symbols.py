@@ -125,7 +125,7 @@ class Body:
 
 
 class Symbols:
-    """The symbols of an impact: those of the contact, and of both bodies."""
+    """The symbols of an impact, of its contact and of both bodies."""
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact
@@ -169,7 +169,7 @@ class Symbols:
 
 
 def _weighed(*terms: tuple[float, Symbol, Expression]) -> Expression:
-    """A sum of parts of a vector, without those that the direction leaves out and without factors of 1."""
+    """A linear combination of vector parts, without terms of factor 0 and without factors of 1."""
     return signed_total(
         (sign * weight.value, part) if abs(weight.value) == 1.0 else (sign, weight * part)
         for sign, weight, part in terms

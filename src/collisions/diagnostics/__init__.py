@@ -1,4 +1,4 @@
-"""What is odd about an impact: findings, each with what was measured, the limit it passes, and where the limit is from."""
+"""Checks of an impact for oddities: findings, each with the measured value, its limit, and the source of the limit."""
 
 from .diagnosis import LIMITS, diagnose
 from .finding import Finding, Limit

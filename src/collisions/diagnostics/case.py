@@ -119,7 +119,7 @@ class ImpactCase(_Case):
 
     @cached_property
     def overlaps(self) -> tuple[float, float, float] | None:
-        """How deep the outlines overlap at the impact and the duration after it (below 0: a gap), and what both are off by."""
+        """Overlap of the outlines at the impact and after the duration (below 0: a gap), and the rounding error of both."""
         if len(self.outlines) < 2:
             return None
         now, later = (

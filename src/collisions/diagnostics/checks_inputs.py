@@ -1,4 +1,4 @@
-"""Findings on inputs: sizes that suggest another unit, and what is missing to judge the model."""
+"""Findings on inputs: sizes that suggest another unit, and inputs missing for a check of the model."""
 
 from __future__ import annotations
 

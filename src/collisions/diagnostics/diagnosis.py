@@ -44,7 +44,7 @@ def diagnose(
     damage_delta_v_b: Input | None = None,
     units: UnitSystem = "metric",
 ) -> Findings:
-    """What is odd about an impact, forward or reconstructed: findings, an energy gain first.
+    """Check an impact, forward or reconstructed, for oddities: findings, an energy gain first.
 
     A finding is a reason to look again, not an error; no finding is no proof. Every one compares something measured with a
     limit, which ``diagnostics.LIMITS`` lists by code, with its unit and where it is from.

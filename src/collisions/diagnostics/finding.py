@@ -70,7 +70,7 @@ class Finding:
 
     @property
     def q(self) -> Any:
-        """The same attributes, measured and limit as pint Quantities."""
+        """The attributes, with measured and limit as pint Quantities."""
         return Quantities(self)
 
 

@@ -1,4 +1,4 @@
-"""Formulas on floats or arrays, one model a file; nothing here knows of units, vehicles or errors.
+"""Formulas on floats or arrays, one model per file, without units, vehicles or errors.
 
 A kernel is called with floats, with arrays, and by ``tracing`` with operands that note what is done to them. So it uses only
 + - * /, ``abs``, ``x ** 0.5``, comparisons, & and |, and ``select`` to choose between values; ``if`` asks its settings alone.

@@ -1,4 +1,4 @@
-"""What the reverse solvers work out: in-line impacts from any three values, courses that cross, and roots of polynomials.
+"""Formulas of the reverse solvers: in-line impacts from any three values, crossing courses, and roots of polynomials.
 
 In line (eqs 5 to 8 of the paper, read backwards) everything follows from the closing speed g and the separation speed r = e g:
 with the shares of the masses f_a + f_b = 1,
@@ -104,7 +104,7 @@ def _from_three(v: dict[str, Any], share_a: Any, share_b: Any) -> Pair:
 
 
 def _relation(v: dict[str, Any], share_a: Any, share_b: Any) -> tuple[Any, Any, Any]:
-    """What two velocities say of both speeds: p, q and the value of p g + q r."""
+    """The equation that two velocities give for closing and separation speed, p g + q r = value: p, q and the value."""
     first, second = v.values()
     return {
         ("va", "vb"): (1.0, 0.0, first - second),
@@ -180,7 +180,7 @@ def unknown_speed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, wanted
 
 
 def change_of_speed(cross: Any, wanted: Term, other: Term, between: Between) -> Any:
-    """What a change of the balance, crossed with the other unknown's course, does to the wanted speed."""
+    """Change of the wanted speed for a change ``cross`` of the balance crossed with the other unknown's course."""
     return np.divide(-wanted.sign * cross, wanted.mass * between(wanted.course, other.course)[1])
 
 
@@ -206,7 +206,7 @@ def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
 
 
 def quartic_roots(samples: Sequence[Any], step: Any) -> list[Any]:
-    """Real roots of the quartic through five points at ``PLACES`` times the step; NaN in place of those that are not real."""
+    """Real roots of the quartic through five points at ``PLACES`` times the step; NaN in place of complex ones."""
     values = np.stack(np.broadcast_arrays(*samples), axis=-1)
     largest = np.max(abs(values), axis=-1, keepdims=True)
     coefficients = (values / largest) @ _FROM_PLACES

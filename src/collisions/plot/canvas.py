@@ -47,7 +47,7 @@ class Units:
         return printed.replace("**2", "²").replace("*", " ").replace("deg", "°")
 
     def label(self, what: str, unit: str) -> str:
-        """What an axis shows, and its unit."""
+        """The label of an axis: its quantity and unit."""
         return f"{what} [{self.name(unit)}]"
 
     def text(self, value: float, unit: str) -> str:
@@ -123,7 +123,7 @@ def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
 
 
 def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
-    """The Axes given, or those of a new figure."""
+    """The given Axes, or new ones in a new figure."""
     try:
         import matplotlib.pyplot as plt
         from matplotlib.axes import Axes

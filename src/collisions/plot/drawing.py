@@ -98,7 +98,7 @@ class Drawing:
         *others: Place,
         of: int | None = None,
     ) -> None:
-        """A text beside a place, or one of the others, in this direction from it if there is room; ``of`` which vehicle."""
+        """A text next to a place, or at an alternative one, in this direction if there is room; ``of`` names the vehicle."""
         self._labels.append(_Label((place, *others), text, direction, colour, of))
 
     def finish(self) -> None:
@@ -193,7 +193,7 @@ def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:
 
 
 def covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:
-    """Whether one arrow lies on another one; ``longest`` says what counts as near."""
+    """Whether one arrow lies on another one; distances are judged relative to ``longest``."""
     length, size = math.hypot(*vector), math.hypot(*along)
     gap = start[0] - other[0], start[1] - other[1]
     if abs(cross(vector, along)) > ALONG_ONE_LINE * length * size or abs(cross(gap, along)) > 0.02 * longest * size:

@@ -1,4 +1,4 @@
-"""Momentum diagram: the momenta before, those after and their total, head to tail."""
+"""``momentum``: a diagram of the momenta before, the momenta after and their total, head to tail."""
 
 from __future__ import annotations
 
@@ -170,7 +170,7 @@ def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float
 
 
 def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
-    """Tail and vector of arrows head to tail; those without a length left out."""
+    """Tail and vector of arrows head to tail; arrows of length 0 are left out."""
     found = []
     for vector in vectors:
         if vector != (0.0, 0.0):

@@ -67,7 +67,7 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
-    """A vehicle's texts in two parts: those of fields that stay, and those of the motion ``parts`` that the result replaces."""
+    """A vehicle's texts in two parts: of the fields that stay, and of those in ``motion``, which the result replaces."""
     texts = body.given or {}
     staying = {name: text for name, text in texts.items() if name not in motion}
     return staying, {name: text for name, text in texts.items() if name in motion}
@@ -208,7 +208,7 @@ def finish(
 
 
 def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:
-    """The forward impact from the reconstructed state; where it is refused, what was found is NaN."""
+    """The forward impact from the reconstructed state; where it is refused, the reconstructed values are NaN."""
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
     impact = solved(inputs, on_failure=on_failure)

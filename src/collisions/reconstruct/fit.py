@@ -44,7 +44,7 @@ _WHY_NO_MINIMUM = {
 
 
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
-    """Find the unknowns of a scene that fit what was measured of it, each measurement with its error.
+    """Estimate the unknowns of a scene from measurements, each given with its error.
 
     Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the observations and over what was known
     before, is made least within the bounds (Levenberg-Marquardt from 64 starts spread over what was known). The covariance is

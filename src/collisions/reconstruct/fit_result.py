@@ -61,7 +61,7 @@ class WithUnit(Shown):
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Estimate(WithUnit):
-    """One unknown: its value and standard error, NaN and inf where nothing determines it; ``at_bound`` is "low" or "high".
+    """One unknown: its value and standard error, NaN and inf if it is not identified; ``at_bound`` is "low" or "high".
 
     ``reach`` is None but where the model turns round on the bound: then it is the end of the range of two standard errors.
     """
@@ -124,7 +124,7 @@ class Residual(WithUnit):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Direction:
-    """A change of the unknowns that the evidence does not determine: that of each in SI, all moving together.
+    """A direction in which the evidence does not determine the unknowns: the change of each in SI, all moving together.
 
     ``held_by_prior`` says whether what was stated before settles it; otherwise nothing does.
     """
@@ -150,7 +150,7 @@ class Direction:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Fit(Shown):
-    """Unknowns that fit what was observed, given the stated errors.
+    """The result of a fit: estimates of the unknowns from the observations, given the stated errors.
 
     ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]`` has value, standard error and
     interval. ``covariance`` (locked, in the order of ``names``) is that of the model's slopes at the answer, with inf and NaN

@@ -188,7 +188,7 @@ def _same_course(one: Angle, other: Angle) -> Any:
 
 
 def _angle_rounding(one: Angle, other: Angle, eps: float) -> Any:
-    """Rounding error of the angle between two courses; for whole degrees only that of their conversion."""
+    """Rounding error of the angle between two courses; courses in whole degrees only have the error of their conversion."""
     return 4.0 * eps * (1.0 + sum(0.0 if angle.in_degrees else abs(angle.radians) for angle in (one, other)))
 
 

@@ -330,7 +330,7 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
 
 
 def _check(cases: Cases, status: Any, before: _Moment) -> None:
-    """Raise the refusal of a single case, or warn of those of a batch."""
+    """Raise the refusal of a single case, or warn of the refused cases of a batch."""
     if cases.shape is not None:
         if np.any(status > Status.ENERGY_GAIN):
             warn_of_refusals(status, ASK_ALONE)

@@ -48,7 +48,7 @@ class Root(NamedTuple):
 
 
 class Scene:
-    """Two vehicles whose speeds are unknown, and what was observed of them.
+    """Two vehicles whose speeds are unknown, and the two observations made of them.
 
     Every case is worked out in a unit of speed and a unit of mass of its own, powers of two, so that squares of what was given
     neither overflow nor vanish. ``speed_unit``, ``mass_unit`` lead back.
@@ -183,7 +183,7 @@ class Scene:
         return (known, other) if self.kinds[0] == "speed_a" else (other, known)
 
     def _on_a_line(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
-        """With one speed known: where the curve along the other meets what was observed."""
+        """With one speed known: the other speeds at which the observation is met."""
         fixed, kind = self.kinds
         target = self.targets[kind]
 

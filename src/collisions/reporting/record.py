@@ -210,7 +210,7 @@ def _with_texts(vehicle: Vehicle, texts: Any, label: str) -> Vehicle:
 
 
 def options(text: str) -> dict[str, Any]:
-    """The options that a report was made with, to be given to ``report`` again with what ``replay`` gives.
+    """The options of a report, to be passed to ``report`` again with the result of ``replay``.
 
     Parameters
     ----------

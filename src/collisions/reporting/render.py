@@ -126,7 +126,7 @@ class Html(Sheet):
         self.blocks.append(f'<p class="stressed">{escape(text)}</p>')
 
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
-        """One table for each of what the rows are of, side by side where there is room."""
+        """One table per subject of the rows, side by side where there is room."""
         lines = ['<div class="tables">']
         for of, parts in groupby(rows, key=lambda row: row[0]):
             lines += ["<div><table>", f"<caption>{escape(of)}</caption>", "<tbody>"]
@@ -140,7 +140,7 @@ class Html(Sheet):
         self.blocks += ["<ul>", *texts, "</ul>"]
 
     def picture(self, caption: str, svg: str) -> None:
-        """A figure as SVG, and what it shows."""
+        """A figure as SVG, with its caption."""
         self.blocks += ["<figure>", svg, f"<figcaption>{escape(caption)}</figcaption>", "</figure>"]
 
     def working(self, text: str) -> None:

@@ -76,7 +76,7 @@ class RunOut(Shown):
 
     @derived("rad")
     def course_difference(self) -> Value:
-        """Course at separation less the straight line to rest [rad], in (-pi, pi]: what taking that line would be wrong by."""
+        """Course at separation minus that of the straight line to rest [rad], in (-pi, pi]: the error of taking the line."""
         difference: Value = _wrapped(self.course - self.straight_course)
         return difference
 

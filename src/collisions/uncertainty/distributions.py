@@ -160,7 +160,7 @@ class Samples(Distribution):
 
     @classmethod
     def joint(cls, /, **values: Any) -> dict[str, Samples]:
-        """Quantities that were measured together: a draw takes the same row of each, so that what binds them is kept.
+        """Quantities that were measured together: a draw takes the same row of each, so that their dependence is kept.
 
         Parameters
         ----------

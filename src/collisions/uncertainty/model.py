@@ -39,7 +39,7 @@ class Model:
         self._checked = False
 
     def at(self, place: Mapping[str, float]) -> Model:
-        """The same model with more inputs fixed."""
+        """The model with more inputs fixed."""
         found = Model(self.function, {**self.fixed, **place})
         found._checked = self._checked
         return found

@@ -253,7 +253,7 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
 def _run_at(
     places: Sequence[Mapping[str, float]], whole: Model, run: Callable[[Model, Report | None], Run], report: Report | None
 ) -> list[Run]:
-    """One run at each point between the bounds of intervals; an interrupt returns those that are done."""
+    """One run at each point between the bounds of intervals; an interrupt returns the finished ones."""
     runs: list[Run] = []
 
     def overall(done: int, total: int) -> None:

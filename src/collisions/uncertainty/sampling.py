@@ -157,7 +157,7 @@ def _factor(group: Sequence[str], pairs: Mapping[frozenset[str], float]) -> Any:
 
 
 class Sample:
-    """The cases of a run that are done: ``outputs`` by name, one value a case, NaN where there is no answer."""
+    """The finished cases of a run: ``outputs`` by name, one value per case, NaN where there is no answer."""
 
     def __init__(self, model: Model, joint: Joint, design: Design, threads: int) -> None:
         self.model = model
