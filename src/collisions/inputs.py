@@ -164,7 +164,7 @@ def read_inputs(
 ) -> tuple[Inputs, bool]:
     """Validate the arguments of a solver; gives its ``Inputs`` and whether all were plain floats, those of the vehicles too.
 
-    What the model lacks or cannot hold is refused.
+    Missing inputs, and inputs that the model cannot represent, are refused.
 
     ``tangential`` are the values of ``RULES``, of which one must be given; a solver that knows only the first of them gives
     those. Plain floats in order need no reader; anything else goes through it, and one error names all that cannot be used,

@@ -143,7 +143,7 @@ def read(
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     """Inputs with changed values, which may be of any form a caller may give; read again like a caller's arguments.
 
-    Those that a reverse solver ``found`` may have a restitution of NaN, for which it looked in vain.
+    Inputs that a reverse solver ``found`` have a restitution of NaN where it found none.
     """
     tangential = tuple(inputs.rule_value if name == inputs.rule else None for name in RULES)
     e = inputs.restitution

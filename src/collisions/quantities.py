@@ -23,7 +23,8 @@ OWN = "own"
 class Derived(Generic[T]):
     """A read-only attribute with its unit, computed at first use and cached.
 
-    An owner with a ``__dict__`` keeps it there, where Python finds it first from then on; it refuses by itself to be set.
+    The value is cached in the owner's ``__dict__``, if it has one, where Python finds it before this descriptor. Assignment is
+    refused by the owner.
     """
 
     def __init__(self, unit: str | None, work_out: Callable[[Any], T]) -> None:
@@ -99,7 +100,7 @@ class NoQuantityError(MissingInputError, AttributeError):
 class Quantities:
     """The owner's attributes and the results of its methods as Quantities.
 
-    An owner that knows of an attribute which input it wants, where it is None, says so by ``_missing(name)``.
+    The owner's ``_missing(name)``, if it has one, gives the error that names the missing input of an attribute that is None.
     """
 
     __slots__ = ("_owner",)

@@ -360,8 +360,8 @@ def need_one_case(
 ) -> None:
     """Raise unless the argument ``impact`` is a single result of one of these types.
 
-    ``function`` is what was called, as it is written. ``instead`` and ``many`` are what else may be done with another thing and
-    with a batch; ``refused`` makes the error of a refused case from its status, a text and fields.
+    ``function`` is the name of the caller in messages; ``instead`` and ``many`` are advice for another type and for a batch;
+    ``refused`` makes the error of a refused case from its status, a text and fields.
     """
     if not isinstance(answer, kinds):
         if isinstance(answer, tuple) and answer and all(isinstance(one, kinds) for one in answer):

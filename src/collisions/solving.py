@@ -45,7 +45,8 @@ def solve_inputs(
 ) -> Any:
     """Run a model on one case or a batch, with its warnings and errors.
 
-    ``plain`` says that the inputs are plain floats. With ``carrying`` motion that the model cannot hold is carried through.
+    ``plain`` says that the inputs are plain floats. With ``carrying``, motion that the model
+    cannot represent is passed on unchanged, not refused.
     """
     if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
         raw = float_function(model, model.settings(inputs, carrying))(inputs)

@@ -320,8 +320,8 @@ def run_as_it_is(
 def block_length(size: int, threads: int, scratch: int) -> int:
     """Cases per block for this scratch per case: a block has to stay in a core's own cache.
 
-    With threads, more: every numpy call hands the interpreter over, and to wait for it takes as long as a call
-    on a short block. Then all blocks are about as long, so that no thread ends late.
+    Several threads use longer blocks: each numpy call passes the interpreter lock on, and waiting for it takes as long as a
+    call on a short block. All blocks then have about the same length, so that no thread ends late.
     """
     if threads == 1:
         return BLOCK

@@ -36,8 +36,8 @@ class Known(NamedTuple):
 def least_model(*given: Any) -> tuple[Any, Any, Any]:
     """Number of the cheapest model within the tolerance, and the errors of the linear and the oblique model.
 
-    Given are six numbers of the contact, nine of each body (those that are not known filled in so that they make no torque),
-    the tolerance, rule, law, what is known, and eps. LACKING is the eccentric model where it lacks something, unless it is
+    The arguments are six numbers of the contact, nine of each body (unknown ones filled in so that they make no torque),
+    the tolerance, rule, law, ``Known``, and eps. LACKING is the eccentric model where it lacks something, unless it is
     known that the bodies do not approach; if either body has a pivot, every input is needed.
     """
     contact, bodies, tolerance = given[:6], (given[6:15], given[15:24]), given[24]

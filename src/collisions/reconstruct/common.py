@@ -183,8 +183,8 @@ def finish(
 ) -> Impact:
     """The impact from the reconstructed state; cases without one are handled as ``on_failure`` says.
 
-    ``inputs_of`` gives the inputs with NaN for what was looked for, but in the cases it is called with. ``refusal`` is that of
-    a single case, ``solve_case`` solves the case of a batch at an index by itself.
+    ``inputs_of(found)`` gives the inputs, with NaN for the reconstructed values except in the ``found`` cases. ``refusal``
+    makes the error of a single case, ``solve_case`` solves the case of a batch at an index alone.
     """
     check_options(on_failure)
     if not isinstance(status, np.ndarray):

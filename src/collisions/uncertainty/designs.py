@@ -46,7 +46,7 @@ def monte_carlo(dimensions: int, seed: int, length: int) -> Design:
 
 
 def latin_hypercube(dimensions: int, seed: int, length: int) -> Design:
-    """Latin hypercube samples: in each, every input takes one value from each of as many equally likely strata.
+    """Latin hypercube samples (sheets): in each, every input takes one value from each of as many equally likely strata.
 
     A sheet is as long as the run of ``length`` places, at most 512: a longer run has more sheets, not longer ones, so that it
     begins like a shorter one of at least that length.
