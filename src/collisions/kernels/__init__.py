@@ -1,8 +1,8 @@
 """Formulas on floats or arrays, one model per file, without units, vehicles or errors.
 
-A kernel is called with floats, with arrays, and by ``tracing`` with operands that note what is done to them. So it uses only
-+ - * /, ``abs``, ``x ** 0.5``, comparisons, & and |, and ``select`` to choose between values; ``if`` asks its settings alone.
-Not is written ``condition ^ True``: of a Python truth ``~`` makes a number, and ``~True`` counts as true.
-The condition ``fine``, under which a case is OK without more ado, must deny every refusal: where it holds, none is looked for.
+A kernel is called with floats, with arrays, and by ``tracing`` with operands that record each operation. So it uses only
++ - * /, ``abs``, ``x ** 0.5``, comparisons, & and |, and ``select`` to choose between values; ``if`` tests settings only.
+"Not" is written ``condition ^ True``: ``~`` turns a Python bool into an int, and ``~True`` counts as true.
+The condition ``fine`` of the final select(fine, OK, ...) must exclude every refusal: where it holds, the others are not tested.
 Every output goes into the sum that finds overflow, itself, times 0, or as a part of another: else an infinite one passes as OK.
 """
