@@ -384,3 +384,14 @@ def test_a_pinned_vehicle_has_one_precision():
     impact = col.eccentric(a, b, 0.3, normal=-0.4, point=(4.0, -1.5), friction=0.1)
     assert not impact.refused.any()
     assert col.Impact.from_dict(impact.to_dict()) == impact
+
+
+@pytest.mark.parametrize("solver", ["linear_central", "oblique_central", "eccentric", "solve"])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_batch_without_a_case_is_answered_with_any_number_of_threads(solver, threads):
+    """By arrays without a value."""
+    a = col.Vehicle(mass=1500.0, vx=np.array([]), yaw_inertia=2400.0, x=-2.0, y=0.4)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
+    contact = {"linear_central": {}, "oblique_central": {"friction": 0.5}}.get(solver, {"friction": 0.5, "point": (0.0, 0.0)})
+    impact = getattr(col, solver)(a, b, 0.2, normal=0.0, threads=threads, **contact)
+    assert impact.status.shape == impact.b.delta_v.shape == (0,)

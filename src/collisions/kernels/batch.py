@@ -323,7 +323,7 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     Several threads use longer blocks: each numpy call passes the interpreter lock on, and waiting for it takes as long as a
     call on a short block. All blocks then have about the same length, so that no thread ends late.
     """
-    if threads == 1:
+    if threads == 1 or size <= BLOCK:
         return BLOCK
     longest = max(BLOCK, min(_LONGEST, _SCRATCH // (threads * max(1, scratch))))
     even = math.ceil(size / (threads * math.ceil(size / (threads * longest))))
