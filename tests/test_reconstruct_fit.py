@@ -1054,3 +1054,16 @@ def test_errors_of_very_different_size():
     with pytest.raises(col.NoSolutionError) as refused:
         fitted(1e9)
     assert refused.value.code == "no_convergence"
+
+
+def test_a_bound_that_the_model_refuses_beside_an_answer():
+    """At x = 0 there is y / 0; the second answer lies so near to that bound that it is tried there."""
+
+    def model(x, y):
+        with np.errstate(all="ignore"):
+            return {"s": np.sqrt(x) * y, "d": np.where(x > y, x * x, y / x)}
+
+    with pytest.raises(col.AmbiguousSolutionError) as caught:
+        fit(model, {"x": Interval(0, 40), "y": 5.0}, {"s": (0.0, 0.5), "d": (14.666854856781896, 0.5)})
+    # x**2 = d where x > y, and y = 0.
+    assert caught.value.solutions[0].values["x"] == pytest.approx(math.sqrt(14.666854856781896), rel=1e-6)

@@ -171,8 +171,10 @@ def with_limits(found: Candidate, ends: Ends) -> Candidate:
         if not math.isfinite(bound - other) or abs(found.point[j] - bound) > beside:
             continue
         there = _moved_to_bound(found, j, bound)
-        slope_identifies = math.isfinite(there.determination_of([j]).covariance[0, 0])
-        if not there.chi_squared <= found.chi_squared + SAME_CHI_SQUARED or slope_identifies:
+        # Where the model refuses the bound there are no slopes to look at.
+        if not there.chi_squared <= found.chi_squared + SAME_CHI_SQUARED:
+            continue
+        if math.isfinite(there.determination_of([j]).covariance[0, 0]):
             continue
         limit = _limit(there, j, bound, other, known=bool(together[j]))
         if limit:
