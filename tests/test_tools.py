@@ -549,6 +549,53 @@ def test_a_unit_that_only_its_own_registry_knows_stands_as_a_number():
     assert col.Impact.from_dict(record) == impact
 
 
+OWN_UNITS = ("own_m = {} m", "own_kg = {} kg", "own_s = {} s", "own_angle = {} degree")
+IN_OWN_UNITS = {
+    "a.mass": {"a": {"mass": "1500 own_kg"}},
+    "a.vx": {"a": {"vx": "15 own_m/s"}},
+    "a.vx of its speed": {"a": {"speed": "15 own_m/s", "course": "5 deg"}},
+    "b.vx of its course": {"b": {"speed": "3 m/s", "course": "5 own_angle"}},
+    "b.yaw_inertia": {"b": {"yaw_inertia": "1500 kg*own_m**2"}},
+    "b.heading": {"b": {"heading": "30 own_angle"}},
+    "b.pivot": {"b": {"pivot": (2.5, "1 own_m")}},
+    "normal": {"normal": "10 own_angle"},
+    "point": {"point": (1.0, "0.25 own_m")},
+}
+
+
+def in_own_units(a=None, b=None, **contact):
+    vehicle = {"mass": 1200.0, "yaw_inertia": 1500.0, "x": 0.0, "y": 0.0}
+    golf = {**vehicle, **({} if "speed" in (a or {}) else {"vx": 15.0}), **(a or {})}
+    polo = {**vehicle, "x": 3.0, **(b or {})}
+    made = (col.Vehicle.from_speed(**body) if "speed" in body else col.Vehicle(**body) for body in (golf, polo))
+    return col.eccentric(*made, **{"restitution": 0.1, "normal": 0.0, "point": (1.0, 0.2), "friction": 0.4, **contact})
+
+
+@pytest.mark.parametrize("what", IN_OWN_UNITS)
+def test_a_unit_that_has_changed_since_the_record_was_written_is_refused(what):
+    """A text would read as another number than the one that was solved; a record must never do that without a word."""
+    before = pint.get_application_registry().get()
+    records = []
+    try:
+        for size in (1.0, 1.0, 0.95):
+            registry = pint.UnitRegistry()
+            for line in OWN_UNITS:
+                registry.define(line.format(size))
+            pint.set_application_registry(registry)
+            if size == 1.0:
+                impact = in_own_units(**IN_OWN_UNITS[what])
+                records.append(strict(impact))
+                assert "own_" in json.dumps(records[0]["inputs"])
+                assert all(col.Impact.from_dict(record) == impact for record in records)
+        with pytest.raises(
+            col.InputError, match=rf"{what.partition(' ')[0]} was given as .* its unit means something else"
+        ) as caught:
+            col.Impact.from_dict(records[0])
+        assert caught.value.code == "bad_record"
+    finally:
+        pint.set_application_registry(before)
+
+
 def test_only_what_a_reverse_solver_takes_can_have_been_given():
     """Texts of what it takes are read again; others, and any of a forward solver, are refused."""
     record = strict(reconstruct.central(1500.0, 1200.0, va="10 m/s", vb=0.0, vb_after="6 m/s"))

@@ -127,11 +127,33 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS)}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
+        _check_texts(found, inputs, record["results"])
     except InputError:
         raise
     except Exception as error:
         raise bad_record(f"{type(error).__name__} {error}") from error
     return inputs, "nan" if refused else None, origin, status
+
+
+def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:
+    """Refuse a text that reads as another number here than it did where the record was written: units can be redefined."""
+    written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS)]
+    for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
+        texts = {name: text for name, text in found[label].items() if name != "name"}
+        if _POLAR[0] in texts:
+            texts["vx"] = texts["vy"] = " at ".join(map(texts.pop, _POLAR))
+        before = results[label]["before"]
+        written += [(f"{label}.{name}", text, getattr(vehicle, name), before[name]) for name, text in texts.items()]
+    for name, texts, numbers, then in written:
+        pair = isinstance(numbers, tuple)
+        for i, number in enumerate(numbers if pair else (numbers,)):
+            text, was = (texts[i] if isinstance(texts, list) else texts), _read(then[i] if pair else then)
+            # An angle in radians may come out by the last bit of another machine's sine.
+            if isinstance(text, str) and text not in _INFINITIES and not math.isclose(number, was, rel_tol=1e-12):
+                raise bad_record(
+                    f"{name} was given as {shown(text)}, which is {was!r} in its results but {number!r} here; the text was "
+                    "changed (to solve with another value write again()), or its unit means something else in this registry"
+                )
 
 
 def _origin(found: Any, velocity: Any) -> Reconstruction | None:
