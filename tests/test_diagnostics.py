@@ -949,9 +949,9 @@ def test_an_outline_in_feet_or_millimetres_is_suspected(outline, worst):
     """The reader takes bare numbers for metres and says so; a unit, and a long bus, are beyond suspicion."""
     with pytest.warns(col.SuspectUnitsWarning) as caught:
         col.diagnose(square(), outline_a=outline)
-    told = [str(one.message) for one in caught if one.message.code == "suspect_units"]
-    assert len(told) == len(worst)
-    for text, start in zip(told, worst, strict=True):
+    sentences = [str(one.message) for one in caught if one.message.code == "suspect_units"]
+    assert len(sentences) == len(worst)
+    for text, start in zip(sentences, worst, strict=True):
         assert text.startswith(start + " is read as metres")
     corners = [("15 ft", 0), (0, "6 ft"), ("-15 ft", 0)]
     col.diagnose(square(), outline_a=("15 ft", "6 ft"), outline_b=(18.75, 2.55))
@@ -1372,11 +1372,11 @@ def test_no_yaw_is_not_turned_the_other_way():
     assert "the other way" not in finding.sentence
 
 
-@pytest.mark.parametrize(("units", "told"), [("si", "0.175 rad"), ("metric", "10.0 degrees"), ("us", "10.0 degrees")])
-def test_the_turn_of_the_normal_is_in_the_units_of_the_page(units, told):
+@pytest.mark.parametrize(("units", "turned"), [("si", "0.175 rad"), ("metric", "10.0 degrees"), ("us", "10.0 degrees")])
+def test_the_turn_of_the_normal_is_in_the_units_of_the_page(units, turned):
     impact = square(a={"y": 0.05, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
     (finding,) = of("normal_yaw", impact, units=units)
-    assert re.search(rf"with the normal turned by [-+]{told} ", finding.sentence)
+    assert re.search(rf"with the normal turned by [-+]{turned} ", finding.sentence)
 
 
 def test_a_speed_that_was_found_is_no_input():

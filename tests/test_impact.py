@@ -518,9 +518,9 @@ def test_an_impact_again_is_what_its_solver_gives(solver, changes):
     contact = {name: CRASH[name] for name in CRASH if solver != "oblique_central" or name != "point"}
     if solver == "oblique_central" and "point" in changes:
         pytest.skip("has no point")
-    asked = {"a": a, "b": b, "restitution": 0.2, **contact, **({"tolerance": 0.5} if solver == "solve" else {})}
-    impact = getattr(col, solver)(**asked)
-    rule = {name: value for name, value in asked.items() if name != "friction" or "impulse_ratio" not in changes}
+    arguments = {"a": a, "b": b, "restitution": 0.2, **contact, **({"tolerance": 0.5} if solver == "solve" else {})}
+    impact = getattr(col, solver)(**arguments)
+    rule = {name: value for name, value in arguments.items() if name != "friction" or "impulse_ratio" not in changes}
     expected = getattr(col, solver)(**(rule | changes))
     again = impact.again(**changes)
     assert again == expected

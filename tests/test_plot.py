@@ -191,9 +191,9 @@ def test_every_letter_of_a_picture_can_be_read(picture, case):
     """Ticks and powers of ten too: math text would stand there as its source where formulas are off, as in a report."""
     axes = drawn(picture, case)
     axes.figure.draw_without_rendering()
-    told = "\n".join(text.get_text() for text in axes.findobj(Text)).replace("van $1", "van")
-    assert told.strip()
-    assert not set(told) & set("$\\{}")
+    labels = "\n".join(text.get_text() for text in axes.findobj(Text)).replace("van $1", "van")
+    assert labels.strip()
+    assert not set(labels) & set("$\\{}")
 
 
 def test_a_power_of_ten_stands_at_the_end_of_its_axis():
@@ -450,7 +450,7 @@ def test_arrows_that_are_apart_stay_where_they_are():
     assert "side by side" not in drawn("scene", "sticking").get_xlabel()
 
 
-def told_beside(axis):
+def labels_beside(axis):
     """The numbers beside an axis, as they are read, and the boxes they fill."""
     texts = [text for text in axis.get_ticklabels() if text.get_text()]
     return [text.get_text() for text in texts], [text.get_window_extent() for text in texts]
@@ -480,12 +480,12 @@ def test_numbers_beside_the_axes_are_told_apart_at_any_size(picture, mass):
     axes = DRAWN[picture](small(a, a.replace(vx=0.0, vy=3.0, x=2.0)), axes=Figure((5.5, 4.6), layout="constrained").subplots())
     axes.figure.draw_without_rendering()
     for axis, end in ((axes.xaxis, "x"), (axes.yaxis, "y")):
-        told, boxes = told_beside(axis)
-        assert len(set(told)) == len(told)
+        labels, boxes = labels_beside(axis)
+        assert len(set(labels)) == len(labels)
         if picture == "energy" and end == "y":
             continue
-        assert max(map(len, told)) <= 7, told
-        assert all(getattr(one, f"{end}1") <= getattr(other, f"{end}0") for one, other in itertools.pairwise(boxes)), told
+        assert max(map(len, labels)) <= 7, labels
+        assert all(getattr(one, f"{end}1") <= getattr(other, f"{end}0") for one, other in itertools.pairwise(boxes)), labels
 
 
 def test_coordinates_of_a_national_grid_are_in_full():
@@ -493,8 +493,8 @@ def test_coordinates_of_a_national_grid_are_in_full():
     a, b = col.Vehicle(mass=1500.0, vx=15.0, x=4_200_000.0, y=510_000.0), col.Vehicle(mass=1500.0, x=4_200_004.0, y=510_000.0)
     axes = plot.scene(col.oblique_central(a, b, 0.1, normal=0.0, friction=0.2))
     axes.figure.draw_without_rendering()
-    told, boxes = told_beside(axes.xaxis)
-    assert "4200000" in told
+    labels, boxes = labels_beside(axes.xaxis)
+    assert "4200000" in labels
     assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
@@ -691,7 +691,7 @@ def test_long_names_leave_room_for_the_picture():
     bars = plot.energy(impact)
     bars.figure.draw_without_rendering()
     assert bars.bbox.width > 0.5 * bars.figure.bbox.width
-    _, boxes = told_beside(bars.yaxis)
+    _, boxes = labels_beside(bars.yaxis)
     assert all(other.y1 < one.y0 + 1.0 or one.y1 < other.y0 + 1.0 for one, other in itertools.combinations(boxes, 2))
     for axes in (bars, plot.momentum(impact), plot.scene(impact), plot.force_time(impact, 0.1)):
         axes.figure.draw_without_rendering()

@@ -339,12 +339,12 @@ def test_every_root_is_found_and_no_more(names):
         try:
             found = (reconstruct.central(mass_a, mass_b, **known),)
         except col.AmbiguousSolutionError as error:
-            found, told, code = error.solutions, str(error), error.code
+            found, text, code = error.solutions, str(error), error.code
         if len(found) > 1:
             assert isinstance(found, tuple)
             assert code == "ambiguous"
             for solution in found:
-                assert f"va = {solution.a.before.vx:.6g} m/s with e = {solution.restitution:.4g}" in told
+                assert f"va = {solution.a.before.vx:.6g} m/s with e = {solution.restitution:.4g}" in text
         assert len(found) == roots_by_search(mass_a, mass_b, names, known), (mass_a, mass_b, known)
         counted[len(found)] += 1
         for solution in found:
@@ -509,7 +509,7 @@ def test_the_least_energy_is_the_least():
 
 
 def test_a_refused_case_leaves_its_neighbours_alone():
-    """Each lane gets the status of its own refusal and NaN; the others are bit for bit what they are without it."""
+    """Each case gets the status of its own refusal and NaN; the others are bit for bit what they are without it."""
     va = np.array([20.0, np.nan, 20.0, -5.0, 20.0, 20.0, 20.0])
     vb = np.array([0.0, 0.0, 0.0, 0.0, 20.0, 0.0, 0.0])
     e = np.array([0.5, 0.5, 2.0, 0.5, 0.5, 0.5, 0.25])

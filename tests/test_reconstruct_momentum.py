@@ -383,9 +383,9 @@ def test_nearly_collinear_warns_with_the_numbers(base, apart):
     assert warning.code == "nearly_collinear"
     assert warning.fields["condition"] == found.condition
     near = abs(math.remainder(apart, 180.0))
-    told = re.search(r"courses of speed_a and speed_b are (\S+) degrees from one line \(condition (\S+)\)", text)
-    assert float(told[1]) == pytest.approx(near, rel=0.05)
-    assert float(told[2]) == pytest.approx(found.condition, rel=0.005)
+    stated = re.search(r"courses of speed_a and speed_b are (\S+) degrees from one line \(condition (\S+)\)", text)
+    assert float(stated[1]) == pytest.approx(near, rel=0.05)
+    assert float(stated[2]) == pytest.approx(found.condition, rel=0.005)
     for answer in ("speed_a", "speed_b"):
         most, name = re.search(rf"{answer} moves by (\S+) m/s per degree of (course_\w+)", text).groups()
         row = {
@@ -758,7 +758,7 @@ def test_infinite_mass(which):
 
 # Batches
 
-LANES = {
+CASES = {
     "mass_a": [1500.0, math.inf, 1500.0, 1500.0, 1500.0, -math.inf, 1500.0, 1500.0, 1500.0, 1500.0, 1500.0],
     "course_b": [1.5, 1.5, 0.0, 1.5, math.nan, 1.5, 1.5, 1.5, 1.5, 1.5, 1.7],
     "speed_a_after": [9.0, 9.0, 9.0, -9.0, 9.0, 9.0, 1e200, 9.0, 9.0, 9.0, 10.0],
@@ -781,21 +781,21 @@ ANSWERS = (
 )
 
 
-def lanes(keep=slice(None), **options):
+def cases(keep=slice(None), **options):
     """A batch with every refusal between two cases that can be answered."""
-    columns = {name: np.array(values)[keep] for name, values in LANES.items()}
+    columns = {name: np.array(values)[keep] for name, values in CASES.items()}
     return crossing(**columns, normal=tuple(np.array(part)[keep] for part in NORMALS), **options)
 
 
 def test_refused_cases_of_a_batch():
     """NaN and a status each, one warning that counts them, neighbours bit for bit as in a batch of their own."""
     with pytest.warns(col.CollisionsWarning, match="9 of 11 cases were refused") as caught:
-        found = lanes()
+        found = cases()
     assert len(caught) == 1
     assert [col.Status(code).label for code in found.status] == LANE_STATUS
     good = np.array(LANE_STATUS) == "ok"
     assert found.ok.tolist() == good.tolist()
-    alone = lanes(keep=good)
+    alone = cases(keep=good)
     for name in ANSWERS:
         values = getattr(found, name)
         assert np.isnan(values[~good]).all(), name
@@ -808,9 +808,9 @@ def test_refused_cases_of_a_batch():
 
 def test_batch_agrees_with_single_cases():
     """The cases one by one, to a few eps; their refusals with the same label."""
-    found = lanes(on_failure="nan")
+    found = cases(on_failure="nan")
     for i, label in enumerate(LANE_STATUS):
-        one = {name: values[i] for name, values in LANES.items()}
+        one = {name: values[i] for name, values in CASES.items()}
         normal = tuple(part[i] for part in NORMALS)
         if label == "ok":
             single = crossing(**one, normal=normal)
@@ -832,7 +832,7 @@ def test_batch_agrees_with_single_cases():
 def test_a_batch_may_raise(first, kind):
     """on_failure="raise" names the case and says what a single one says."""
     with pytest.raises(kind, match="case 1") as caught:
-        lanes(keep=[0, first, 10], on_failure="raise")
+        cases(keep=[0, first, 10], on_failure="raise")
     assert caught.value.code == LANE_STATUS[first]
     if LANE_STATUS[first] == "contradictory":
         assert "turn its course by 180 deg" in str(caught.value)

@@ -76,7 +76,7 @@ def knowledge(impact, pair, share=0.4):
     return found
 
 
-def asked(impact, courses, contact, **known):
+def solve_back(impact, courses, contact, **known):
     """Speeds for the vehicles of a forward answer, whose own velocities must not matter."""
     a, b = (side.before.replace(vx=77.0, vy=-55.0) for side in (impact.a, impact.b))
     given = {
@@ -181,7 +181,7 @@ def test_the_true_speeds_are_found(pair):
     answered = 0
     for impact, courses, contact in forward_scenes(11, 10):
         known = knowledge(impact, pair)
-        found, refusal = attempt(asked, impact, courses, contact, **known)
+        found, refusal = attempt(solve_back, impact, courses, contact, **known)
         if refusal is not None:
             assert refusal.code == "undetermined", (impact, contact, refusal)
             assert not {"speed_a", "speed_b"} & set(pair)
@@ -206,7 +206,7 @@ def test_no_root_is_missed(rule, pair):
     shown = 0
     for impact, courses, contact in forward_scenes(5, 10, (rule,), turning=False):
         known = knowledge(impact, pair)
-        found, refusal = attempt(asked, impact, courses, contact, **known)
+        found, refusal = attempt(solve_back, impact, courses, contact, **known)
         if refusal is not None:
             assert refusal.code == "undetermined"
             continue
@@ -223,7 +223,7 @@ def test_two_roots_close_together():
     found = []
     for impact, courses, contact in forward_scenes(3, 60, ("critical_fraction",)):
         if 0.0 < contact["critical_fraction"] < 1.0:
-            roots = asked(impact, courses, contact, **knowledge(impact, ("delta_v_a", "energy_loss")))
+            roots = solve_back(impact, courses, contact, **knowledge(impact, ("delta_v_a", "energy_loss")))
             assert min(off(root, impact) for root in roots) < 1e-6
             found += [one.closing_speed / other.closing_speed for one, other in itertools.pairwise(roots)]
     assert max(found) > 0.97
@@ -258,7 +258,7 @@ def test_dissipated_and_absorbed_energy_differ_by_restitution():
 
 
 def test_parallel_courses():
-    """One speed tells the other; without one only the closing speed is told, and that is said."""
+    """One speed tells the other; without one only the closing speed is found, and the error says so."""
     impact = col.eccentric(A.replace(vx=20.0), B.replace(vx=8.0), 0.1, **CONTACT)
     given = {"course_a": 0.0, "course_b": 0.0, "restitution": 0.1, **CONTACT}
     (found,) = speeds(A, B, **given, speed_a=20.0, delta_v_b=impact.b.delta_v)
@@ -313,7 +313,7 @@ def test_restitution_as_a_function(pair):
         if pair[0].startswith("delta") and (impact.tangential_impulse == 0.0 or impact.energy_loss < 0.0):
             continue
         known = knowledge(impact, pair)
-        found = asked(impact, courses, contact, **known, restitution=falling)
+        found = solve_back(impact, courses, contact, **known, restitution=falling)
         for root in found:
             assert root.restitution == pytest.approx(falling(root.closing_speed), abs=1e-9)
         check_roots(found, known, courses, contact)
@@ -401,7 +401,7 @@ def test_the_condition_is_that_of_the_whole_call(pair, restitution):
     known = knowledge(impact, pair)
 
     def ask(**given):
-        found = asked(impact, list(COURSES.values()), CONTACT, **given, restitution=restitution)
+        found = solve_back(impact, list(COURSES.values()), CONTACT, **given, restitution=restitution)
         return min(found, key=lambda root: off(root, impact))
 
     assert ask(**known).reconstruction.condition == pytest.approx(sensitivity(ask, known), rel=1e-5)
@@ -482,9 +482,9 @@ def test_very_small_and_very_large_speeds(size):
     """Speeds scale with what is known, energies with its square; nothing in between overflows or vanishes."""
     for pair in (("speed_a", "delta_v_b"), ("delta_v_b", "energy_loss"), ("speed_b", "ees")):
         known = knowledge(HIT, pair)
-        plain = asked(HIT, list(COURSES.values()), CONTACT, **known)
+        plain = solve_back(HIT, list(COURSES.values()), CONTACT, **known)
         scaled = {kind: value * size * (size if kind == "energy_loss" else 1.0) for kind, value in known.items()}
-        found = asked(HIT, list(COURSES.values()), CONTACT, **scaled)
+        found = solve_back(HIT, list(COURSES.values()), CONTACT, **scaled)
         # Only rounding: the condition times a few eps.
         assert [root.closing_speed / size for root in found] == pytest.approx([root.closing_speed for root in plain], rel=1e-11)
         assert [root.reconstruction.condition for root in found] == pytest.approx(
@@ -657,7 +657,7 @@ def test_a_loss_touching_its_least_is_found():
     ids=["delta_v_b", "delta_v_a", "speed_a", "speed_b", "energy_loss", "ees_a", "ees_b"],
 )
 def test_negative_lanes_are_refused(known, wrong):
-    """As contradictory, counted in one warning; the lane beside is answered as alone."""
+    """As contradictory, counted in one warning; the case beside it is answered as by itself."""
     given = {**COURSES, "restitution": 0.1, **CONTACT}
     right = {name: abs(float(np.ravel(value)[0])) for name, value in known.items()}
     with warnings.catch_warnings(record=True) as caught:
@@ -666,17 +666,17 @@ def test_negative_lanes_are_refused(known, wrong):
         alone = speeds(A, B, **given, **right)
     counted = [one.message for one in caught if one.category is col.CollisionsWarning]
     assert [one.fields["counts"] for one in counted] == [{"contradictory": 1}]
-    lane = 1 + wrong
+    case = 1 + wrong
     for root, single in zip(found, alone, strict=True):
         assert np.ravel(root.status)[wrong] == col.Status.CONTRADICTORY
         assert np.isnan(root.closing_speed[wrong])
         assert np.isnan(root.a.after.vx[wrong])
         assert np.isnan(root.reconstruction.condition[wrong])
-        assert root.closing_speed[lane] == pytest.approx(single.closing_speed, rel=1e-12)
+        assert root.closing_speed[case] == pytest.approx(single.closing_speed, rel=1e-12)
 
 
 def test_a_batch_says_what_it_refused():
-    """One warning for lanes without any root, at the caller's line; none where every lane has one, be it not two."""
+    """One warning for cases without any root, at the caller's line; none where every case has one, be it not two."""
     given = {**COURSES, "restitution": 0.1, **CONTACT}
     with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*\(1 contradictory\); asked alone, each says why") as caught:
         found = speeds(A, B, **given, delta_v_b=HIT.b.delta_v, energy_loss=np.array([HIT.energy_loss, 1e3]))
@@ -689,7 +689,7 @@ def test_a_batch_says_what_it_refused():
     with pytest.warns(col.CollisionsWarning, match=r"1 of 2 cases .*\(1 infinite_mass\)"):
         (found,) = speeds(A, B.replace(mass=np.array([1300.0, math.inf])), **given, **KNOWN)
     assert found.status.tolist() == [col.Status.OK, col.Status.INFINITE_MASS]
-    # Two roots in one lane and one in the other: both have an answer, so nothing but the backward one is said.
+    # Two roots in one case and one in the other: both have an answer, so nothing but the backward one is said.
     stuck = {"normal": 0.0, "point": (0.0, 0.4), "critical_fraction": 1.0}
     with pytest.warns(col.OutOfRangeWarning, match="backwards") as caught:
         found = speeds(A, B, **COURSES, restitution=0.1, **stuck, speed_a=20.0, energy_loss=np.array([1.8e5, 3e5]))
@@ -723,8 +723,8 @@ def test_quartics():
     # A root moves by the rounding of the values over its derivative, the product of its distances.
     assert np.all(abs(found - made)[apart > 0.05] < 1e-9)
     with np.errstate(all="ignore"):
-        lanes = [np.array([place**4 - 1.0, place**4 + 1.0, 0.0, math.nan, math.inf, place**4 - 1.0]) for place in PLACES]
-        answers = np.stack(quartic_roots(lanes, 1.0))
+        cases = [np.array([place**4 - 1.0, place**4 + 1.0, 0.0, math.nan, math.inf, place**4 - 1.0]) for place in PLACES]
+        answers = np.stack(quartic_roots(cases, 1.0))
     assert np.sum(np.isfinite(answers), axis=0).tolist() == [2, 0, 0, 0, 0, 2]
     assert np.nanmax(answers[:, 5]) == pytest.approx(1.0, abs=1e-12)
 

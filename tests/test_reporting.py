@@ -343,23 +343,23 @@ def test_every_finding_is_told(impacts):
 
 def test_limits_of_every_unit_can_be_shown(impacts):
     text = report(impacts["eccentric"], form="markdown", units="us", limits=dict.fromkeys(LIMITS, 1e-3), figures=False)
-    told = section(text, "Assumptions")
-    assert told.count("set for this report.") == len(LIMITS)
+    printed = section(text, "Assumptions")
+    assert printed.count("set for this report.") == len(LIMITS)
     # 1 g in pounds, to four figures; and 0.001 m in feet, to two decimals and two more.
-    assert "Limit of suspect\\_mass:** 0.002205 lb" in told
-    assert "Limit of point\\_outside:** 0.0033 ft" in told
+    assert "Limit of suspect\\_mass:** 0.002205 lb" in printed
+    assert "Limit of point\\_outside:** 0.0033 ft" in printed
 
 
 def test_assumptions_say_what_is_left_out(impacts):
     impact = impacts["eccentric"]
     text = report(impact, form="markdown", duration="50 ms", drag=0.5)
-    told = section(text, "Assumptions")
-    assert "lasts 0.05 s and the tyres have a drag of 0.5" in told
+    printed = section(text, "Assumptions")
+    assert "lasts 0.05 s and the tyres have a drag of 0.5" in printed
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
     share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
-    assert ("A (Golf)", "delta-V by its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(told)
-    assert "**Law:** brach" in told
-    assert f"**Tangential impulse:** {impact.regime}" in told
+    assert ("A (Golf)", "delta-V by its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
+    assert "**Law:** brach" in printed
+    assert f"**Tangential impulse:** {impact.regime}" in printed
     assert "**Law:** kudlich" in report(impacts["other law"], form="markdown")
     assert "Law:" not in report(impacts["wall"], form="markdown")
     # A wall has no tyres.
@@ -402,11 +402,11 @@ def test_no_text_prints_a_bare_nan():
             *(f.sentence for f in diagnose(impact)),
         ]
         assert not [one for text in texts for one in text.split("\n") if BARE.search(one)]
-        told = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "places and normal" in row[1]}
+        printed = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "places and normal" in row[1]}
         for label, side in (("A", left.a), ("B", left.b)):
             lost = math.isnan(side.geometry_delta_v)
             undefined += lost
-            assert lost == told[label].startswith(
+            assert lost == printed[label].startswith(
                 "not defined: the model has no answer with the places and the normal of later in the contact"
             )
     assert undefined > 4
@@ -509,9 +509,9 @@ def test_figures_show_this_impact(impacts):
 def test_every_letter_of_a_figure_can_be_read(name, impacts):
     """Math text would stand on the page as its source: formulas are off there, as names are none."""
     spreads = spread("b.delta_v", "own") if name == "eccentric" else None
-    told = Page(report(impacts[name], uncertainty=spreads)).of("text")
-    assert sum(bool(re.fullmatch(r"\u2212?[\d.]+", text)) for text in told) >= 4  # the axis of energy alone
-    assert not set("".join(told)) & set("$\\{}")
+    printed = Page(report(impacts[name], uncertainty=spreads)).of("text")
+    assert sum(bool(re.fullmatch(r"\u2212?[\d.]+", text)) for text in printed) >= 4  # the axis of energy alone
+    assert not set("".join(printed)) & set("$\\{}")
 
 
 def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
@@ -736,8 +736,8 @@ def test_texts_go_with_the_impact(make):
     assert replay(report(impact, form="markdown")) == impact
 
 
-def told_backwards():
-    """What each reverse solver was told, in texts."""
+def solved_backwards():
+    """What each reverse solver was given, in texts."""
     central = reconstruct.central("2425 lb", "2094 lb", va="50 mph", vb="0 mph", vb_after="37 mph")
     end = crash(friction=0.02)
     after = {label: side.after.replace(vx=f"{side.after.vx!r} m/s") for label, side in (("a", end.a), ("b", end.b))}
@@ -751,9 +751,9 @@ def told_backwards():
 
 
 @pytest.mark.parametrize("solver", ["central", "planar", "speeds"])
-def test_what_a_reverse_solver_was_told_stands_on_its_report(solver):
+def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     """As text; and the texts of what stayed as it was given, the mass."""
-    impact = told_backwards()[solver]
+    impact = solved_backwards()[solver]
     page = report(impact, form="markdown")
     shown = rows(page)
     wanted = {
@@ -786,7 +786,7 @@ def test_what_a_reverse_solver_was_told_stands_on_its_report(solver):
     ],
 )
 def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text, said):
-    page = report(told_backwards()[solver], form="markdown")
+    page = report(solved_backwards()[solver], form="markdown")
     with pytest.raises(col.InputError, match=re.escape(said)):
         replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update({name: text})))
 
@@ -820,9 +820,9 @@ def test_damage_that_contradicts_stands_on_the_page():
     )
     found = {finding.code for finding in diagnose(crash(), **evidence)}
     assert {"momentum_energy", "pdof_off_damage", "delta_v_off_damage"} <= found
-    told = re.sub(r"\\(.)", r"\1", section(page, "Findings"))
+    printed = re.sub(r"\\(.)", r"\1", section(page, "Findings"))
     for code in found:
-        assert f"**{code}" in told
+        assert f"**{code}" in printed
     assert report(replay(page), **options(page)) == page
 
 
@@ -927,9 +927,9 @@ def test_shares_stay_within_0_and_100_percent():
     shares = [share for name in known for share in known[name].contributions.values()]
     assert any(share > 1.005 or share < 0.0 for share in shares)
     part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
-    told = [row[2] for row in rows(part) if row[1].startswith("share")]
-    assert told
-    for text in told:
+    printed = [row[2] for row in rows(part) if row[1].startswith("share")]
+    assert printed
+    for text in printed:
         share = r"(\d|[1-9]\d|100)( ± \d+)? percent"
         assert re.fullmatch(f"{share} by itself, {share} in all", text), text
 
@@ -1044,8 +1044,8 @@ def test_a_velocity_that_was_worked_out_says_of_what():
 def test_half_a_place_as_text_says_which_half():
     """The other half keeps the digits that were typed."""
     shown = rows(report(crash(point=(0.123456789, "2 in")), form="markdown"))
-    told = "x: 0.1235 m, exactly 0.123456789 m; y: 0.0508 m, given as 2 in"
-    assert ("contact", "contact point (x, y)", told) in shown
+    printed = "x: 0.1235 m, exactly 0.123456789 m; y: 0.0508 m, given as 2 in"
+    assert ("contact", "contact point (x, y)", printed) in shown
 
 
 @pytest.mark.parametrize("contact", [{"normal": (3.0, 4.0)}, {"normal": 6.2}, {"e": UREG.Quantity(10, "percent")}])
@@ -1080,11 +1080,11 @@ def test_shares_of_inputs_that_act_together():
 
 def test_a_pivot_is_no_force_that_is_left_out(impacts):
     """And its tyres are an estimate, since where they act on its levers is not known."""
-    told = section(report(impacts["pinned"], form="markdown"), "Assumptions")
-    assert "tyres and all other forces but the pivot's are left out" in told
-    assert "(estimates, except the bound)" in told
-    assert ("A", "delta-V by its own tyres, bound") in {row[:2] for row in rows(told)}
-    assert ("B", "delta-V by its own tyres, about") in {row[:2] for row in rows(told)}
+    printed = section(report(impacts["pinned"], form="markdown"), "Assumptions")
+    assert "tyres and all other forces but the pivot's are left out" in printed
+    assert "(estimates, except the bound)" in printed
+    assert ("A", "delta-V by its own tyres, bound") in {row[:2] for row in rows(printed)}
+    assert ("B", "delta-V by its own tyres, about") in {row[:2] for row in rows(printed)}
     free = section(report(impacts["eccentric"], form="markdown"), "Assumptions")
     assert "tyres and all other forces are left out" in free
 
@@ -1178,8 +1178,8 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert ("A", "course before", "270 deg") in found
     assert ("contact", "normal, direction from A into B", "-116.6 deg") in found
     assert ("both", "impulse from outside, along y", "-0.1 kN*s") in found
-    told = explain(solution, units="metric")
-    assert set(rows(told[told.index("## Answers") :])) <= set(found)
+    printed = explain(solution, units="metric")
+    assert set(rows(printed[printed.index("## Answers") :])) <= set(found)
     moved = solution.q.sensitivity["speed_a"]["course_b_after"].m_as("km/h/deg")
     assert ("speed of A before", "moved by course of B after", f"{moved:+.3g} km/h per deg") in found
     assert f"{len(diagnose(solution).measured)} checks" in section(page, "Findings")

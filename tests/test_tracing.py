@@ -178,11 +178,11 @@ def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
         warnings.simplefilter("ignore", col.EnergyGainWarning)
         whole = col.eccentric(a, b, e, normal=normal, **options)
         for part in (slice(0, 100), slice(BLOCK - 50, BLOCK + 50), slice(2 * BLOCK, None)):
-            lanes = [
+            cases = [
                 body.replace(**{n: getattr(body, n)[part] for n in ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y")})
                 for body in (a, b)
             ]
-            few = col.eccentric(*lanes, e[part], normal=normal[part], **options)
+            few = col.eccentric(*cases, e[part], normal=normal[part], **options)
             for mine, other in zip(whole._answer, few._answer, strict=True):
                 assert mine.dtype == other.dtype
                 np.testing.assert_array_equal(mine[part], other)

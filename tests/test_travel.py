@@ -493,7 +493,7 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
 
 
 def test_one_reason_may_come_from_several_arguments():
-    """NaN in two arrays, in two lanes."""
+    """NaN in two arrays, in two cases."""
     with pytest.warns(col.CollisionsWarning, match=re.escape("2 of 3 cases cannot be answered and are NaN (2 not_finite)")):
         travel.speed(np.array([1.0, math.nan, 1.0]), drag=np.array([0.7, 0.7, math.inf]))
 

@@ -434,9 +434,9 @@ def test_directions_to_all_sides():
         )
 
 
-@pytest.mark.parametrize(("share", "told"), [(0.5, True), (0.8, True), (0.95, False)])
+@pytest.mark.parametrize(("share", "warned"), [(0.5, True), (0.8, True), (0.95, False)])
 @pytest.mark.parametrize("spread", [0.0, 0.2])
-def test_directions_to_opposite_sides(share, told, spread):
+def test_directions_to_opposite_sides(share, warned, spread):
     """A share p ahead, the others behind: (1 - p) 180 deg to the left is as good a mean as to the right, and none goes there."""
 
     def model(side, about):
@@ -446,7 +446,7 @@ def test_directions_to_opposite_sides(share, told, spread):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         propagate(model, {"side": Uniform(0.0, 1.0), "about": Normal(0.0, 1.0)}, method="quasi_random", seed=1)
-    assert [warning.message.code for warning in caught] == ["may_wrap"] * told
+    assert [warning.message.code for warning in caught] == ["may_wrap"] * warned
     # Four in five ahead is a preferred side, and not all sides.
     assert not any("preferred" in str(warning.message) or "all sides" in str(warning.message) for warning in caught)
 
@@ -924,7 +924,7 @@ def test_an_interrupt_while_the_errors_are_judged(monkeypatch):
 
 @pytest.mark.parametrize("spread", [0.1, 0.5, 0.8, 1.0])
 def test_a_bare_angle_around_pi_is_told_whatever_its_spread(spread):
-    """A few cases on the far side of the circle do not hide it; an interval around pi is told too, a quantity about 0 is not."""
+    """A few cases on the far side of the circle do not hide it; an interval around pi is warned of too, a quantity about 0 is not."""
 
     def course(angle):
         return {"course": np.arctan2(np.sin(angle), np.cos(angle))}

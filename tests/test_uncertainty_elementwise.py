@@ -263,7 +263,7 @@ def test_no_dict(answer):
 
 
 def test_a_list_of_values():
-    """Told of Samples like an array, in place of an error from within the model; a pair stays a fixed value."""
+    """Refused for Samples as for an array, in place of an error from within the model; a pair stays a fixed value."""
     for values in ([1.0, 2.0], np.array([1.0, 2.0])):
         with pytest.raises(col.ShapeError, match=r"v is an? (list|array) of .* given as Samples\(values\)") as caught:
             propagate(lambda v, x: {"y": v + x}, {"v": values, "x": Normal(0.0, 1.0)}, method="quasi_random")

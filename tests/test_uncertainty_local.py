@@ -355,7 +355,7 @@ def test_a_truncation_in_the_model(method):
 
 @both_orders
 def test_refusals_beside_the_mean(method):
-    """Cases that do not collide: the share of them is counted, and told."""
+    """Cases that do not collide: the share of them is counted, and stated."""
 
     def model(speed):
         a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0, vx=10.0)

@@ -106,26 +106,26 @@ def test_nothing_of_the_package_is_in_the_reference(scripts):
 def test_the_committed_reference_is_what_a_run_gives(scripts, committed, key):
     """Mean, deviation and both ends, within the standard errors that the run and the reference state."""
     _, scenes, *_ = scripts
-    told = committed["references"][key]
+    stated = committed["references"][key]
     # 16 sequences give an error of 15 degrees of freedom: five of it are as rare as 3.9 of a normal.
     found, _ = scenes.run(scenes.BY_KEY[key], "quasi_random", samples=8192, seed=2025)
     for one, error, true, own in zip(
-        scenes.figures(found), scenes.errors(found), told["figures"], told["standard_errors"], strict=True
+        scenes.figures(found), scenes.errors(found), stated["figures"], stated["standard_errors"], strict=True
     ):
         assert abs(one - true) <= 5.0 * math.hypot(error, own)
-    share = told["failed"] / told["cases"]
+    share = stated["failed"] / stated["cases"]
     assert found.failed / found.samples == pytest.approx(share, abs=RARE * math.sqrt(share / found.samples) + 1e-12)
 
 
 def test_errors_of_sampling_are_those_of_the_package(scripts, committed):
     """A row worked out here again, to the four digits that are kept."""
     uncertainty, scenes, _, tables = scripts
-    told = tables.of(committed, "truncated", "quasi_random", 512)
+    stated = tables.of(committed, "truncated", "quasi_random", 512)
     again = uncertainty.sampled_row(
-        scenes.BY_KEY["truncated"], "quasi_random", 9, told["seeds"], committed["references"]["truncated"]
+        scenes.BY_KEY["truncated"], "quasi_random", 9, stated["seeds"], committed["references"]["truncated"]
     )
     for figure in ("error", "worth", "stated", "within"):
-        assert again[figure] == pytest.approx(told[figure], rel=2e-3), figure
+        assert again[figure] == pytest.approx(stated[figure], rel=2e-3), figure
 
 
 def test_errors_of_local_methods_are_those_of_the_package(scripts, committed):

@@ -208,7 +208,7 @@ def test_a_tolerance_ends_where_so_many_samples_do(method):
 
 @every_method
 def test_seeds(method):
-    """Another seed draws other cases; without one, the one that was used is told and draws the same again."""
+    """Another seed draws other cases; without one, the one that was used is stated and draws the same again."""
     assert values_of(method=method, seed=9) != values_of(method=method)
     model, inputs, _ = SCENES["rear_end"]
     found = propagate(model, inputs, method=method, samples=64)
