@@ -33,18 +33,19 @@ published = reference.RESTITUTION_FRONTAL_BARRIER
 print(f"restitution {published.typical}: {published.domain}; {published.source}")
 car = col.Vehicle(mass="1500 kg", vx="56 km/h", name="car")
 squares = [col.linear_central(car, WALL, e) for e in (0.0, published.typical, 1.0)]
-print(f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}{'EES':>8}{'lost':>9}")
-print(f"{'':>12}{'km/h':>13}{'km/h':>10}{'km/h':>8}{'kJ':>9}")
+print(f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}{'crush':>8}{'EES':>8}{'lost':>9}")
+print(f"{'':>12}{'km/h':>13}{'km/h':>10}{'km/h':>8}{'km/h':>8}{'kJ':>9}")
 for impact in squares:
-    car_ees, _ = impact.ees(share_a=1.0)
+    (crush, _), (ees, _) = impact.max_crush_speeds(share_a=1.0), impact.ees(share_a=1.0)
     print(
-        f"{impact.restitution:>12}{kmh(impact.a.after.vx):>13.1f}{kmh(impact.a.delta_v):>10.1f}{kmh(car_ees):>8.1f}"
-        f"{impact.energy_loss / 1000:>9.1f}"
+        f"{impact.restitution:>12}{kmh(impact.a.after.vx):>13.1f}{kmh(impact.a.delta_v):>10.1f}{kmh(crush):>8.1f}"
+        f"{kmh(ees):>8.1f}{impact.energy_loss / 1000:>9.1f}"
     )
 
 # %% [markdown]
-# The EES is the impact speed whatever the restitution: at full crush the car stands still, and all its energy is in the crush.
-# What comes back by restitution makes the delta-V larger and the loss smaller.
+# The speed of maximum crush ("crush") is the impact speed whatever the restitution: at full crush the car stands still, and
+# all its energy is in the crush. What comes back by restitution makes the delta-V larger, and the loss smaller; the EES by
+# ISO 12353 stands for the loss.
 #
 # ## At 20 degrees
 #
@@ -58,7 +59,7 @@ corner = slanted.point(forward="2.3 m", left="0.9 m")
 points = {mu: col.oblique_central(slanted, WALL, 0.1, normal=NORMAL, friction=mu) for mu in (0.0, 0.3, 0.6)}
 corners = {mu: col.eccentric(slanted, WALL, 0.1, normal=NORMAL, point=corner, friction=mu) for mu in (0.0, 0.3, 0.6)}
 print(
-    f"{'':<8}{'friction':>9}{'speed after':>13}{'course':>9}{'yaw':>8}{'delta-V':>10}{'EES':>7}{'lost':>7}{'by friction':>13}"
+    f"{'':<8}{'friction':>9}{'speed after':>13}{'course':>9}{'yaw':>8}{'delta-V':>10}{'crush':>7}{'lost':>7}{'by friction':>13}"
 )
 print(f"{'':<8}{'':>9}{'km/h':>13}{'deg':>9}{'deg/s':>8}{'km/h':>10}{'km/h':>7}{'kJ':>7}{'kJ':>13}")
 for label, family in (("point", points), ("corner", corners)):
@@ -66,12 +67,13 @@ for label, family in (("point", points), ("corner", corners)):
         after = impact.a.after
         print(
             f"{label:<8}{mu:>9}{kmh(after.speed):>13.1f}{math.degrees(after.course):>9.1f}{math.degrees(after.yaw_rate):>8.0f}"
-            f"{kmh(impact.a.delta_v):>10.1f}{kmh(impact.ees(1.0)[0]):>7.1f}{impact.energy_loss / 1000:>7.1f}"
+            f"{kmh(impact.a.delta_v):>10.1f}{kmh(impact.max_crush_speeds(1.0)[0]):>7.1f}{impact.energy_loss / 1000:>7.1f}"
             f"{impact.energy_loss_tangential / 1000:>13.1f}"
         )
 
 # %% [markdown]
-# The speed along the wall is not in the EES, which is that of the crush along the normal: 80 sin 20° = 27 km/h for a point.
+# The speed along the wall is not in the speed of maximum crush, which is that along the normal: 80 sin 20° = 27 km/h for a
+# point.
 # With the corner the car gives way by turning, and crush and delta-V are less. Friction alone would turn it the other way; here
 # it does not get that far.
 
@@ -83,7 +85,7 @@ plot.impulse_plane(corners[0.3], axes=axes[1], units="metric")
 # %% [markdown]
 # ## Checks
 #
-# - Square: v' = -e v (Example 1 of the paper), delta-V (1 + e) v, EES = v, loss m v² (1 - e²)/2.
+# - Square: v' = -e v (Example 1 of the paper), delta-V (1 + e) v, speed of maximum crush = v, loss m v² (1 - e²)/2 = m EES²/2.
 # - A point at an angle b to the normal leaves at a, with tan a = (tan b)/e - mu/e - mu. An answer at
 #   askiitians.com/forums/Mechanics/10/1618 derives this for a ball on a plate; here b = 70 degrees, and the contact slides.
 # - The impulse goes through the corner, so about the corner the car keeps its angular momentum whatever the friction.
@@ -97,7 +99,8 @@ for impact in squares:
     e, v = impact.restitution, car.vx
     assert math.isclose(impact.a.after.vx, -e * v, rel_tol=1e-13)
     assert math.isclose(impact.a.delta_v, (1 + e) * v, rel_tol=1e-13)
-    assert math.isclose(impact.ees(1.0)[0], v, rel_tol=1e-13)
+    assert math.isclose(impact.max_crush_speeds(1.0)[0], v, rel_tol=1e-13)
+    assert math.isclose(impact.ees(1.0)[0], v * math.sqrt(1 - e**2), rel_tol=1e-13)
     assert math.isclose(impact.energy_loss, 0.5 * car.mass * v**2 * (1 - e**2), rel_tol=1e-13)
 
 

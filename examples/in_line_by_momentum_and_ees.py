@@ -39,7 +39,8 @@ print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 #
 # Then the damage has to tell. The following EES are invented: 52 mph for the striking car and 31 mph for the struck one, each
 # uncertain by 10 percent. After a plastic impact the energy absorbed is all dissipated, so it may be given as `energy_loss`.
-# With restitution a part of what was absorbed comes back; then `speeds` or `inline_closing_speed` take `ees_a=` and `ees_b=`.
+# With restitution a part of what was absorbed comes back; `speeds` and `inline_closing_speed` take `ees_a=` and `ees_b=` by ISO
+# 12353, as energy that is gone, and `max_crush_speed_a=` and `max_crush_speed_b=` for the energy at maximum crush.
 
 # %%
 mass_a, mass_b = stood.a.before.mass, stood.b.before.mass

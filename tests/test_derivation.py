@@ -151,7 +151,12 @@ def reverse():
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.0)
     b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.0, y=0.8)
     contact = {"restitution": 0.1, "normal": 0.0, "point": (0.0, 0.4), "friction": 0.5}
-    for known in ({"delta_v_a": 6.0}, {"energy_loss": 40000.0}, {"ees_a": 4.0, "ees_b": 5.0}):
+    for known in (
+        {"delta_v_a": 6.0},
+        {"energy_loss": 40000.0},
+        {"ees_a": 4.0, "ees_b": 5.0},
+        {"max_crush_speed_a": 4.0, "max_crush_speed_b": 5.0},
+    ):
         found = reconstruct.speeds(a, b, course_a=0.0, course_b=None, speed_b=0.0, **known, **contact)
         for one in found:
             yield f"speeds {known}", one
@@ -550,7 +555,8 @@ def test_how_a_body_is_held_is_said(name, said):
         ("planar kudlich-slibar {'restitution': 0.3}", "by reconstruct.planar"),
         ("speeds {'delta_v_a': 6.0}", "Delta-V of A, known"),
         ("speeds {'energy_loss': 40000.0}", "The energy lost, known: dE = 40000 J"),
-        ("speeds {'ees_a': 4.0, 'ees_b': 5.0}", "Energy of both EES, known"),
+        ("speeds {'ees_a': 4.0, 'ees_b': 5.0}", "energy of both EES, the one lost, known: dE = 28250 J"),
+        ("speeds {'max_crush_speed_a': 4.0, 'max_crush_speed_b': 5.0}", "Energy of both speeds of maximum crush, known"),
     ],
 )
 def test_reverse_problems_say_what_was_known_and_how_well(name, said):
@@ -565,7 +571,9 @@ def test_reverse_problems_say_what_was_known_and_how_well(name, said):
 
 def test_energy_of_both_ees_is_that_of_the_speeds():
     """Known as 1500 kg at 4 m/s and 1300 kg at 5 m/s: 12000 J and 16250 J."""
-    assert "= 28250 J" in explain(SCENES["speeds {'ees_a': 4.0, 'ees_b': 5.0}"], form="text")
+    for name in ("ees", "max_crush_speed"):
+        scene = SCENES[f"speeds {{'{name}_a': 4.0, '{name}_b': 5.0}}"]
+        assert "= 28250 J" in explain(scene, form="text")
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 0.5, 5.0])

@@ -244,7 +244,7 @@ def check_record(impact: col.Impact) -> None:
 
 def check_ees(impact: col.Impact, refused: Any, shape: tuple[int, ...], tame: bool) -> None:
     """The equivalent speeds of both."""
-    check_numbers("ees", impact.ees(0.5), refused, shape, tame)
+    check_numbers("crush", impact.max_crush_speeds(0.5), refused, shape, tame)
 
 
 def some_of(fields: Any, *, odd: float = 0.3) -> Any:

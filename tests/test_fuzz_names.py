@@ -184,7 +184,7 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read back."""
@@ -193,6 +193,7 @@ def test_impacts(case: Case) -> None:
         impact = known_impact(case.randrange(6))
     case.look(impact, OPEN)
     case.call("Impact.ees", impact.ees, case.value("share_a"))
+    case.call("Impact.max_crush_speeds", impact.max_crush_speeds, case.value("share_a"))
     case.call("Side.delta_v_at", case.choice((impact.a, impact.b)).delta_v_at, case.pair("point"))
     index = case.option(0, 0, -1, 2, (0,), (0, 1), (), case.randint(-9, 9))
     one = case.call("Impact.case", impact.case, index)
@@ -423,7 +424,13 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         given = {"va": case.uniform(10.0, 30.0), "vb": case.uniform(-20.0, 5.0), "restitution": case.value("restitution")}
     solved(case, "central", **masses, **given, **failing)
     known = case.choice(
-        ({"delta_v_a": "speed"}, {"delta_v_b": "speed"}, {"energy_loss": "energy_loss"}, {"ees_a": "speed", "ees_b": "speed"})
+        (
+            {"delta_v_a": "speed"},
+            {"delta_v_b": "speed"},
+            {"energy_loss": "energy_loss"},
+            {"ees_a": "speed", "ees_b": "speed"},
+            {"max_crush_speed_a": "speed", "max_crush_speed_b": "speed"},
+        )
     )
     e = case.option(
         case.value("restitution"),

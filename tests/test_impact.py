@@ -206,17 +206,89 @@ def test_own_axes_and_recorder_sign():
 
 
 def test_ees():
-    """Shares of the energy absorbed at the end of compression; a share outside 0 to 1 is refused."""
+    """Shares of the energy lost (ISO 12353), and of that absorbed at maximum crush; a share outside 0 to 1 is refused."""
     impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=2000.0), 0.5)
-    ees_a, ees_b = impact.ees("30 %")
-    assert 0.5 * (1000.0 * ees_a**2 + 2000.0 * ees_b**2) == pytest.approx(impact.energy_absorbed, rel=1e-14)
-    assert 0.5 * 1000.0 * ees_a**2 == pytest.approx(0.3 * impact.energy_absorbed, rel=1e-14)
+    for speeds, energy in ((impact.ees, impact.energy_loss), (impact.max_crush_speeds, impact.energy_absorbed)):
+        speed_a, speed_b = speeds("30 %")
+        assert 0.5 * (1000.0 * speed_a**2 + 2000.0 * speed_b**2) == pytest.approx(energy, rel=1e-14)
+        assert 0.5 * 1000.0 * speed_a**2 == pytest.approx(0.3 * energy, rel=1e-14)
     assert impact.energy_absorbed * (1 - 0.5**2) == pytest.approx(impact.energy_loss_normal, rel=1e-14)
-    assert col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle.barrier(), 0.5).ees(1.0) == (20.0, 0.0)
+    # Into a wall: the whole impact speed at maximum crush, of which the loss leaves sqrt(1 - e^2).
+    against_wall = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle.barrier(), 0.6)
+    assert against_wall.max_crush_speeds(1.0) == (20.0, 0.0)
+    assert against_wall.ees(1.0) == pytest.approx((16.0, 0.0), rel=1e-14)
+    # With friction the whole loss counts, not the part along the normal alone.
+    car = {"mass": 1000.0, "yaw_inertia": 1500.0, "y": 0.5}
+    slides = col.eccentric(
+        col.Vehicle(**car, x=-2.0, vx=20.0, vy=9.0), col.Vehicle(**car, x=2.0), 0.2, normal=0.0, point=(0.0, 0.0), friction=0.3
+    )
+    ees_a, ees_b = slides.ees(0.5)
+    lost = sum(
+        0.5 * 1000.0 * (s.before.speed**2 - s.after.speed**2) - 750.0 * s.after.yaw_rate**2 for s in (slides.a, slides.b)
+    )
+    assert 500.0 * (ees_a**2 + ees_b**2) == pytest.approx(lost, rel=1e-12)
+    # Energy gained leaves nothing that an equivalent speed could stand for; an elastic impact loses nothing.
+    with pytest.warns(col.EnergyGainWarning):
+        gains = col.oblique_central(
+            col.Vehicle(mass=1000.0, vx=20.0, vy=1.0), col.Vehicle(mass=1000.0), 1.0, normal=0.0, impulse_ratio=-0.9
+        )
+    assert all(map(math.isnan, gains.ees(0.5)))
+    assert col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=2000.0), 1.0).ees(0.5) == (0.0, 0.0)
     with pytest.raises(col.InputError, match="share_a"):
         impact.ees(1.5)
     with pytest.raises(TypeError):
         impact.ees()
+
+
+def test_moment_arms_and_gamma():
+    """The moment of the impulse is what changes the yaw rate; gamma takes energy to delta-V as the CRASH programs do."""
+    rng = np.random.default_rng(4)
+    for friction in (0.0, 0.3, math.inf):
+        a, b = (
+            col.Vehicle(
+                mass=rng.uniform(800, 3000),
+                yaw_inertia=rng.uniform(800, 4000),
+                x=x,
+                y=rng.uniform(-1, 1),
+                vx=vx,
+                vy=rng.uniform(-5, 5),
+            )
+            for x, vx in ((-2.0, 20.0), (2.0, 0.0))
+        )
+        impact = col.eccentric(a, b, 0.2, normal=rng.uniform(-0.4, 0.4), point=(0.1, 0.3), friction=friction)
+        for side in (impact.a, impact.b):
+            before, impulse = side.before, math.hypot(side.impulse_x, side.impulse_y)
+            # A difference of two products of a lever and an impulse: some eps of these.
+            assert before.yaw_inertia * side.delta_yaw_rate == pytest.approx(side.moment_arm * impulse, abs=1e-13 * 3 * impulse)
+            k = math.sqrt(before.yaw_inertia / before.mass)
+            assert side.gamma == pytest.approx(k * k / (k * k + side.moment_arm**2), rel=1e-14)
+            if friction == 0.0:
+                assert side.normal_arm == pytest.approx(side.moment_arm, abs=1e-15)
+                # The paper's eq 13 with r.
+                assert side.delta_yaw_rate == pytest.approx(
+                    side.normal_arm * impact.normal_impulse / before.yaw_inertia, rel=1e-13
+                )
+        assert impact.a.gamma < 1.0
+        # The impulse does its work against both masses, each lessened by gamma: E = P^2 (1/(g1 m1) + 1/(g2 m2)) / 2.
+        if friction == 0.0:
+            felt = [side.gamma * side.before.mass for side in (impact.a, impact.b)]
+            absorbed = (1.2 * impact.compression_impulse) ** 2 * sum(0.5 / mass for mass in felt) / 1.44
+            assert absorbed == pytest.approx(impact.energy_absorbed, rel=1e-13)
+    wall = col.eccentric(a, col.Vehicle.barrier(), 0.2, normal=0.0, point=(0.1, 0.3), friction=0.0)
+    assert wall.b.gamma is None
+    assert wall.b.moment_arm is None
+    stiff = col.eccentric(
+        a.replace(yaw_inertia=math.inf), b.replace(mass=math.inf), 0.2, normal=0.0, point=(0.1, 0.3), friction=0.0
+    )
+    assert (stiff.a.gamma, stiff.b.gamma) == (1.0, 0.0)
+    assert stiff.a.moment_arm != 0.0
+    flat = SCENES[1]
+    assert flat.a.moment_arm is flat.a.gamma is flat.a.normal_arm is flat.a.q.gamma is None
+    many = col.eccentric(
+        a.replace(vx=np.array([20.0, -9.0])), b, 0.2, normal=0.0, point=(0.1, 0.3), friction=0.1, on_failure="nan"
+    )
+    assert np.isnan([many.a.gamma[1], many.a.moment_arm[1], many.a.normal_arm[1]]).all()
+    assert np.isfinite([many.a.gamma[0], many.a.moment_arm[0], many.a.normal_arm[0]]).all()
 
 
 def test_linear_attributes():

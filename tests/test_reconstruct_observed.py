@@ -457,10 +457,13 @@ def test_closing_speed_of_forward_impacts():
                 assert solve(mass_a, mass_b, e, **{name: side.delta_v}) == pytest.approx(g, rel=8 * EPS)
         assert solve(mass_a, mass_b, e, energy_loss=impact.energy_loss) == pytest.approx(g, rel=8 * EPS / (1 - e))
         share = 0.0 if math.isinf(mass_a) else 1.0 if math.isinf(mass_b) else rng.random()
-        ees_a, ees_b = impact.ees(share)
+        names = ("max_crush_speed_a", "max_crush_speed_b")
+        crush = dict(zip(names, impact.max_crush_speeds(share), strict=True))
         for other in (e, 0.0, lambda v: 0.3):
             # Absorbed at maximum crush, before restitution: e does not matter.
-            assert solve(mass_a, mass_b, other, ees_a=ees_a, ees_b=ees_b) == pytest.approx(g, rel=12 * EPS)
+            assert solve(mass_a, mass_b, other, **crush) == pytest.approx(g, rel=12 * EPS)
+        ees_a, ees_b = impact.ees(share)
+        assert solve(mass_a, mass_b, e, ees_a=ees_a, ees_b=ees_b) == pytest.approx(g, rel=12 * EPS / (1 - e))
 
 
 def test_absorbed_is_not_dissipated():
@@ -533,12 +536,13 @@ INLINE = [
     ("not_positive", (0, 1, 0.1), {"delta_v_a": 1}, ["mass_a must be > 0"]),
     ("not_finite", (1, 1, 0.1), {"delta_v_a": INF}, ["delta_v_a must be finite"]),
     ("bad_units", (1, 1, 0.1), {"energy_loss": "5 m/s"}, ["energy_loss: '5 m/s'"]),
+    ("undetermined", (1, 1, 1.0), {"ees_a": 5, "ees_b": 5}, ["loses no energy", "give a delta-V"]),
     ("undetermined", (1, 1, 1.0), {"energy_loss": 5}, ["loses no energy", "give a delta-V"]),
     ("infinite_mass", (INF, 1, 0.1), {"delta_v_a": 5}, ["delta_v_a is that of an infinite mass", "other vehicle"]),
     ("infinite_mass", (1, INF, cipriani), {"delta_v_b": 5}, ["delta_v_b is that of an infinite mass"]),
     ("immovable", (INF, INF, 0.1), {"energy_loss": 5}, ["both masses are infinite"]),
     ("immovable", (INF, INF, cipriani), {"energy_loss": 5}, ["both masses are infinite"]),
-    ("contradictory", (INF, 1, 0.1), {"ees_a": 5, "ees_b": 5}, ["ees of an infinite mass is 0"]),
+    ("contradictory", (INF, 1, 0.1), {"ees_a": 5, "ees_b": 5}, ["an infinite mass has an equivalent speed of 0"]),
     ("contradictory", (1, 1, lambda v: 1.0), {"energy_loss": 5}, ["no closing speed has the restitution"]),
     ("bad_shape", (1, np.ones(2), cipriani), {"delta_v_a": 5}, ["single cases", "call once for each"]),
     ("bad_shape", (np.ones(3), np.ones(2), 0.1), {"delta_v_a": 5}, ["mass_a (3,), mass_b (2,)"]),

@@ -18,7 +18,7 @@ from scenes import LAWS, RULES
 VALUES = {"friction": (0.0, 0.3, 0.8, math.inf), "impulse_ratio": (-0.4, 0.3), "critical_fraction": (0.0, 0.3, 0.7, 1.0)}
 PAIRS = [
     pair
-    for pair in itertools.combinations(("speed_a", "speed_b", "delta_v_a", "delta_v_b", "energy_loss", "ees"), 2)
+    for pair in itertools.combinations(("speed_a", "speed_b", "delta_v_a", "delta_v_b", "energy_loss", "crush"), 2)
     if pair not in (("speed_a", "speed_b"), ("delta_v_a", "delta_v_b"))
 ]
 A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0)
@@ -67,7 +67,9 @@ def knowledge(impact, pair, share=0.4):
     """The named two, from a forward answer."""
     found = {}
     for kind in pair:
-        if kind == "ees":
+        if kind == "crush":
+            found["max_crush_speed_a"], found["max_crush_speed_b"] = impact.max_crush_speeds(share)
+        elif kind == "ees":
             found["ees_a"], found["ees_b"] = impact.ees(share)
         elif kind.startswith("speed"):
             found[kind] = getattr(impact, kind[-1]).before.speed
@@ -115,10 +117,10 @@ def check_roots(found, known, courses, contact):
             again = col.eccentric(root.a.before, root.b.before, root.restitution, **contact)
         # Newton's method ends within rounding of a root; a double one at the square root of it.
         for kind, value in known.items():
-            if kind == "ees_b":
+            if kind == "max_crush_speed_b":
                 continue
-            if kind == "ees_a":
-                absorbed = sum(0.5 * getattr(root, s).before.mass * known[f"ees_{s}"] ** 2 for s in "ab")
+            if kind == "max_crush_speed_a":
+                absorbed = sum(0.5 * getattr(root, s).before.mass * known[f"max_crush_speed_{s}"] ** 2 for s in "ab")
                 assert again.energy_absorbed == pytest.approx(absorbed, rel=1e-9)
             elif kind.startswith("speed"):
                 side = getattr(again, kind[-1]).before
@@ -143,7 +145,7 @@ def roots_of_a_scan(impact, courses, contact, known):
     """
     one = {"speed_a": "speed_b", "speed_b": "speed_a"}
     fixed = next((kind for kind in known if kind in one), None)
-    other = [kind for kind in known if kind not in ("ees_b", fixed)]
+    other = [kind for kind in known if kind not in ("max_crush_speed_b", fixed)]
 
     def run(speed_a, speed_b):
         a, b = (
@@ -153,7 +155,7 @@ def roots_of_a_scan(impact, courses, contact, known):
         return col.eccentric(a, b, impact.restitution, on_failure="nan", **contact)
 
     def seen(found, kind):
-        if kind == "ees_a":
+        if kind == "max_crush_speed_a":
             return found.energy_absorbed / sum(0.5 * getattr(impact, s).before.mass * known[f"ees_{s}"] ** 2 for s in "ab")
         value = getattr(found, kind[-1]).delta_v ** 2 if kind.startswith("delta_v") else found.energy_loss
         return value / (known[kind] ** 2 if kind.startswith("delta_v") else known[kind])
@@ -186,7 +188,7 @@ def test_the_true_speeds_are_found(pair):
             assert refusal.code == "undetermined", (impact, contact, refusal)
             assert not {"speed_a", "speed_b"} & set(pair)
             slipless = impact.tangential_impulse == 0.0
-            assert slipless or set(pair) in ({"delta_v_a", "ees"}, {"delta_v_b", "ees"}), contact
+            assert slipless or set(pair) in ({"delta_v_a", "crush"}, {"delta_v_b", "crush"}), contact
             continue
         check_roots(found, known, courses, contact)
         best = min(found, key=lambda root: off(root, impact))
@@ -232,13 +234,13 @@ def test_two_roots_close_together():
 def test_a_parked_car_needs_no_course():
     """A course of None goes with a known speed of 0; a barrier too."""
     impact = col.eccentric(A.replace(vx=12.0), B, 0.1, **CONTACT)
-    for pair in (("speed_b", "delta_v_a"), ("speed_b", "energy_loss"), ("speed_b", "ees")):
+    for pair in (("speed_b", "delta_v_a"), ("speed_b", "energy_loss"), ("speed_b", "crush")):
         (found,) = speeds(A, B, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, **knowledge(impact, pair))
         assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
         assert found.b.before.speed == 0.0
     wall = col.Vehicle.barrier()
     impact = col.eccentric(A.replace(vx=12.0), wall, 0.1, **CONTACT)
-    known = {"speed_b": 0.0, "ees_a": math.sqrt(2 * impact.energy_absorbed / A.mass), "ees_b": 0.0}
+    known = {"speed_b": 0.0, "max_crush_speed_a": math.sqrt(2 * impact.energy_absorbed / A.mass), "max_crush_speed_b": 0.0}
     (found,) = speeds(A, wall, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, **known)
     assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
     (found,) = speeds(A, wall, course_a=0.0, course_b=None, restitution=0.1, **CONTACT, speed_b=0.0, delta_v_a=impact.a.delta_v)
@@ -246,15 +248,38 @@ def test_a_parked_car_needs_no_course():
 
 
 def test_dissipated_and_absorbed_energy_differ_by_restitution():
-    """Without friction the energy dissipated is 1 - e**2 of that absorbed at maximum crush, which the EES stand for."""
+    """Without friction the energy dissipated is 1 - e**2 of that absorbed at maximum crush, which the speeds of maximum crush stand for."""
     contact = {**CONTACT, "friction": 0.0}
     for e in (0.0, 0.1, 0.4):
         impact = col.eccentric(A.replace(vx=12.0), B, e, **contact)
         absorbed = impact.energy_loss / (1 - e * e)
         ees = math.sqrt(2 * absorbed / (A.mass + B.mass))
-        known = {"speed_b": 0.0, "ees_a": ees, "ees_b": ees}
+        known = {"speed_b": 0.0, "max_crush_speed_a": ees, "max_crush_speed_b": ees}
         (found,) = speeds(A, B, course_a=0.0, course_b=None, restitution=e, **contact, **known)
         assert found.a.before.vx == pytest.approx(12.0, rel=1e-13)
+
+
+def test_both_ees_are_the_energy_lost():
+    """By ISO 12353 they stand for the energy dissipated: the roots are those of that energy, whatever the share."""
+    for impact, courses, contact in forward_scenes(3, 12):
+        if impact.energy_loss < 0.2 * impact.energy_absorbed:
+            continue
+        for other in ("speed_a", "delta_v_b"):
+            by_energy, refusal = attempt(asked, impact, courses, contact, **knowledge(impact, (other, "energy_loss")))
+            by_ees, also = attempt(asked, impact, courses, contact, **knowledge(impact, (other, "ees"), share=0.7))
+            if by_energy is None:
+                assert also.code == refusal.code
+                continue
+            assert len(by_ees) == len(by_energy)
+            # The energy of both is rounded in its last digits, which friction at its least loss takes the square root of.
+            assert min(off(one, impact) for one in by_ees) < 1e-6
+            assert by_ees[0].reconstruction.known == (other, "ees_a")
+    # Taken for the speeds of maximum crush at e = 0.3 they read 5 percent low: sqrt(1 - e^2).
+    impact = col.eccentric(A.replace(vx=12.0), B, 0.3, **{**CONTACT, "friction": 0.0})
+    given = {"course_a": 0.0, "course_b": None, "restitution": 0.3, **{**CONTACT, "friction": 0.0}, "speed_b": 0.0}
+    ees = dict(zip(("max_crush_speed_a", "max_crush_speed_b"), impact.ees(0.5), strict=True))
+    (low,) = speeds(A, B, **given, **ees)
+    assert low.a.before.vx == pytest.approx(12.0 * math.sqrt(1 - 0.09), rel=1e-12)
 
 
 def test_parallel_courses():
@@ -269,9 +294,9 @@ def test_parallel_courses():
 
 
 def test_a_slip_that_stays_open():
-    """Where the contact slides, delta-V and EES tell of the closing speed alone."""
+    """Where the contact slides, delta-V and speeds of maximum crush tell of the closing speed alone."""
     assert HIT.regime == "sliding"
-    for pair in (("delta_v_a", "ees"), ("delta_v_b", "ees")):
+    for pair in (("delta_v_a", "crush"), ("delta_v_b", "crush")):
         with pytest.raises(col.NoSolutionError, match="leave the slip open") as caught:
             speeds(A, B, **COURSES, restitution=0.1, **CONTACT, **knowledge(HIT, pair))
         assert caught.value.code == "undetermined"
@@ -301,7 +326,7 @@ def falling(closing):
     "pair",
     [
         ("speed_a", "delta_v_b"),
-        *(pytest.param(pair, marks=pytest.mark.slow) for pair in (("speed_b", "energy_loss"), ("speed_b", "ees"))),
+        *(pytest.param(pair, marks=pytest.mark.slow) for pair in (("speed_b", "energy_loss"), ("speed_b", "crush"))),
         pytest.param(("delta_v_a", "energy_loss"), marks=pytest.mark.slow),
     ],
 )
@@ -357,10 +382,10 @@ def test_functions_that_cannot_be_used():
 
 @pytest.mark.slow
 def test_a_function_that_leaves_the_slip_open():
-    """A sliding contact with delta-V and EES: undetermined for a function as for a number."""
+    """A sliding contact with delta-V and speeds of maximum crush: undetermined for a function as for a number."""
     impact = col.eccentric(HIT.a.before, HIT.b.before, falling(HIT.closing_speed), **CONTACT)
     with pytest.raises(col.NoSolutionError) as caught:
-        speeds(A, B, **COURSES, restitution=falling, **CONTACT, **knowledge(impact, ("delta_v_a", "ees")))
+        speeds(A, B, **COURSES, restitution=falling, **CONTACT, **knowledge(impact, ("delta_v_a", "crush")))
     assert caught.value.code == "undetermined"
 
 
@@ -370,7 +395,11 @@ def test_a_function_that_leaves_the_slip_open():
 def sensitivity(ask, known):
     """Finite differences of the whole call: what relative changes of each known move, of the speed they move most."""
     step, moved = 1e-4, np.zeros(2)
-    names = [("ees_a", "ees_b") if kind == "ees_a" else (kind,) for kind in known if kind != "ees_b"]
+    names = [
+        ("max_crush_speed_a", "max_crush_speed_b") if kind == "max_crush_speed_a" else (kind,)
+        for kind in known
+        if kind != "max_crush_speed_b"
+    ]
     middle = ask(**known)
     for group in names:
         ends = [ask(**{**known, **{name: known[name] * (1 + change) for name in group}}) for change in (step, -step)]
@@ -389,7 +418,7 @@ def steep(closing):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.1, steep], ids=["number", "steep"])
-@pytest.mark.parametrize("pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_a", "ees"), ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
+@pytest.mark.parametrize("pair", [("speed_a", "delta_v_b"), ("speed_b", "energy_loss"), ("speed_a", "crush"), ("delta_v_b", "energy_loss")], ids="-".join)  # fmt: skip
 def test_the_condition_is_that_of_the_whole_call(pair, restitution):
     """With finite differences of answers, whose curvature leaves 1e-8 and rounding 1e-12 / 1e-4 of them: to 1e-5.
 
@@ -435,7 +464,8 @@ REFUSED = [
     ("too_few_knowns", col.InputError, {"delta_v_b": None}, "give 1 of"),
     ("too_many_knowns", col.InputError, {"energy_loss": 5e4}, "leave out 1"),
     ("too_many_knowns", col.InputError, {"delta_v_b": None, "speed_b": 10.0}, "eccentric"),
-    ("one_ees", col.InputError, {"delta_v_b": None, "ees_b": 10.0}, "both ees_a and ees_b"),
+    ("same_information", col.InputError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "ees_a": 5.0, "ees_b": 5.0}, "tell the same, the energy dissipated"),
+    ("one_ees", col.InputError, {"delta_v_b": None, "max_crush_speed_b": 10.0}, "both max_crush_speed_a and max_crush_speed_b"),
     ("same_information", col.InputError, {"speed_a": None, "delta_v_a": 1.1 * HIT.a.delta_v}, "differ by 9.1%"),
     ("missing_course", col.MissingInputError, {"course_b": None}, "course_b is None"),
     ("missing_course", col.MissingInputError, {"course_a": None}, "course_a is None"),
@@ -449,7 +479,7 @@ REFUSED = [
     ("infinite_mass", col.NoSolutionError, {"b": col.Vehicle.barrier(), "course_b": None, "speed_a": None, "speed_b": 0.0}, "delta_v_b is that of an infinite mass, whose motion tells nothing of the impact; give delta_v_a"),
     ("contradictory", col.NoSolutionError, {"course_a": math.pi, "course_b": math.pi / 2}, "check the courses, and the normal, which must point from A into B"),
     ("contradictory", col.NoSolutionError, {"friction": None, "impulse_ratio": 50.0}, "with this restitution, impulse_ratio and geometry"),
-    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "ees_a": 5.0, "ees_b": 5.0, "restitution": 1.0, "friction": 0.0}, "fit energy_loss = 1000 J and ees_a = 5 m/s and ees_b = 5 m/s with"),
+    ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": None, "energy_loss": 1e3, "max_crush_speed_a": 5.0, "max_crush_speed_b": 5.0, "restitution": 1.0, "friction": 0.0}, "fit energy_loss = 1000 J and max_crush_speed_a = 5 m/s and max_crush_speed_b = 5 m/s with"),
     ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 0.0}, "fit delta_v_b = 0 m/s and energy_loss = 0 J with"),
     ("contradictory", col.NoSolutionError, {"speed_a": None, "delta_v_b": 0.0, "energy_loss": 1e3}, "or give another known in place of one of these"),
     ("contradictory", col.NoSolutionError, {"speed_a": 200.0, "delta_v_b": 0.5, "course_b": math.pi / 2}, "no speeds along these courses fit speed_a = 200 m/s and delta_v_b = 0.5 m/s with this restitution, friction"),
@@ -480,7 +510,7 @@ def test_a_function_is_refused_as_its_number():
 @pytest.mark.parametrize("size", [1e-150, 1e-100, 1e-30, 1e30, 1e75, 1e100])
 def test_very_small_and_very_large_speeds(size):
     """Speeds scale with what is known, energies with its square; nothing in between overflows or vanishes."""
-    for pair in (("speed_a", "delta_v_b"), ("delta_v_b", "energy_loss"), ("speed_b", "ees")):
+    for pair in (("speed_a", "delta_v_b"), ("delta_v_b", "energy_loss"), ("speed_b", "crush")):
         known = knowledge(HIT, pair)
         plain = solve_back(HIT, list(COURSES.values()), CONTACT, **known)
         scaled = {kind: value * size * (size if kind == "energy_loss" else 1.0) for kind, value in known.items()}
@@ -555,7 +585,7 @@ ELASTIC = [
 
 
 @pytest.mark.parametrize("loss", [0.0, 1e-12, 5e-10])
-@pytest.mark.parametrize("known", [{"speed_a": 20.0}, {"delta_v_a": 20.0}, {"ees_a": 5.0, "ees_b": 5.0}], ids=lambda known: next(iter(known)))  # fmt: skip
+@pytest.mark.parametrize("known", [{"speed_a": 20.0}, {"delta_v_a": 20.0}, {"max_crush_speed_a": 5.0, "max_crush_speed_b": 5.0}], ids=lambda known: next(iter(known)))  # fmt: skip
 @pytest.mark.parametrize("elastic", ELASTIC, ids=str)
 def test_a_loss_within_rounding_tells_nothing(elastic, known, loss):
     """Where a range of speeds loses 0 J, so does every speed of it within the 1e-9 J that eps of 1e5 J and more comes to."""
@@ -651,10 +681,10 @@ def test_a_loss_touching_its_least_is_found():
         ({"speed_a": np.array([20.0, -20.0]), "delta_v_b": 7.0}, -1),
         ({"speed_b": np.array([-10.0, 10.0]), "delta_v_b": 7.0}, 0),
         ({"speed_a": 20.0, "energy_loss": np.array([6e4, -6e4])}, -1),
-        ({"speed_a": 20.0, "ees_a": np.array([7.0, -7.0]), "ees_b": 7.0}, -1),
-        ({"speed_a": 20.0, "ees_a": 7.0, "ees_b": np.array([-7.0, 7.0])}, 0),
+        ({"speed_a": 20.0, "max_crush_speed_a": np.array([7.0, -7.0]), "max_crush_speed_b": 7.0}, -1),
+        ({"speed_a": 20.0, "max_crush_speed_a": 7.0, "max_crush_speed_b": np.array([-7.0, 7.0])}, 0),
     ],
-    ids=["delta_v_b", "delta_v_a", "speed_a", "speed_b", "energy_loss", "ees_a", "ees_b"],
+    ids=["delta_v_b", "delta_v_a", "speed_a", "speed_b", "energy_loss", "max_crush_speed_a", "max_crush_speed_b"],
 )
 def test_negative_lanes_are_refused(known, wrong):
     """As contradictory, counted in one warning; the case beside it is answered as by itself."""
@@ -789,7 +819,7 @@ def test_units_single_precision_and_records():
 
 
 @pytest.mark.parametrize("turned", [0.0, math.pi / 2, -math.pi / 2, 0.7])
-@pytest.mark.parametrize("known", ["delta_v_a", "delta_v_b", "ees", "energy_loss"])
+@pytest.mark.parametrize("known", ["delta_v_a", "delta_v_b", "crush", "energy_loss"])
 @pytest.mark.parametrize("law", LAWS)
 def test_a_right_angle_in_radians(turned, known, law):
     """The cosine of pi/2 is 6e-17: no impact at 1e16 m/s is an answer, and none makes the right one doubtful."""
@@ -803,8 +833,8 @@ def test_a_right_angle_in_radians(turned, known, law):
     courses = {"course_a": turned, "course_b": turned + math.pi / 2}
     hit = col.eccentric(a.replace(vx=10 * c, vy=10 * s), b.replace(vx=-3 * s, vy=3 * c), **contact)
     given = {"speed_a": 10.0}
-    if known == "ees":
-        given |= dict(zip(("ees_a", "ees_b"), hit.ees(0.5), strict=True))
+    if known == "crush":
+        given |= dict(zip(("max_crush_speed_a", "max_crush_speed_b"), hit.max_crush_speeds(0.5), strict=True))
     else:
         given[known] = hit.energy_loss if known == "energy_loss" else getattr(hit, known[-1]).delta_v
     with warnings.catch_warnings():

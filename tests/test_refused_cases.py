@@ -115,7 +115,12 @@ def methods(**numbers: Any) -> Any:
     """What the methods of an impact give."""
     share, place = numbers.pop("share_a"), pair(numbers, "place")
     impact = forward("eccentric")(**numbers)
-    return {"ees": impact.ees(share), "a": impact.a.delta_v_at(place), "b": impact.b.delta_v_at(place)}
+    return {
+        "ees": impact.ees(share),
+        "crush": impact.max_crush_speeds(share),
+        "a": impact.a.delta_v_at(place),
+        "b": impact.b.delta_v_at(place),
+    }
 
 
 def central(**numbers: Any) -> Any:
@@ -302,6 +307,7 @@ def calls() -> Iterator[tuple[str, Call]]:
         {"speed_a": 15.0, "energy_loss": 9e4},
         {"delta_v_b": 7.0, "energy_loss": 6e4},
         {"speed_b": 4.0, "ees_a": 6.0, "ees_b": 5.0},
+        {"speed_b": 4.0, "max_crush_speed_a": 6.0, "max_crush_speed_b": 5.0},
     )
     still = {name: value for name, value in free.items() if not name.endswith((".vx", ".vy"))}
     # The slowest of all, so each pair has one rule.

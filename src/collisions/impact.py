@@ -215,25 +215,40 @@ class Impact(Frozen):
 
     @returns("m/s")
     def ees(self, share_a: Input) -> tuple[Value, Value]:
-        """Energy equivalent speeds (A, B) [m/s] when A took up this share of ``energy_absorbed`` and B the rest.
+        """Energy equivalent speeds (A, B) [m/s] by ISO 12353, when A dissipated this share of ``energy_loss`` and B the rest.
 
-        The speed at which the vehicle alone would take up as much energy at maximum crush against a rigid wall. There is no
-        default share: momentum does not tell how the energy was divided. An infinite mass has 0.
+        The speed at which the vehicle alone would dissipate as much against a fixed rigid object: what is left of it after
+        restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no default share: momentum does not tell how
+        the energy was divided. An infinite mass has 0, and NaN stands where energy was gained. Beside it,
+        ``max_crush_speeds`` stands for the energy at maximum crush, which is more.
 
         Examples
         --------
         >>> import collisions as col
-        >>> impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
-        >>> impact.ees(0.5)
-        (10.0, 10.0)
+        >>> impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.6)
+        >>> impact.ees(0.5), impact.max_crush_speeds(0.5)
+        ((8.0, 8.0), (10.0, 10.0))
         """
+        # A loss of 0 may be off by rounding.
+        return self._shared(share_a, select(self.ok, select(self.energy_loss > 0.0, self.energy_loss, 0.0), math.nan))
+
+    @returns("m/s")
+    def max_crush_speeds(self, share_a: Input) -> tuple[Value, Value]:
+        """Speeds (A, B) [m/s] of maximum crush, when A took up this share of ``energy_absorbed`` and B the rest.
+
+        The speed at which the vehicle alone would take up as much energy at maximum crush against a rigid wall, before
+        restitution gives a part back. Some authors call this one EES; by ISO 12353 that is ``ees``.
+        """
+        return self._shared(share_a, self.energy_absorbed)
+
+    def _shared(self, share_a: Input, energy: Value) -> tuple[Value, Value]:
+        """The speeds of both vehicles at which each has its share of an energy."""
         reader = ArgumentReader()
         share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
         if isinstance(share, np.ndarray) and UNIT_INTERVAL.faults[0][0](share).any():
             reader.refuse(InputError("share_a must be from 0 to 1 in every case", code="bad_fraction", argument="share_a"))
         reader.close()
-        energy = self.energy_absorbed
-        broadcast({"share_a": share, "energy_absorbed": energy})
+        broadcast({"share_a": share, "energy": energy})
         xp = numeric(energy, share)
         with np.errstate(all="ignore"):
             return (

@@ -12,7 +12,7 @@ from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .model_choice import ModelChoice
-from .quantities import Frozen, Quantities, attributes, derived, hypot, returns, show, table
+from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, table
 from .reading import ArgumentReader, broadcast, widened
 from .units import Pair, Value
 from .vehicle import Vehicle, missing, moved, turn_at
@@ -135,6 +135,37 @@ class Side(Frozen):
             return (np.rint(hours) - 1.0) % 12.0 + 1.0
         return hours if math.isnan(hours) else (round(hours) - 1) % 12 + 1
 
+    @derived("m")
+    def moment_arm(self) -> Value | None:
+        """Moment arm h of the resultant contact impulse about the centre of mass [m], positive if it turns counter-clockwise.
+
+        Times the impulse it is the moment; NaN without an impulse. None without a contact point or a position.
+        """
+        return self._arm(self.impulse_x, self.impulse_y)
+
+    @derived("m")
+    def normal_arm(self) -> Value | None:
+        """Moment arm of the normal impulse alone about the centre of mass [m], signed as ``moment_arm`` (r of eq 13)."""
+        nx, ny = self._inputs.normal
+        answered = 0.0 * self._answer.normal_impulse
+        towards = 1.0 if self._index else -1.0
+        return self._arm(towards * nx + answered, towards * ny + answered)
+
+    @derived("")
+    def gamma(self) -> Value | None:
+        """Share of the mass that acts at the impulse, k^2/(k^2 + h^2), with k the radius of gyration and h ``moment_arm``.
+
+        The CRASH programs' mass reduction factor: 1 for an impulse through the centre of mass, or a body that cannot turn.
+        None without ``moment_arm`` or yaw inertia.
+        """
+        h, inertia = self.moment_arm, self.before.yaw_inertia
+        if h is None or inertia is None:
+            return None
+        central = (h == 0.0) | (numeric(inertia).isinf(inertia) & (h == h))
+        with np.errstate(all="ignore"):
+            found: Value = select(central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia)))
+        return found
+
     @derived("J")
     def kinetic_energy_change(self) -> Value:
         """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
@@ -187,14 +218,31 @@ class Side(Frozen):
         vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
         return vx, vy, dvx, dvy
 
+    def _arm(self, x: Value, y: Value) -> Value | None:
+        """Arm of a vector through the contact point about the centre of mass, counter-clockwise."""
+        place, before = self._inputs.point, self.before
+        if place is None or before.x is None or before.y is None:
+            return None
+        px, py, cx, cy = widened((*place, before.x, before.y), (self.delta_vx,))
+        size = hypot(x, y)
+        with np.errstate(all="ignore"):
+            size = select(size == 0.0, math.nan, size)
+            arm: Value = (px - cx) * (y / size) - (py - cy) * (x / size)
+        return arm
+
     def _own_axes(self, x: Value, y: Value) -> tuple[Value | None, Value | None]:
         if self.before.heading is None:
             return None, None
         c, s = Angle(self.before.heading, False).beside((x, y)).direction
         return c * x + s * y, c * y - s * x
 
-    def _missing(self, name: str) -> MissingInputError:
-        return missing(self.before, "heading", name, "ab"[self._index])
+    def _missing(self, name: str) -> MissingInputError | None:
+        if name not in ("moment_arm", "normal_arm", "gamma"):
+            return missing(self.before, "heading", name, "ab"[self._index])
+        lacking = [field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None]
+        if self._inputs.point is None or not lacking:
+            return None
+        return missing(self.before, lacking[0], name, "ab"[self._index])
 
     def _pivot_impulse(self, dv: Value, impulse: Value) -> Value:
         return 0.0 * impulse + 0.0 if self.before.pivot is None else self.before.mass * dv - impulse

@@ -24,7 +24,8 @@ _KNOWN = {
     "delta_v_a": "delta-V of A",
     "delta_v_b": "delta-V of B",
     "energy_loss": "energy lost",
-    "ees_a": "EES of both",
+    "ees_a": "EES of both (ISO 12353)",
+    "max_crush_speed_a": "speeds of maximum crush of both",
 }
 
 
@@ -199,8 +200,13 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
             page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)
-    if "energy_loss" in known:
-        page.say(f"The energy lost, known: {page.shown(s.loss)}.")
-    if "ees_a" in known:
+    for name, what in (("energy_loss", "energy lost"), ("ees_a", "energy of both EES, the one lost")):
+        if name in known:
+            page.say(f"The {what}, known: {page.shown(s.loss)}.")
+    if "max_crush_speed_a" in known:
         absorbed = Symbol("E_c", s.impact.energy_absorbed, "energy")
-        page.equation("Energy of both EES, known, absorbed along the normal", absorbed, HALF * s.closing * s.compression)
+        page.equation(
+            "Energy of both speeds of maximum crush, known, absorbed along the normal",
+            absorbed,
+            HALF * s.closing * s.compression,
+        )

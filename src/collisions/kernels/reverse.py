@@ -41,7 +41,7 @@ def inline_speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: An
         return [(closing, restitution * closing)]
     squared = 2.0 * known["energy_loss"] / reduced
     if len(v) == 1:
-        closing = losing_speed(known["energy_loss"], reduced, restitution)
+        closing = losing_speed(known["energy_loss"] / reduced, restitution)
         return [(closing, restitution * closing)]
     return _from_energy(v, share_a, share_b, squared, eps)
 
@@ -73,20 +73,16 @@ def moving_apart(known: dict[str, Any], share_a: Any, share_b: Any) -> Any:
     return (difference < 0.0) & (p > 0.0) & (p >= -q)
 
 
-def losing_speed(loss: Any, reduced: Any, restitution: Any) -> Any:
-    """Closing speed that dissipates an energy (eq 8)."""
-    return np.sqrt(2.0 * loss / reduced / ((1.0 - restitution) * (1.0 + restitution)))
+def losing_speed(loss_per_mass: Any, restitution: Any) -> Any:
+    """Closing speed that dissipates an energy per reduced mass (eq 8)."""
+    return np.sqrt(2.0 * loss_per_mass / ((1.0 - restitution) * (1.0 + restitution)))
 
 
-def absorbed_energy(mass_a: Any, ees_a: Any, mass_b: Any, ees_b: Any) -> Any:
-    """Energy that both EES stand for: that at maximum crush, of which an infinite mass takes up none."""
-    parts = [np.where(ees == 0.0, 0.0, 0.5 * mass * (ees * ees)) for mass, ees in ((mass_a, ees_a), (mass_b, ees_b))]
+def energy_of_speeds(mass_a: Any, speed_a: Any, mass_b: Any, speed_b: Any) -> Any:
+    """Energy that two equivalent speeds stand for, of which an infinite mass has none."""
+    pairs = (mass_a, speed_a), (mass_b, speed_b)
+    parts = [np.where(speed == 0.0, 0.0, 0.5 * mass * (speed * speed)) for mass, speed in pairs]
     return parts[0] + parts[1]
-
-
-def absorbing_speed(mass_a: Any, ees_a: Any, mass_b: Any, ees_b: Any, reduced: Any) -> Any:
-    """Closing speed that takes up the energy of both EES at maximum crush."""
-    return np.sqrt(2.0 * absorbed_energy(mass_a / reduced, ees_a, mass_b / reduced, ees_b))
 
 
 def changing_speed(delta_v: Any, share: Any, restitution: Any) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -28,31 +28,39 @@ from ..warning import quietly
 forward: Callable[..., Any] = eccentric
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # Prefixes of the names of numbers that cannot be below 0.
-_AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_")
+_AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_", "max_crush")
+# Known values of both vehicles that count as one.
+PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
 # For functions whose result has no status.
 ASK_ALONE = "asked alone, each says why"
 
 
+def counted(given: Iterable[str]) -> tuple[str, ...]:
+    """The names of known values without the second of each pair that counts as one."""
+    return tuple(name for name in given if name not in PAIRS.values())
+
+
 def exactly(known: dict[str, Any], count: int, what: str) -> dict[str, Any]:
-    """The known values that were given; refused unless there are exactly as many as needed. The two EES count as one."""
+    """The known values that were given; refused unless there are exactly as many as needed. A pair counts as one."""
     given = {name: value for name, value in known.items() if value is not None}
-    if ("ees_a" in given) != ("ees_b" in given):
-        raise InputError(
-            "give both ees_a and ees_b, or neither; that of an infinite mass is 0", code="one_ees", argument="ees_a"
-        )
-    counted = [name for name in given if name != "ees_b"]
-    if len(counted) == count:
+    for one, other in PAIRS.items():
+        if (one in given) != (other in given):
+            raise InputError(
+                f"give both {one} and {other}, or neither; that of an infinite mass is 0", code="one_ees", argument=one
+            )
+    names = counted(given)
+    if len(names) == count:
         return given
-    words = {name: "ees_a with ees_b" if name == "ees_a" else name for name in known if name != "ees_b"}
+    words = {name: f"{name} with {PAIRS[name]}" if name in PAIRS else name for name in counted(known)}
     missing = ", ".join(word for name, word in words.items() if name not in given)
-    more = len(counted) > count
-    advice = f"leave out {len(counted) - count}" if more else f"give {count - len(counted)} of {missing}"
+    more = len(names) > count
+    advice = f"leave out {len(names) - count}" if more else f"give {count - len(names)} of {missing}"
     raise InputError(
-        f"{what} takes exactly {count} of {', '.join(words.values())}; got {len(counted)} ({', '.join(counted) or 'none'}): "
+        f"{what} takes exactly {count} of {', '.join(words.values())}; got {len(names)} ({', '.join(names) or 'none'}): "
         f"{advice}",
         code="too_many_knowns" if more else "too_few_knowns",
-        argument=", ".join(counted),
-        given=tuple(counted),
+        argument=", ".join(names),
+        given=names,
     )
 
 

@@ -58,8 +58,9 @@ def crush_energy(
     Returns
     -------
     float or array [J]
-        Energy absorbed at maximum crush as far as the residual profile shows it; what restitution gave back is not in it. NaN
-        for a refused case of a batch.
+        Energy that the stiffness stands for. Coefficients fitted to the speeds at which cars struck a barrier, as usual, give
+        the energy absorbed at maximum crush: that of ``max_crush_speed_a``. Where rebound was taken off in the fit, it is the
+        energy dissipated: that of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch.
 
     Raises
     ------

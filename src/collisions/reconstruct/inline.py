@@ -1,4 +1,4 @@
-"""``inline_closing_speed``: closing speed from one delta-V, an energy loss or both EES; central impacts only."""
+"""``inline_closing_speed``: closing speed from one delta-V or an energy; central impacts only."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, NoSolutionError
 from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
-from ..kernels.reverse import absorbing_speed, changing_speed, losing_speed
+from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
 from ..kernels.status import Status
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Value
-from .common import ASK_ALONE, Cases, exactly, input_faults, read_amounts, read_masses
+from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts, read_masses
 from .restitution_roots import RestitutionOf, crossings
 
 
@@ -30,8 +30,10 @@ def inline_closing_speed(
     energy_loss: Input | None = None,
     ees_a: Input | None = None,
     ees_b: Input | None = None,
+    max_crush_speed_a: Input | None = None,
+    max_crush_speed_b: Input | None = None,
 ) -> Value:
-    """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or both EES.
+    """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or two equivalent speeds.
 
     Only where the line of impact passes both centres of mass and nothing moves across it. In two oblique crash tests this
     shortcut reads 10 to 16 percent high from the whole delta-V and 17 to 24 percent from the whole energy loss (NHTSA 4363 and
@@ -48,7 +50,9 @@ def inline_closing_speed(
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated: what is left after restitution.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds, both: the energy absorbed at maximum crush, before restitution. That of an infinite mass is 0.
+        Energy equivalent speeds by ISO 12353, both: the energy dissipated. That of an infinite mass is 0.
+    max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
+        Speeds of maximum crush, both: the energy absorbed before restitution. That of an infinite mass is 0.
 
     Returns
     -------
@@ -77,6 +81,7 @@ def inline_closing_speed(
     7.2
     """
     known = {"delta_v_a": delta_v_a, "delta_v_b": delta_v_b, "energy_loss": energy_loss, "ees_a": ees_a, "ees_b": ees_b}
+    known |= {"max_crush_speed_a": max_crush_speed_a, "max_crush_speed_b": max_crush_speed_b}
     given = exactly(known, 1, "inline_closing_speed")
     kind = next(iter(given))
     reader = ArgumentReader()
@@ -95,9 +100,11 @@ def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
         if kind == "energy_loss":
-            return losing_speed(values["energy_loss"], reduced, values["restitution"])
-        if kind == "ees_a":
-            return absorbing_speed(values["mass_a"], values["ees_a"], values["mass_b"], values["ees_b"], reduced)
+            return losing_speed(values["energy_loss"] / reduced, values["restitution"])
+        if kind in PAIRS:
+            masses = [values[name] / reduced for name in ("mass_a", "mass_b")]
+            per_mass = energy_of_speeds(masses[0], values[kind], masses[1], values[PAIRS[kind]])
+            return losing_speed(per_mass, values["restitution"] if kind == "ees_a" else 0.0)
         return changing_speed(values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"])
 
 
@@ -109,6 +116,7 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
             (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), Status.IMMOVABLE),
             (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), Status.INFINITE_MASS),
             (~cases.beyond(speed), Status.OK),
+            (kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0), Status.UNDETERMINED),
             (True, Status.UNDETERMINED if kind == "energy_loss" else Status.CONTRADICTORY),
         )
     )
@@ -117,9 +125,9 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
         text = {
             Status.IMMOVABLE: "both masses are infinite; give at least one a finite mass",
             Status.INFINITE_MASS: f"{kind} is that of an infinite mass, which has none; give that of the other vehicle",
-            Status.UNDETERMINED: "restitution = 1 loses no energy, so energy_loss tells nothing of the closing speed; give a "
+            Status.UNDETERMINED: "restitution = 1 loses no energy, so the energy tells nothing of the closing speed; give a "
             "delta-V",
-        }.get(status, "these values give no finite closing speed; the ees of an infinite mass is 0")
+        }.get(status, "these values give no finite closing speed; an infinite mass has an equivalent speed of 0")
         raise error_of(status, text)
     if np.any(np.not_equal(status, Status.OK)):
         warn_of_refusals(status, ASK_ALONE)
@@ -134,7 +142,7 @@ def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: R
         return _closing_speed(kind, {**numbers, "restitution": e})
 
     def mismatch(e: Any) -> list[Any]:
-        # Both EES give the closing speed without e.
+        # Both speeds of maximum crush give the closing speed without e.
         return [function(np.broadcast_to(speed(e), np.shape(e))) - e]
 
     found = {float(speed(np.float64(e))) for _, e in crossings(mismatch)}

@@ -1,4 +1,4 @@
-"""``speeds``: both impact speeds from the geometry and two of: one speed, a delta-V, the energy dissipated, both EES."""
+"""``speeds``: both impact speeds from the geometry and two things that were found out."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair
 from ..vehicle import Vehicle, moved
 from ..warning import warn
-from .common import ASK_ALONE, Cases, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
+from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
 
@@ -49,6 +49,8 @@ def speeds(
     energy_loss: Input | None = None,
     ees_a: Input | None = None,
     ees_b: Input | None = None,
+    max_crush_speed_a: Input | None = None,
+    max_crush_speed_b: Input | None = None,
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from where and how they met and two things that were found out.
 
@@ -75,13 +77,15 @@ def speeds(
     law : str, optional
         How restitution acts and what no slip means, as for ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
-        A known speed, >= 0. Exactly two of the five kinds of knowledge.
+        A known speed, >= 0. Exactly two of the six kinds of knowledge.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
         A known delta-V, as from an event data recorder at the centre of mass. Not both: they tell the same.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, along the normal and by friction.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds of both: the energy absorbed along the normal at maximum crush, before restitution.
+        Energy equivalent speeds of both by ISO 12353: together they stand for the energy dissipated, so they replace it.
+    max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
+        Speeds of maximum crush of both: the energy absorbed along the normal at maximum crush, before restitution.
 
     Returns
     -------
@@ -124,6 +128,8 @@ def speeds(
             "energy_loss": energy_loss,
             "ees_a": ees_a,
             "ees_b": ees_b,
+            "max_crush_speed_a": max_crush_speed_a,
+            "max_crush_speed_b": max_crush_speed_b,
         },
         2,
         "speeds",
@@ -175,7 +181,7 @@ def speeds(
         _refuse_pairs(known, a, b)
         function = RestitutionOf(restitution, cases) if callable(restitution) else None
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, tuple(name for name in given if name != "ees_b"))
+        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, counted(given))
         found = _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function)
@@ -196,6 +202,12 @@ def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
             code="same_information",
             argument="delta_v_b",
             mismatch=apart,
+        )
+    if {"energy_loss", "ees_a"} <= known.keys():
+        raise InputError(
+            "energy_loss and both EES tell the same, the energy dissipated; give one of them and a speed or a delta-V",
+            code="same_information",
+            argument="ees_a",
         )
 
 
@@ -286,7 +298,7 @@ def _answers(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function)
-        origin = cases.provenance("speeds", scene.kinds, root.condition, count)
+        origin = cases.provenance("speeds", scene.names, root.condition, count)
         impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
         for speed in root[:2]:
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
@@ -319,9 +331,10 @@ def _refusal(scene: Scene, status: int, known: dict[str, Any], function: Restitu
     elif not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
         status = Status.PARALLEL_HEADINGS
         text = f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds"
-    elif status == Status.UNDETERMINED and "energy_loss" in known and scene.e > _ELASTIC:
+    elif status == Status.UNDETERMINED and "energy_loss" in scene.kinds and scene.e > _ELASTIC:
+        energy = values[scene.names[scene.kinds.index("energy_loss")]]
         text = (
-            f"many speeds along these courses lead to {values['energy_loss']} as far as rounding lets it tell, so it does not "
+            f"many speeds along these courses lead to {energy} as far as rounding lets it tell, so it does not "
             f"say which of them; give another of the knowns"
         )
     elif status == Status.UNDETERMINED and speed_is_known:

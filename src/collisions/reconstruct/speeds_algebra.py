@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
-from ..kernels.reverse import PLACES, absorbed_energy, parabola_roots, quartic_roots
+from ..kernels.reverse import PLACES, energy_of_speeds, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
-from .common import NUMBERS, forward
+from .common import NUMBERS, PAIRS, forward
 
 # Relative difference within which two observations hold the same information.
 REDUNDANT = 1e-9
@@ -34,7 +34,9 @@ _STEP = 1e-4
 _BESIDE = 0.02
 # Sample points along a range of speeds: five, because an observation along it is a quotient of quartics at most.
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
-_SQUARED = ("delta_v", "ees")
+_SQUARED = ("delta_v", "max_crush")
+# Known under another name, but the same observation.
+_SAME = {"ees_a": "energy_loss"}
 
 
 class Root(NamedTuple):
@@ -55,14 +57,15 @@ class Scene:
     """
 
     def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...]) -> None:
-        self.rule, self.law, self.kinds = rule, law, kinds
+        self.rule, self.law, self.names = rule, law, kinds
+        self.kinds = tuple(_SAME.get(kind, kind) for kind in kinds)
         masses = np.minimum(given["a.mass"], given["b.mass"])
         sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else given[kind] for kind in kinds]
         self.mass_unit = _power_of_two(masses)
         self.speed_unit = _power_of_two(np.maximum(*sizes))
         self.numbers = {name: self._in_units(name, value) for name, value in given.items()}
         self.e, self.bound = given["restitution"], given[rule]
-        self.targets = {kind: self._target(kind) for kind in kinds}
+        self.targets = {kind: self._target(name) for kind, name in zip(self.kinds, kinds, strict=True)}
         self.spinning = sum(
             abs(self.numbers[f"{label}.yaw_rate"])
             * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
@@ -81,15 +84,15 @@ class Scene:
             return value / self.mass_unit
         if kind == "energy_loss":
             return value / self.mass_unit / self.speed_unit / self.speed_unit
-        return value / self.speed_unit if kind.startswith(("speed", "delta_v", "ees", "yaw_rate")) else value
+        return value / self.speed_unit if kind.startswith(("speed", "delta_v", "ees", "max_crush", "yaw_rate")) else value
 
     def _target(self, kind: str) -> Any:
         """The observed value in the form that is quadratic in the speeds."""
         value = self.numbers[kind]
         if kind.startswith("delta_v"):
             return (self.numbers[f"{kind[-1]}.mass"] * value) ** 2
-        if kind == "ees_a":
-            return absorbed_energy(self.numbers["a.mass"], value, self.numbers["b.mass"], self.numbers["ees_b"])
+        if kind in PAIRS:
+            return energy_of_speeds(self.numbers["a.mass"], value, self.numbers["b.mass"], self.numbers[PAIRS[kind]])
         return value
 
     def shares_critical(self) -> bool:
@@ -153,7 +156,7 @@ class Scene:
             "delta_v_a": squared,
             "delta_v_b": squared,
             "energy_loss": raw.energy_loss,
-            "ees_a": 0.5 * closing * normal / (1.0 + e),
+            "max_crush_speed_a": 0.5 * closing * normal / (1.0 + e),
         }
 
     def speeds_at(self, closing: Any, slip: Any) -> tuple[Any, Any]:

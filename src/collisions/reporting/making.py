@@ -100,7 +100,7 @@ def report(
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
         What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity, optional
-        A's share of the energy absorbed, 0 to 1, for ``Impact.ees``; without it no EES is given.
+        A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
     notes : str or sequence of str, optional
         Your own words, each in a paragraph of its own.
     figures : bool

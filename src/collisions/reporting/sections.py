@@ -46,7 +46,8 @@ for _label in "ab":
         f"speed_{_label}": (f"speed{_of} before", "speed", f"{_label}.before.speed"),
         f"course_{_label}": (f"course{_of} before", "angle", f"{_label}.before.course"),
         f"delta_v_{_label}": (f"delta-V{_of}", "speed", f"{_label}.delta_v"),
-        f"ees_{_label}": (f"EES{_of}", "speed", ""),
+        f"ees_{_label}": (f"EES{_of} (ISO 12353)", "speed", ""),
+        f"max_crush_speed_{_label}": (f"speed of maximum crush{_of}", "speed", ""),
     }
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states
 # that still approach by up to a hundredth of the closing speed are taken to stay together.
@@ -299,10 +300,14 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     rows = list(impact_answers(sheet, impact))
     if share_a is not None:
         share = ArgumentReader().number(share_a, "", "share_a")
-        for label, speed in zip("AB", impact.ees(share_a), strict=True):
-            what = f"EES, if A took up {100.0 * share:.6g} percent of the energy absorbed"
-            last = max(at for at, row in enumerate(rows) if row[0] == label) + 1
-            rows.insert(last, (label, what, sheet.system.answer(float(speed), "speed")))
+        of = f"if A took up {100.0 * share:.6g} percent of the energy"
+        for what, speeds in (
+            (f"EES (ISO 12353), {of} lost", impact.ees(share_a)),
+            (f"speed of maximum crush, {of} absorbed", impact.max_crush_speeds(share_a)),
+        ):
+            for label, speed in zip("AB", speeds, strict=True):
+                last = max(at for at, row in enumerate(rows) if row[0] == label) + 1
+                rows.insert(last, (label, what, sheet.system.answer(float(speed), "speed")))
     rows.append(("contact", "kind", impact.kind))
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
