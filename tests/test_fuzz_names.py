@@ -935,7 +935,7 @@ def known_shares(case: Case) -> None:
 
 
 @fuzzes(
-    "reference.restitution", "reference.restitution_range", "reference.drag_factor", "reference.yaw_inertia", "reference.Published",
+    "reference.restitution", "reference.restitution_range", "reference.restitution_by_overlap", "reference.drag_factor", "reference.yaw_inertia", "reference.Published",
     "reference.Fit",
 )  # fmt: skip
 def test_reference(case: Case) -> None:
@@ -948,6 +948,7 @@ def test_reference(case: Case) -> None:
     assert not isinstance(e, float) or math.isfinite(e)
     ends = case.call("reference.restitution_range", reference.restitution_range, speed)
     assert isinstance(ends, Exception) or np.all((ends[0] <= ends[1]) | np.isnan(ends[0])), ends
+    case.call("reference.restitution_by_overlap", reference.restitution_by_overlap, case.value("restitution"))
     surface = case.option("new dry asphalt", "travelled dry asphalt", "polished dry asphalt", "ice")
     row = case.call("reference.drag_factor", reference.drag_factor, surface, **case.spoil({"speed": case.value("speed")}))
     row = case.choice(reference.PUBLISHED) if isinstance(row, Exception) else row

@@ -265,8 +265,8 @@ def test_both_ees_are_the_energy_lost():
         if impact.energy_loss < 0.2 * impact.energy_absorbed:
             continue
         for other in ("speed_a", "delta_v_b"):
-            by_energy, refusal = attempt(asked, impact, courses, contact, **knowledge(impact, (other, "energy_loss")))
-            by_ees, also = attempt(asked, impact, courses, contact, **knowledge(impact, (other, "ees"), share=0.7))
+            by_energy, refusal = attempt(solve_back, impact, courses, contact, **knowledge(impact, (other, "energy_loss")))
+            by_ees, also = attempt(solve_back, impact, courses, contact, **knowledge(impact, (other, "ees"), share=0.7))
             if by_energy is None:
                 assert also.code == refusal.code
                 continue

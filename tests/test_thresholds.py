@@ -301,8 +301,8 @@ ROWS = [
     Row("suspect_friction", 5.0, OWN, lambda x: aslant(vy=5.0, friction=x)),
     Row("suspect_drag", 1.5, OWN, lambda x: (in_line(), {"drag": f"{100.0 * x!r} %"})),
     Row("suspect_drag", 1.5, OWN, lambda x: (by_momentum(), {"drag": f"{100.0 * x!r} %"})),
-    Row("suspect_duration", 10.0, "ten times the 0.108 s of SAE 970949", lambda x: (in_line(), {"duration": f"{0.108 * x!r} s"})),
-    Row("suspect_duration", 10.0, "ten times the 0.108 s of SAE 970949", lambda x: (by_momentum(), {"duration": f"{0.108 * x!r} s"})),
+    Row("suspect_duration", 10.0, "ten times the longest of DTC and AGU, 0.147 s", lambda x: (in_line(), {"duration": f"{0.147 * x!r} s"})),
+    Row("suspect_duration", 10.0, "ten times the longest of DTC and AGU, 0.147 s", lambda x: (by_momentum(), {"duration": f"{0.147 * x!r} s"})),
     Row("model_unknown", 0.0, OWN, without_an_inertia, beyond=1.0),
 ]  # fmt: skip
 

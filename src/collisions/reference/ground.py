@@ -1,4 +1,4 @@
-"""Drag factors of tyres that slide on a road."""
+"""Drag factors of tyres that slide on a road, and of wheels that roll."""
 
 from __future__ import annotations
 
@@ -12,38 +12,80 @@ from ..units import Input, shown
 from .published import Published
 
 _THIRTY = 30.0 * 0.44704
-_TABLE = (
-    "Baker, Traffic Accident Investigation Manual (Northwestern University, 1975; Fricke 1990), table as quoted at "
-    "http://mfes.com/friction.html"
+_MANUAL = (
+    "EDSMAC manual, chapter 2 (Engineering Dynamics Corporation; https://github.com/edccorp/hveManuals, "
+    "docs/manuals/programs/EDSMAC/02-program-input.md)"
 )
-_HOW_GOOD = (
-    "A table of which its author could not recall who had tested what (same page); newer studies reviewed there find 0.72 to "
+_TABLE = f"{_MANUAL}, Table 2-7"
+_BAKER = (
+    "Baker, Traffic Accident Investigation Manual (Northwestern University, 1975; Fricke 1990), as quoted at "
+    "http://mfes.com/friction.html; the same values in the "
+) + _TABLE
+_HOW_GOOD = "A table in the manual of a program, which cites its source by number and claims no accuracy."
+_HOW_GOOD_DRY = (
+    "A table of which its author could not recall who had tested what (mfes.com); newer studies reviewed there find 0.72 to "
     "0.78 on dry asphalt on average, so its lower ends are low."
 )
+_ROWS: dict[str, tuple[float, ...]] = {
+    # Lowest and highest in turn: dry below and above 30 mph, wet below and above.
+    "new {} concrete": (0.80, 1.20, 0.70, 1.00, 0.50, 0.80, 0.40, 0.75),
+    "travelled {} concrete": (0.60, 0.80, 0.60, 0.75, 0.45, 0.70, 0.45, 0.65),
+    "polished {} concrete": (0.55, 0.75, 0.50, 0.65, 0.45, 0.65, 0.45, 0.60),
+    "new {} asphalt": (0.80, 1.20, 0.65, 1.00, 0.50, 0.80, 0.45, 0.75),
+    "travelled {} asphalt": (0.60, 0.80, 0.55, 0.70, 0.50, 0.80, 0.45, 0.75),
+    "polished {} asphalt": (0.55, 0.75, 0.45, 0.65, 0.45, 0.65, 0.40, 0.60),
+    "{} asphalt with excess tar": (0.50, 0.60, 0.35, 0.60, 0.30, 0.60, 0.25, 0.55),
+    "{} packed and oiled gravel": (0.55, 0.85, 0.50, 0.80, 0.40, 0.80, 0.40, 0.60),
+    "{} loose gravel": (0.40, 0.70, 0.40, 0.70, 0.45, 0.75, 0.45, 0.75),
+    "{} packed cinders": (0.50, 0.70, 0.50, 0.70, 0.65, 0.75, 0.65, 0.75),
+    "{} crushed rock": (0.55, 0.75, 0.55, 0.75, 0.55, 0.75, 0.55, 0.75),
+    "{} ice": (0.10, 0.25, 0.07, 0.20, 0.05, 0.10, 0.05, 0.10),
+    "{} packed snow": (0.30, 0.55, 0.35, 0.55, 0.30, 0.60, 0.30, 0.60),
+    "{} loose snow": (0.10, 0.25, 0.10, 0.20, 0.30, 0.60, 0.30, 0.60),
+}
 
 
-def _asphalt(wear: str, slow: tuple[float, float], fast: tuple[float, float]) -> tuple[Published, Published]:
+def _rows(surface: str, ends: tuple[float, ...]) -> tuple[Published, Published]:
     """The two rows of a surface: below and above 30 mph."""
+    dry_asphalt = surface.endswith(" dry asphalt")
     below, above = (
         Published(
-            name=f"drag factor, dry asphalt, {wear}, {which} 30 mph",
+            name=f"drag factor, {surface}, {which} 30 mph",
             low=low,
             high=high,
             unit="",
-            source=_TABLE,
-            domain=f"locked wheels of cars on level, dry asphalt, {which} 30 mph (13.4 m/s)",
-            quality=_HOW_GOOD,
+            source=_BAKER if dry_asphalt else _TABLE,
+            domain=f"locked wheels of cars on level, {surface}, {which} 30 mph (13.4 m/s)",
+            quality=_HOW_GOOD_DRY if dry_asphalt else _HOW_GOOD,
         )
-        for which, (low, high) in (("below", slow), ("above", fast))
+        for which, (low, high) in (("below", ends[:2]), ("above", ends[2:]))
     )
     return below, above
 
 
 _BY_SURFACE = {
-    "new dry asphalt": _asphalt("new, sharp", (0.80, 1.20), (0.65, 1.00)),
-    "travelled dry asphalt": _asphalt("travelled", (0.60, 0.80), (0.55, 0.70)),
-    "polished dry asphalt": _asphalt("polished by traffic", (0.55, 0.75), (0.45, 0.65)),
+    name.format(state): _rows(name.format(state), ends[at : at + 4])
+    for name, ends in _ROWS.items()
+    for state, at in (("dry", 0), ("wet", 4))
 }
+
+
+def _rolling(what: str, low: float, high: float) -> Published:
+    """A row of the drag of wheels that are not braked."""
+    return Published(
+        name=f"drag factor, {what}",
+        low=low,
+        high=high,
+        unit="",
+        source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, NHTSA, 1978)",
+        domain="cars on pavement; the table divides it by the friction, to give a share of it",
+        quality=_HOW_GOOD,
+    )
+
+
+ROLLING_RESISTANCE = _rolling("free rolling, full to partial tyre inflation", 0.010, 0.013)
+ENGINE_BRAKING_HIGH = _rolling("engine braking in high gear", 0.150, 0.200)
+ENGINE_BRAKING_LOW = _rolling("engine braking in low gear", 0.200, 0.400)
 _STATUTE = Published(
     name="drag factor behind a statutory table of stopping distances",
     low=0.70,
@@ -58,18 +100,21 @@ _STATUTE = Published(
 )
 
 DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() for row in rows), _STATUTE)
-"""Every published drag factor."""
+"""Every published drag factor of locked wheels."""
 
 
 def drag_factor(surface: str, *, speed: Input) -> Published:
     """Published range of the drag factor of locked wheels on a surface.
 
-    Wheels that roll, other surfaces and other vehicles have other values, of which none could be checked.
+    Wheels that roll have ``ROLLING_RESISTANCE``, ``ENGINE_BRAKING_HIGH`` and ``ENGINE_BRAKING_LOW``; other surfaces and other
+    vehicles have other values, of which none could be checked.
 
     Parameters
     ----------
-    surface : {"new dry asphalt", "travelled dry asphalt", "polished dry asphalt"}
-        Kind of road.
+    surface : str
+        "new", "travelled" or "polished", then "dry" or "wet", then "asphalt" or "concrete"; or "dry" or "wet" and one of
+        "asphalt with excess tar", "packed and oiled gravel", "loose gravel", "packed cinders", "crushed rock", "ice", "packed
+        snow" and "loose snow".
     speed : float, str or Quantity [m/s]
         At which the slide begins, >= 0.
 
@@ -88,6 +133,9 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
     >>> row = drag_factor("travelled dry asphalt", speed="80 km/h")
     >>> row.low, row.high
     (0.55, 0.7)
+    >>> row = drag_factor("polished wet asphalt", speed="80 km/h")
+    >>> row.low, row.high
+    (0.4, 0.6)
     """
     reader = ArgumentReader()
     fast: Any = reader.number(speed, "m/s", "speed")

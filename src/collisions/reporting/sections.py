@@ -344,11 +344,8 @@ def sources(sheet: Sheet, found: Sequence[Finding]) -> None:
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
                 lines.append(f"{value.name}: {value.source}. {value.quality}")
     duration = reference.CONTACT_DURATION
-    lines.append(f"To compare the duration with, {duration.name}: {duration.low:g} s; {duration.source}.")
-    factors = reference.DRAG_FACTORS
-    low, high = min(factor.low for factor in factors), max(factor.high for factor in factors)
-    published = "; ".join(dict.fromkeys(factor.source for factor in factors))
-    lines.append(f"To compare the drag with, locked wheels on dry asphalt: {low:.2f} to {high:.2f}; {published}.")
+    ends = f"{duration.low:g} to {duration.high:g} s"
+    lines.append(f"To compare the duration with, {duration.name}: {ends}; {duration.source}. {duration.quality}")
     sheet.listed(list(dict.fromkeys(lines)))
 
 
