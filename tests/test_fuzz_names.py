@@ -705,7 +705,10 @@ def test_travel(case: Case) -> None:
             case.value("heading"),
         ),
         "end_speed": case.option(0.0, case.value("speed")),
+        "window": case.option("7 m", 0.0, case.value("distance")),
     }
+    if case.maybe(0.4):
+        path |= {"point_error": case.option(0.1, case.value("distance")), "heading_error": case.option("3 deg", 0.0)}
     found = case.call("travel.path", travel.path, points, **case.spoil(path))
     if isinstance(found, travel.RunOut):
         # A way that ends where it began has no straight course.

@@ -612,13 +612,15 @@ def slide(lock, friction=0.7, start=18.0, yaw_rate=3.0, course=0.4, bend=0.02, d
 
 @pytest.mark.parametrize("lock", [0.0, 0.3, 1.0])
 def test_a_body_integrated_forward_is_found_backward(lock):
-    """The error falls fourfold when the points are twice as many, and is small with 28 segments."""
+    """Without smoothing the error falls fourfold when the points are twice as many, and is small with 28 segments."""
     states, headings = slide(lock)
     finer, _ = slide(lock, steps=5600)
     assert np.max(np.abs(finer[::2] - states)) < 1e-9
     errors = []
     for every in (400, 200, 100, 50):
-        run = travel.path(states[::every, :2], headings[::every], friction=0.7, lock=lock, end_speed=float(states[-1, 2]))
+        run = travel.path(
+            states[::every, :2], headings[::every], friction=0.7, lock=lock, end_speed=float(states[-1, 2]), window=0
+        )
         errors.append([abs(run.speed - 18.0), abs(run.course - 0.4), abs(run.yaw_rate - 3.0), abs(run.time - 1.4)])
     # The crab angle is a mean, the chord shorter than the arc, the tangents parabolas: all of second order, a factor of 16 in two
     # steps in the limit. 10 allows for the terms of higher order; a method of first order would have 4.
@@ -639,7 +641,7 @@ def test_locked_wheels_on_an_arc_against_the_closed_form():
     s = start * t - rate * t * t / 2
     points = np.column_stack([radius * np.sin(s / radius), radius * (1.0 - np.cos(s / radius))])
     headings = 0.5 + 4.0 * (t - t * t / (2 * total))
-    run = travel.path(points, headings, friction=friction, lock=1)
+    run = travel.path(points, headings, friction=friction, lock=1, window=0)
     # Chords are shorter than their arcs by (L / R)**2 / 24 of the longest L = 0.96 m: 4e-5 of the length, half of it of speed.
     assert run.speed == pytest.approx(start, rel=3e-5)
     assert run.time == pytest.approx(total, rel=1e-4)

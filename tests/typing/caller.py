@@ -106,7 +106,7 @@ def backwards() -> float:
 def on_the_ground() -> float:
     """What the ground takes."""
     one: float = travel.speed("12 m", drag=0.7, grade="-2 %", end_speed=speed)
-    run_out = travel.path([(0.0, 0.0), (5.0, 1.0)], ["0 deg", 0.3], friction=0.7, lock=1)
+    run_out = travel.path([(0.0, 0.0), (5.0, 1.0)], ["0 deg", 0.3], friction=0.7, lock=1, point_error="0.1 m", heading_error=0)
     lasts: float = travel.time(20, drag=0.7) + travel.distance(speed, drag="6.5 m/s**2")
     return one + lasts + run_out.speed + travel.speed([10.0, 5.0], drag=[0.7, 0.3])
 

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
-from itertools import pairwise
+from dataclasses import dataclass, field, fields, replace
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
 
 from ..directions import Angle, angle_of
-from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, safe_divisor, select
+from ..errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
+from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, numeric
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
 from ..units import Input, Pair, Value, is_quantity, shown
 from ..warning import warn
+from .smoothing import slopes, smooth
 from .surfaces import (
     HIGHEST_DRAG,
     Segments,
@@ -27,12 +28,15 @@ from .surfaces import (
     one_value,
     out_of_range,
     read_grade,
+    read_length,
     read_speed,
     settle,
     speeds_along,
 )
 
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
+# Numbers that the errors are worked out from together: few calls of numpy, and memory that is kept small.
+_AT_ONCE = 200_000
 _HALF_TURN = math.pi * (1.0 + 1e-9)
 
 
@@ -60,6 +64,8 @@ class RunOut(Shown):
         For every segment the heading less the course, in (-pi, pi]: positive where the vehicle points to the left of its way.
     drags : tuple of float or array
         For every segment the drag factor that friction, lock and crab angle come to.
+    speed_error, course_error, yaw_rate_error : float or array, optional [m/s], [rad], [rad/s]
+        Standard errors of the three by those of the positions and headings alone; None where these were not given.
     """
 
     _title = "Run-out"
@@ -73,6 +79,9 @@ class RunOut(Shown):
     speeds: tuple[Value, ...] = field(metadata={"unit": "m/s"})
     crab_angles: tuple[Value, ...] = field(metadata={"unit": "rad"})
     drags: tuple[Value, ...] = field(metadata={"unit": ""})
+    speed_error: Value | None = field(default=None, metadata={"unit": "m/s"})
+    course_error: Value | None = field(default=None, metadata={"unit": "rad"})
+    yaw_rate_error: Value | None = field(default=None, metadata={"unit": "rad/s"})
 
     @derived("rad")
     def course_difference(self) -> Value:
@@ -89,6 +98,9 @@ def path(
     lock: Segments,
     grade: Segments = 0.0,
     end_speed: Input = 0.0,
+    window: Input = "7 m",
+    point_error: Input | None = None,
+    heading_error: Input | None = None,
 ) -> RunOut:
     """Speed, course and yaw rate at separation of a vehicle that yawed as it slid, from positions along its path.
 
@@ -119,18 +131,27 @@ def path(
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the last point, 0 at rest.
+    window : float, str, Quantity or array [m]
+        Length of the path over which the survey is smoothed: longer, and errors of the points count less; shorter, and a bend
+        that changes is followed better. 0 is hardly more than the nearest three points.
+    point_error : float, str, Quantity or array, optional [m]
+        Standard deviation of each coordinate of every point, independent of the others: 0.06 m if tenths were read.
+    heading_error : float, str, Quantity or array, optional [rad]
+        Standard deviation of every heading, independent of the others. Both errors are given, or neither.
 
     Returns
     -------
     RunOut
-        Course and yaw rate are the tangents at the first point: of the parabola through the first three positions over the
-        length of the path, and through their headings over time. With two points they are those of the straight line. A case
-        of a batch that cannot be answered is NaN.
+        Course and yaw rate are the tangents at the first point: of the parabola of least squares through the positions over
+        the length of the path, and through the headings over time. With two points they are those of the straight line. A
+        case of a batch that cannot be answered is NaN.
 
     Raises
     ------
     InputError
         Naming every argument that cannot be used.
+    MissingInputError
+        One of ``point_error`` and ``heading_error`` without the other.
     NoSolutionError
         No start speed leads to this end.
 
@@ -149,6 +170,15 @@ def path(
     wheel, and ``lock`` times that along it, and of the forces within the ellipse of these half-axes it takes the one that does
     the most work against the slip. All wheels are taken to slip as the centre of mass does, so what yawing adds to the slip of
     each wheel is left out, and so are steering and the shift of load.
+
+    Positions and headings are smoothed first, each by the parabola of weighted least squares at its point (local regression,
+    Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords between the points of a dense survey would be too
+    long, and their directions scatter. The weights fall off along the path as a normal density of 0.384 windows, so that no
+    point enters or leaves with a jump; at the end of a path that is as good as equal weights over the window. Two more points
+    count however far apart they are: through three a parabola passes. Where the curvature changes by k along a metre, the
+    course errs by about 0.1 k window**2, which ``course_error`` does not know, nor does ``speed_error`` the errors of
+    ``friction`` and ``lock``: those are for ``uncertainty.propagate``. Errors are carried to the first order, each by
+    answering again with it added and taken off; infinite where no speed is left.
 
     To chain segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
     Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. The drag agrees with what Rose, Rollover Accident
@@ -175,6 +205,10 @@ def path(
     53.3 km/h, 132 deg/s, -12.0 deg
     >>> round(speed(run.distance, drag=0.7) * 3.6, 1)
     60.0
+    >>> errors = {"point_error": "0.1 m", "heading_error": "5 deg"}
+    >>> run = path(places, ["0 deg", "55 deg", "110 deg", "160 deg"], friction=0.7, lock=0.2, **errors)
+    >>> print(f"{run.q.speed_error.to('km/h'):.1f~P}, {run.q.course_error.to('deg'):.1f~P}")
+    0.8 km/h, 2.3 deg
     """
     reader = ArgumentReader()
     places = _read_points(reader, points)
@@ -184,14 +218,25 @@ def path(
     locks = for_each(reader, lock, "lock", legs, _read_lock)
     grades = for_each(reader, grade, "grade", legs, read_grade)
     end = read_speed(reader, end_speed, "end_speed")
+    length = read_length(reader, window, "window")
+    errors = _read_errors(reader, point_error, heading_error)
     reader.close()
-    placed = {f"points[{i}]": place for i, place in enumerate(places or ())}
+    placed: dict[str, Any] = {f"points[{i}]": place for i, place in enumerate(places or ())}
     arguments = {"headings": [angle.value for angle in headed], "friction": frictions, "lock": locks, "grade": grades}
-    lists, named, shape = in_one_precision(placed | arguments | {"end_speed": [end]})
-    *points, values, frictions, locks, grades, (end,) = lists
+    beside = {"end_speed": [end], "window": [length], **errors}
+    lists, named, shape = in_one_precision(placed | arguments | beside)
+    *points, values, frictions, locks, grades, (end,), (length,) = lists[: len(lists) - len(errors)]
+    kind = next((value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None)
+
+    def answer(points: Sequence[Any], turned: Sequence[Any], kind: Any) -> tuple[RunOut, list[Any]]:
+        return _run_out(points, turned, frictions, locks, grades, end, length, kind)
+
     with np.errstate(all="ignore"):
         turned = [_in_radians(angle._replace(value=value)) for angle, value in zip(headed, values, strict=True)]
-        run, gaps = _run_out(points, turned, frictions, locks, grades, end)
+        run, gaps = answer(points, turned, kind)
+        if errors:
+            (place,), (turn,) = lists[-2:]
+            run = replace(run, **_errors(answer, points, turned, place, turn, shape or (), kind))
         answered = run.time + run.distance + run.yaw_rate
         if shape is not None:
             checks = [("coincident_points", np.equal(x0, x1) & np.equal(y0, y1)) for (x0, y0), (x1, y1) in pairwise(points)]
@@ -207,14 +252,19 @@ def path(
 
 
 def _run_out(
-    places: Sequence[Sequence[Any]],
-    turned: Sequence[Any],
+    points: Sequence[Sequence[Any]],
+    headings: Sequence[Any],
     frictions: Sequence[Any],
     locks: Sequence[Any],
     grades: Sequence[Any],
     end: Any,
+    window: Any,
+    kind: Any,
 ) -> tuple[RunOut, list[Any]]:
     """The run-out from plain numbers, one case or many, and the duration of each segment."""
+    surveyed = *map(list, zip(*points, strict=True)), list(headings)
+    (xs, ys, turned), (at, weights) = smooth(surveyed, window, kind)
+    places = list(zip(xs, ys, strict=True))
     steps = [(x1 - x0, y1 - y0) for (x0, y0), (x1, y1) in pairwise(places)]
     lengths: list[Any] = [hypot(dx, dy) for dx, dy in steps]
     crabs = [
@@ -229,11 +279,11 @@ def _run_out(
     durations = durations_along(lengths, grades, speeds)
     run = RunOut(
         speed=speeds[0],
-        course=angle_of(*(_at_start([step[axis] for step in steps], lengths) for axis in (0, 1))),
-        yaw_rate=_at_start([after - before for before, after in pairwise(turned)], durations),
+        course=angle_of(*slopes(surveyed[:2], at, weights, kind)),
+        yaw_rate=slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[0],
         time=sum(durations),
         distance=sum(lengths),
-        straight_course=angle_of(places[-1][0] - places[0][0], places[-1][1] - places[0][1]),
+        straight_course=angle_of(points[-1][0] - points[0][0], points[-1][1] - points[0][1]),
         speeds=tuple(speeds),
         crab_angles=tuple(crabs),
         drags=tuple(drags),
@@ -241,9 +291,33 @@ def _run_out(
     return run, durations
 
 
+def _errors(
+    answer: Any, points: Sequence[Any], turned: Sequence[Any], place: Any, heading: Any, shape: tuple[int, ...], kind: Any
+) -> dict[str, Any]:
+    """Standard errors of speed, course and yaw rate, by answering again with each reading off by its own, to either side."""
+    squares = dict.fromkeys(("speed", "course", "yaw_rate"), np.zeros(shape))
+    readings = 3 * len(points)
+    for group in np.array_split(np.arange(readings), math.ceil(readings * len(points) * math.prod(shape) / _AT_ONCE) or 1):
+        which = np.repeat(group, 2).reshape(-1, *(1 for _ in shape))
+        off = np.resize([1.0, -1.0], which.shape)
+        x, y, turn = (
+            [off * error * (which == i) for i in range(first, readings, 3)]
+            for first, error in enumerate((place, place, heading))
+        )
+        places = [(px + dx, py + dy) for (px, py), dx, dy in zip(points, x, y, strict=True)]
+        run, _ = answer(places, [angle + change for angle, change in zip(turned, turn, strict=True)], np.float64)
+        for name, square in squares.items():
+            found = getattr(run, name)
+            change = found[0::2] - found[1::2]
+            change = _wrapped(change) if name == "course" else change
+            squares[name] = square + np.sum(np.square(0.5 * change), axis=0)
+    errors = {f"{name}_error": np.where(np.isnan(square), np.inf, np.sqrt(square)) for name, square in squares.items()}
+    return {name: float(error) if kind is None else error.astype(kind) for name, error in errors.items()}
+
+
 def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks: Sequence[tuple[str, Any]]) -> RunOut:
     """The results of a batch as locked arrays of its shape; NaN where a case has none."""
-    of_run = {f.name: getattr(run, f.name) for f in fields(run)}
+    of_run = {f.name: getattr(run, f.name) for f in fields(run) if getattr(run, f.name) is not None}
     flat = [part for value in of_run.values() for part in (value if isinstance(value, tuple) else (value,))]
     settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, named, shape, checks))))
     answers: dict[str, Any] = {
@@ -251,14 +325,6 @@ def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks:
         for name, value in of_run.items()
     }
     return RunOut(**answers)
-
-
-def _at_start(changes: Sequence[Any], widths: Sequence[Any]) -> Any:
-    """Slope at the start of the parabola through the first three points; of the line, if there are two."""
-    # A width of 0 is refused elsewhere.
-    before, *after = (safe_divisor(True, width) for width in widths[:2])
-    first = changes[0] / before
-    return first + (first - changes[1] / after[0]) * (before / (before + after[0])) if after else first
 
 
 def _wrapped(angle: Any) -> Any:
@@ -392,6 +458,22 @@ def _read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
 
 def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
     return one_value(reader, value, "", name, UNIT_INTERVAL)
+
+
+def _read_errors(reader: ArgumentReader, point: Any, heading: Any) -> dict[str, list[Any]]:
+    """The standard errors of the survey, both or none."""
+    given = {"point_error": (point, "m"), "heading_error": (heading, "rad")}
+    read = {}
+    for name, (value, unit) in given.items():
+        if value is not None:
+            error = one_value(reader, value, unit, name)
+            read[name] = [at_least_zero(reader, error, value, name, "negative_length", "it is a standard deviation")]
+    if len(read) == 1:
+        (one,) = read
+        (other,) = given.keys() - read
+        text = f"{other} is missing beside {one}; give 0 if those readings are exact"
+        reader.refuse(MissingInputError(text, code="missing_error", argument=other))
+    return read if len(read) == 2 else {}
 
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:

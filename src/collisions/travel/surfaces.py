@@ -32,6 +32,9 @@ _BELOW_ZERO = {
     "end_speed": "negative_speed",
     "friction": "bad_friction",
     "lock": "bad_fraction",
+    "window": "negative_distance",
+    "point_error": "negative_length",
+    "heading_error": "negative_length",
 }
 
 
