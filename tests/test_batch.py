@@ -395,3 +395,17 @@ def test_a_batch_without_a_case_is_answered_with_any_number_of_threads(solver, t
     contact = {"linear_central": {}, "oblique_central": {"friction": 0.5}}.get(solver, {"friction": 0.5, "point": (0.0, 0.0)})
     impact = getattr(col, solver)(a, b, 0.2, normal=0.0, threads=threads, **contact)
     assert impact.status.shape == impact.b.delta_v.shape == (0,)
+
+
+def test_a_case_out_of_range_is_refused_in_a_batch_of_solve():
+    """As it is alone: 1/inertia overflows, and the prediction must not take the error of the other body for that of both."""
+    bodies = (
+        {"mass": 1e6, "yaw_inertia": 3e6, "vx": 17.0, "vy": 0.0, "yaw_rate": -1.0, "x": -0.5, "y": 0.0},
+        {"mass": 4500.0, "yaw_inertia": 1e-309, "vx": -16.0, "vy": -1.0, "yaw_rate": 0.4, "x": 0.8, "y": 0.7},
+    )
+    contact = {"normal": 0.0, "point": (-0.8, 0.25), "friction": 0.1, "tolerance": 3.0}
+    with pytest.raises(col.InputError) as refused:
+        col.solve(*(col.Vehicle(**body) for body in bodies), 0.8, **contact)
+    assert refused.value.code == "out_of_range"
+    many = (col.Vehicle(**{name: np.full(3, value) for name, value in body.items()}) for body in bodies)
+    assert (col.solve(*many, np.full(3, 0.8), **contact, on_failure="nan").status == col.Status.OUT_OF_RANGE).all()

@@ -485,7 +485,7 @@ def solved(
         return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
     answer, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
     impact = build(inputs, answer)
-    vars(impact)["choice"] = where_answered(choice, impact.refused)
+    vars(impact)["choice"] = where_answered(choice, answer.status > Status.ENERGY_GAIN)
     return impact
 
 
@@ -509,7 +509,7 @@ def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFai
     """Some cases of a batch, solved again; ``take`` selects them from every array."""
     origin = impact.reconstruction
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
-    choice = None if impact.choice is None else part_of_choice(impact.choice, take, inputs)
+    choice = None if impact.choice is None else part_of_choice(impact.choice, take)
     part = solved(inputs, on_failure=on_failure, choice=choice)
     return part if origin is None else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,10 @@ from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, pa
 from .kernels.elementwise import select
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
+from .kernels.tracing import compile_for_floats
 from .models import MODELS, read_again
 from .progress import halves, reporter
-from .quantities import Shown, lock, same, show
+from .quantities import Shown, derived, lock, same, show
 from .reading import ArgumentReader, broadcast
 from .solving import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
 from .units import Value, to_quantity
@@ -59,7 +61,7 @@ class ByModel(Mapping[str, Any]):
         return repr(self._values)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class ModelChoice(Shown):
     """Which model a scene requires, and why.
 
@@ -67,36 +69,50 @@ class ModelChoice(Shown):
     ----------
     model : str or array of str
         "linear_central", "oblique_central" or "eccentric"; the last also where the case is refused.
-    reason : str
-        Why, in a sentence.
-    errors : mapping of float or array [m/s]
-        By cheaper model, what it is predicted to err by: hypot of the delta-V vector and of radius of gyration times yaw rate,
-        for the worse of both vehicles. NaN where it cannot be estimated or the case is refused, infinite where only that model
-        has no answer.
-    missing : mapping of tuple of str
-        By model, what it still needs, such as "a.yaw_inertia" or "point".
     tolerance : float or array [m/s]
         What was accepted.
     """
 
     _title = "Model required"
 
-    reason: str
-    errors: Mapping[str, Value]
-    missing: Mapping[str, tuple[str, ...]]
     tolerance: Value = field(metadata={"unit": "m/s"})
-    # The number of the model chosen.
+    # The number of the model chosen, the errors of the central ones, and what the eccentric one lacks.
     _which: Any
+    _predicted: tuple[Any, Any]
+    _missing: tuple[str, ...]
+    # Whether that lack left the errors unknown, whether a body has a pivot, and which cases were refused.
+    _lacks: bool
+    _pinned: bool
+    _refused: Any = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "errors", ByModel(self.errors, "m/s"))
-        object.__setattr__(self, "missing", ByModel(self.missing))
-        lock(self._which)
+        if isinstance(self._which, np.ndarray):
+            lock((self._which, self._predicted, self._refused))
 
     @property
     def model(self) -> Any:
         """The name, or the names of a batch, which take fifty times the room of the numbers that are kept."""
         return lock(np.array(_NAMES).take(self._which)) if isinstance(self._which, np.ndarray) else _NAMES[self._which]
+
+    @derived()
+    def reason(self) -> str:
+        """Why, in a sentence."""
+        return _reason(self)
+
+    @derived()
+    def errors(self) -> Mapping[str, Value]:
+        """By cheaper model, what it is predicted to err by [m/s].
+
+        Hypot of the delta-V vector and of radius of gyration times yaw rate, for the worse of both vehicles. NaN where it
+        cannot be estimated or the case is refused, infinite where only that model has no answer.
+        """
+        answered = (error if self._refused is False else select(self._refused, math.nan, error) for error in self._predicted)
+        return ByModel(dict(zip(_NAMES, answered, strict=False)), "m/s")
+
+    @derived()
+    def missing(self) -> Mapping[str, tuple[str, ...]]:
+        """By model, what it still needs, such as "a.yaw_inertia" or "point"."""
+        return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing})
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         yield prefix + "model", show(self.model)
@@ -111,40 +127,33 @@ class ModelChoice(Shown):
 
 def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
     """Choose a model; also gives where the eccentric one is required and lacks an input."""
+    a, b = inputs.a, inputs.b
     tolerance: Any = inputs.tolerance
     shape = None if plain else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
-    missing = tuple(f"{label}.{name}" for label, name in lacking(inputs.a, inputs.b))
+    missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
     missing += () if inputs.point is not None else ("point",)
-    which, linear, oblique = _predicted(inputs, tolerance, missing, shape, threads, progress)
+    which, *predicted = _predicted(inputs, missing, shape, threads, progress)
     lacks = which == LACKING
-    if shape is None:
-        which = min(which, ECCENTRIC)
-    else:
-        np.minimum(which, ECCENTRIC, out=which)
     choice = ModelChoice(
-        reason=_reason(inputs, tolerance, which, linear, oblique, missing, lacks),
-        errors={_LINEAR: linear, _OBLIQUE: oblique},
-        missing={_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: missing},
         tolerance=tolerance,
-        _which=which,
+        _which=min(which, ECCENTRIC) if shape is None else np.minimum(which, ECCENTRIC, out=which),
+        _predicted=(predicted[0], predicted[1]),
+        _missing=missing,
+        _lacks=bool(np.any(lacks)) if shape else lacks,
+        _pinned=a.pivot is not None or b.pivot is not None,
     )
     return choice, lacks
 
 
 def where_answered(choice: ModelChoice, refused: Any) -> ModelChoice:
     """The same with NaN errors in refused cases."""
-    if not np.any(refused):
-        return choice
-    return replace(choice, errors={name: select(refused, math.nan, error) for name, error in choice.errors.items()})
+    return choice if refused is False or not np.any(refused) else replace(choice, _refused=refused)
 
 
-def part_of_choice(choice: ModelChoice, take: Any, inputs: Inputs) -> ModelChoice:
-    """The choice for some cases of a batch, or for one of them, with its reason written for these."""
+def part_of_choice(choice: ModelChoice, take: Any) -> ModelChoice:
+    """The choice for some cases of a batch, or for one of them."""
     part: ModelChoice = part_of(choice, take)
-    errors = part.errors
-    missing = choice.missing[_ECCENTRIC]
-    reason = _reason(inputs, part.tolerance, part._which, errors[_LINEAR], errors[_OBLIQUE], missing, bool(missing))
-    return replace(part, reason=reason)
+    return replace(part, _lacks=bool(choice._missing))
 
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
@@ -173,7 +182,7 @@ def solve_least(
     if choice is None:
         predicting, report = halves(report)
         choice, lacks = choose(inputs, plain, threads, predicting)
-        if np.any(lacks):
+        if lacks is not False and np.any(lacks):
             refuse_incomplete(inputs, lacks)
     which = choice._which
     if not isinstance(which, np.ndarray):
@@ -185,46 +194,57 @@ def solve_least(
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
-        return solve_least(case, False, None, 1, None, part_of_choice(chosen, take, case))
+        return solve_least(case, False, None, 1, None, part_of_choice(chosen, take))
 
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)
     return raw, choice
 
 
-def _predicted(
-    inputs: Inputs, tolerance: Any, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any
-) -> tuple[Any, Any, Any]:
+@lru_cache(maxsize=64)
+def _float_function(rule: str, law: str | None, pinned: tuple[bool, bool]) -> Callable[[Inputs], Any]:
+    """``least_model`` compiled for plain floats of which none is missing."""
+    known = Known(places=(True, True), inertias=(True, True), all=True, pinned=pinned)
+    return compile_for_floats(least_model, (*MODELS[ECCENTRIC].takes, "tolerance"), (rule, law, known, EPS))
+
+
+def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any) -> Any:
     """The model's number, and the errors of the central models; infinite with a pivot, which they cannot represent."""
-    a, b, placed = inputs.a, inputs.b, inputs.point is not None
+    a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
+    pinned = a.pivot is not None, b.pivot is not None
+    if shape is None and not missing:
+        found = _float_function(inputs.rule, inputs.law, pinned)(inputs)
+        if found is not None:
+            return found
     known = Known(
         places=(placed and a.x is not None and a.y is not None, placed and b.x is not None and b.y is not None),
         inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
         all=not missing,
-        pinned=(a.pivot is not None, b.pivot is not None),
+        pinned=pinned,
     )
-    numbers = (*MODELS[ECCENTRIC].numbers(inputs), tolerance)
+    numbers = MODELS[ECCENTRIC].numbers(inputs)
     if shape is None:
-        return least_model(*numbers, inputs.rule, inputs.law, known, EPS)
+        return least_model(*numbers, tolerance, inputs.rule, inputs.law, known, EPS)
     # Batches only, so the float precision is found as for batches of one model.
     from .kernels.batch import least_models
 
     cases, eps = cases_of(inputs, shape, threads)
-    limit = tolerance
+    limit: Any = tolerance
     if cases.dtype == np.float32:
         # A tolerance too large for float32 accepts any float32 error.
         most = float(np.finfo(cases.dtype).max)
-        limit = np.minimum(tolerance, most) if isinstance(tolerance, np.ndarray) else min(tolerance, most)
-    return least_models((inputs.rule, inputs.law, known, eps), (*numbers[:-1], limit), cases, progress)
+        limit = np.minimum(limit, most) if isinstance(limit, np.ndarray) else min(limit, most)
+    return least_models((inputs.rule, inputs.law, known, eps), (*numbers, limit), cases, progress)
 
 
-def _reason(inputs: Inputs, tolerance: Any, which: Any, linear: Any, oblique: Any, missing: tuple[str, ...], lacks: Any) -> str:
+def _reason(choice: ModelChoice) -> str:
     """The reason for the choice, in a sentence."""
-    if not isinstance(which, int):
+    which, errors, tolerance = choice._which, choice._predicted, choice.tolerance
+    if isinstance(which, np.ndarray):
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
-    model, errors = _NAMES[which], (linear, oblique)
+    model, oblique = _NAMES[which], errors[_NAMES.index(_OBLIQUE)]
     predicted = [
         f"{name} has no answer" if error == math.inf else f"{name} would err by {error:.3g} m/s"
         for name, error in zip(_NAMES[:which], errors, strict=False)
@@ -234,10 +254,10 @@ def _reason(inputs: Inputs, tolerance: Any, which: Any, linear: Any, oblique: An
         return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
     if tolerance == 0.0:
         return f"{model}: a tolerance of 0 asks for the full model"
-    if inputs.a.pivot is not None or inputs.b.pivot is not None:
+    if choice._pinned:
         return f"{model}: a body that turns about a pivot is beyond the central models"
-    if math.isnan(oblique) and lacks:
-        return f"{model}: the error of a central model cannot be estimated without {', '.join(missing)}"
+    if math.isnan(oblique) and choice._lacks:
+        return f"{model}: the error of a central model cannot be estimated without {', '.join(choice._missing)}"
     if math.isnan(oblique):
         return f"{model}: there is no answer that a cheaper one could come near to"
     accepted = "" if math.isinf(oblique) else f", and {tolerance:.3g} m/s are accepted"

@@ -135,9 +135,14 @@ def read(
 ) -> tuple[Inputs, bool]:
     """Read a solver's arguments, for ``solve`` with the tolerance; see ``read_inputs``."""
     reader = ArgumentReader()
-    limit = _read_tolerance(reader, tolerance) if model == "solve" else None
+    if model == "solve" and not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
+        tolerance = _read_tolerance(reader, tolerance)
     inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
-    return (inputs, plain) if limit is None else (replace(inputs, tolerance=limit), plain and isinstance(limit, float))
+    if model == "solve":
+        # Nobody else has these inputs yet.
+        vars(inputs)["tolerance"] = tolerance
+        plain = plain and isinstance(tolerance, float)
+    return inputs, plain
 
 
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:

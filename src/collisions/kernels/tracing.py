@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from .elementwise import larger
 from .status import Answer, Status
 
 _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
@@ -29,7 +30,8 @@ _WRITTEN: dict[Any, str] = {
     np.true_divide: "({} / {})",
     np.negative: "(-{})",
     np.absolute: "abs({})",
-    np.sqrt: "sqrt({})",
+    np.fmax: "larger({}, {})",
+    np.sqrt: "({} ** 0.5)",
     np.greater: "({} > {})",
     np.greater_equal: "({} >= {})",
     np.less: "({} < {})",
@@ -300,20 +302,22 @@ def _pick(mask: Any, yes: Any, no: Any, out: Any) -> None:
 
 
 def compile_for_floats(
-    kernel: Callable[..., Answer], takes: tuple[str, ...], settings: tuple[Any, ...]
-) -> Callable[[Any], Answer | None]:
+    kernel: Callable[..., tuple[Any, ...]], takes: tuple[str, ...], settings: tuple[Any, ...]
+) -> Callable[[Any], Any]:
     """A kernel with these settings compiled to one plain function, which reads its numbers at the paths in ``takes``.
 
-    It answers only cases whose status is plainly OK; for any other it returns None, and the caller runs the kernel itself.
+    Of a kernel that gives an ``Answer`` it answers only cases whose status is plainly OK. For any other case, and where Python
+    raises, as in a division by 0, it returns None, and the caller runs the kernel itself.
     """
     tape = _FloatTape()
     with np.errstate(all="ignore"):
         numbers = [tape.input(which, np.float64) for which in range(len(takes))]
-        answers = [tape.operand(answer).index for answer in kernel(*numbers, *settings)]
-    fine = tape.fine(answers[0])
+        given = kernel(*numbers, *settings)
+        answers = [tape.operand(answer).index for answer in given]
+    fine = tape.fine(answers[0]) if isinstance(given, Answer) else tape.operand(True).index
     if fine is None:
         raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
-    wanted = [fine, *answers[1:]]
+    wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
     uses = Counter(wanted)
     for index in range(len(tape.steps) - 1, -1, -1):
         if index in uses and tape.steps[index].function is not None:
@@ -340,13 +344,14 @@ def compile_for_floats(
         if uses[index] > 1 and (function is not None or operands):
             names[index] = f"v{index}"
             lines.append(f"v{index} = {written}")
-    returned = ", ".join(["OK", *(names[index] for index in answers[1:])])
+    returned = ", ".join(names[index] for index in wanted[1:])
+    returned = f"new(Answer, (OK, {returned}))" if isinstance(given, Answer) else f"({returned})"
     body = "\n        ".join([*lines, f"if {names[fine]}:"])
     source = (
-        f"def function(inputs):\n    try:\n        {body}\n            return new(Answer, ({returned}))\n"
+        f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
     )
-    found: dict[str, Any] = {"sqrt": math.sqrt, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
+    found: dict[str, Any] = {"larger": larger, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
     exec(compile(source, f"<{kernel.__name__} of floats>", "exec"), found)
-    function_made: Callable[[Any], Answer | None] = found["function"]
-    return function_made
+    compiled: Callable[[Any], Any] = found["function"]
+    return compiled
