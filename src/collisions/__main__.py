@@ -1,0 +1,91 @@
+"""The command: ``python -m collisions case.toml`` answers a case file; ``new`` prints one to start from."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from . import __version__
+from .case_answers import Answers, answers
+from .case_file import CaseError, read
+from .case_schema import case_schema
+from .formatting import SYSTEMS
+
+_TEMPLATE = Path(__file__).with_name("case_template.toml")
+_ENDS = """\
+exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command
+cannot be used. What is wrong is one line each: the file, the key in it, and what to write."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with these arguments, by default those of the command line; gives the exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    options = _parser().parse_args(arguments)
+    if options.case == "new":
+        print(_TEMPLATE.read_text(encoding="utf-8"), end="")
+        return 0
+    if options.case == "schema":
+        print(json.dumps(case_schema(), indent=1))
+        return 0
+    try:
+        found = answers(read(options.case))
+        text = json.dumps(found.to_dict(), indent=1, allow_nan=False) + "\n" if options.json else found.text(options.units)
+        _write(options, found)
+    except CaseError as error:
+        return _refused(options, error)
+    for warning in found.warnings:
+        print(f"{options.case}: warning: {warning}", file=sys.stderr)
+    print(text, end="")
+    return 0
+
+
+def _write(options: Any, found: Answers) -> None:
+    """Write the files that were asked for."""
+    if options.report is not None:
+        form = "markdown" if Path(options.report).suffix.lower() in (".md", ".markdown") else "html"
+        page = found.report(form, options.units)
+        try:
+            Path(options.report).write_text(page, encoding="utf-8", newline="\n")
+        except (OSError, ValueError) as error:
+            text = f"cannot write {options.report} ({getattr(error, 'strerror', None) or error}); give another --report"
+            raise CaseError(("", text)) from None
+
+
+def _refused(options: Any, error: CaseError) -> int:
+    """Say what is wrong, a line each, or as JSON; gives the exit code."""
+    if options.json:
+        problems = [{"file": options.case, "key": key, "text": text} for key, text in error.problems]
+        print(json.dumps({"code": error.code, "errors": problems}, indent=1))
+    for key, text in error.problems:
+        print(": ".join(filter(None, (options.case, key, text))), file=sys.stderr)
+    return 1 if error.refused else 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="collisions",
+        description="Answers a case file: one vehicle impact as a page of text, forwards or backwards, with its uncertainty.",
+        epilog=_ENDS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "case",
+        help="a case file; or 'new', which prints one to start from (collisions new > case.toml), or 'schema', for the "
+        "JSON schema of case files for editors",
+    )
+    parser.add_argument("--report", metavar="FILE", help="write a report: .html with figures, or .md")
+    parser.add_argument("--units", choices=SYSTEMS, help="of what is written; metric, unless the file says otherwise")
+    parser.add_argument("--json", action="store_true", help="print everything as JSON, for other tools")
+    parser.add_argument("--version", action="version", version=f"collisions {__version__}")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,374 @@
+"""Case files: one case as TOML, whose keys are the arguments of the public functions. Nothing in a file is evaluated."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from inspect import Parameter, getdoc, signature
+from pathlib import Path
+from typing import Any
+
+from . import reconstruct, reference, solvers, travel, uncertainty
+from .errors import CollisionsError, InputError
+from .reporting import report
+from .units import shown
+from .vehicle import Vehicle
+
+# The functions of which a file calls one, by the name of its table.
+FORWARD = {f.__name__: f for f in (solvers.linear_central, solvers.oblique_central, solvers.eccentric, solvers.solve)}
+SOLVERS: dict[str, Callable[..., Any]] = FORWARD | {
+    f"reconstruct.{f.__name__}": f
+    for f in (reconstruct.central, reconstruct.momentum, reconstruct.planar, reconstruct.speeds)
+}  # fmt: skip
+# What is asked of the uncertain numbers of a file; without a table of these it is ``propagate`` as in ``_PROPAGATE``.
+STUDIES: dict[str, Callable[..., Any]] = {"propagate": uncertainty.propagate, "fit": reconstruct.fit}
+# Functions that may stand in place of a number: speed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }
+DISTRIBUTIONS = {
+    name: getattr(uncertainty, name) for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval")
+}
+FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
+    "travel.speed": travel.speed,
+    "reference.yaw_inertia": reference.yaw_inertia,
+    "reconstruct.crush_energy": reconstruct.crush_energy,
+    "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
+}
+OTHERS = {"report": "options of the report", "answer": "which answer to take where there are several, counted from 1"}
+# Arguments that a file has no use for, or that come from the rest of it.
+_NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknowns", "impact", "uncertainty", "form", "rest"}
+_PROPAGATE = {"method": "quasi_random", "seed": 0}
+_UNCERTAIN = re.compile(r"(.*?)(\+/-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
+_LARGEST_FILE = 1_000_000  # bytes
+
+
+class CaseError(Exception):
+    """What is wrong with a case, as pairs of key and text; ``refused`` if it was read, but has no answer."""
+
+    def __init__(self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case") -> None:
+        self.problems = [(key, " ".join(text.split())) for key, text in problems]
+        self.refused = refused
+        self.code = code
+        super().__init__("; ".join(f"{key}: {text}" for key, text in self.problems))
+
+
+@dataclass(frozen=True)
+class Uncertain:
+    """A number that is not known exactly: its key, what is stated of it, and what stands for it in a single case."""
+
+    key: str
+    stated: Any
+    nominal: Any
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call of a public function, whose arguments are constants, uncertain numbers or calls."""
+
+    key: str
+    function: Callable[..., Any]
+    arguments: Mapping[str, Any]
+
+    def __call__(self, values: Mapping[str, Any], **options: Any) -> Any:
+        """The result for these values of the uncertain numbers, by key; a refusal names the key in the file."""
+        arguments = {name: _filled(argument, values) for name, argument in self.arguments.items()}
+        try:
+            return self.function(**arguments, **options)
+        except CollisionsError as error:
+            problems = [(self._place(part), str(part)) for part in error.fields.get("problems", (error,))]
+            raise CaseError(*problems, refused=not isinstance(error, InputError), code=error.code) from error
+
+    def _place(self, error: CollisionsError) -> str:
+        """The key that an error is about: an argument, that of a vehicle, or the table."""
+        name = str(error.fields.get("argument", ""))
+        body = error.fields.get("vehicle") or name.partition(".")[0]
+        if isinstance(self.arguments.get(body), Call):
+            return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
+        return f"{self.key}.{name}" if name.partition("[")[0] in parameters(self.function) else self.key
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case as it was read: the solver and the call of it, what is asked of its uncertain numbers, options of the report.
+
+    ``answer`` says which of several answers to take, from 1.
+    """
+
+    solver: str
+    call: Call
+    uncertain: Mapping[str, Uncertain]
+    study: str
+    options: Mapping[str, Any]
+    report: Mapping[str, Any]
+    answer: int | None
+
+
+def read(path: str | Path) -> Case:
+    """The case of a file; CaseError if it cannot be read."""
+    try:
+        with Path(path).open("rb") as file:
+            return read_text(file.read(_LARGEST_FILE + 1))
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise CaseError(
+            ("", f"cannot be read ({why}); give the path of a case file, or start from what 'new' prints")
+        ) from None
+
+
+def read_text(data: bytes) -> Case:
+    """The case of a file's content."""
+    if len(data) > _LARGEST_FILE:
+        raise CaseError(("", "is larger than 1 MB; a case file is a page of text, such as 'new' prints"))
+    try:
+        document = tomllib.loads(data.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
+    except RecursionError:
+        raise CaseError(("", "is nested too deeply; a value is a number, a text, a pair or a table of these")) from None
+    except ValueError as error:
+        cure = 'write key = value, with every text in quotes, such as mass = "1500 kg"'
+        raise CaseError(("", f"is not TOML: {error}; {cure}")) from None
+    return _Reader(document).case()
+
+
+@cache
+def parameters(function: Callable[..., Any]) -> dict[str, Parameter]:
+    """The arguments of a public function that a file may give, in the order of its signature."""
+    found = dict(signature(function).parameters)
+    if function == Vehicle.from_speed:
+        found = {"speed": found["speed"], "course": found["course"], **parameters(Vehicle)}
+        del found["vx"], found["vy"]
+    return {name: parameter for name, parameter in found.items() if name not in _NOT_IN_FILES}
+
+
+def vehicles(function: Callable[..., Any]) -> list[str]:
+    """The arguments of a solver that are vehicles."""
+    return [name for name, one in parameters(function).items() if one.annotation == "Vehicle"]
+
+
+@cache
+def descriptions(function: Callable[..., Any]) -> dict[str, str]:
+    """By argument, its unit and what its docstring says of it."""
+    section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
+    found: dict[str, str] = descriptions(Vehicle) if function == Vehicle.from_speed else {}
+    for names, kind, text in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE):
+        unit = (re.search(r" ?\[\S+?\]", kind) or [""])[0].replace(" [1]", "").replace(" [-]", "")
+        found = found | dict.fromkeys(names.split(", "), f"{' '.join(text.split()).rstrip('.')}{unit}")
+    return found
+
+
+def nearest(given: str, names: Iterable[str]) -> str:
+    """What to write in place of a name that is not known."""
+    listed = list(names)
+    near = get_close_matches(given, listed, 1, 0.5)
+    return f"did you mean {near[0]}?" if near else f"write one of {', '.join(listed)}"
+
+
+def stated(text: str) -> Any:
+    """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with " (95 %)"; None of others.
+
+    A number after +/- is one standard deviation of a normal distribution, two dots are the bounds of a uniform one. With a
+    percentage the range holds that share of a normal distribution.
+    """
+    found = _UNCERTAIN.fullmatch(text)
+    if found is None:
+        return None
+    one, sign, other, coverage = found.groups()
+    if sign == "..":
+        return uncertainty.Normal.between(one, other, coverage) if coverage else uncertainty.Uniform(one, other)
+    whole = uncertainty.Normal(one, other)
+    if not coverage:
+        return whole
+    low, high = (f"{whole.given_mean + side * whole.given_sd!r} {whole.unit}" for side in (-1.0, 1.0))
+    return uncertainty.Normal.between(low, high, coverage)
+
+
+def _filled(node: Any, values: Mapping[str, Any]) -> Any:
+    if isinstance(node, Uncertain):
+        return values.get(node.key, node.nominal)
+    if isinstance(node, Call):
+        return node(values)
+    return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
+
+
+def _tuples(value: Any) -> Any:
+    """A value of TOML with its lists as tuples."""
+    return tuple(map(_tuples, value)) if isinstance(value, list) else value
+
+
+class _Reader:
+    """Reads one document, and collects what is wrong with it."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self.document = document
+        self.problems: list[tuple[str, str]] = []
+        self.uncertain: dict[str, Uncertain] = {}
+
+    def refuse(self, key: str, text: str) -> None:
+        self.problems.append((key, text))
+
+    def close(self) -> None:
+        if self.problems:
+            raise CaseError(*self.problems)
+
+    def case(self) -> Case:
+        """The whole case."""
+        name = self.solver()
+        bodies = vehicles(SOLVERS[name])
+        self.known(self.document, "", [name.partition(".")[0], *bodies, *STUDIES, *OTHERS])
+        call = self.call(name, SOLVERS[name], self.table(name), {label: self.vehicle(label) for label in bodies})
+        studies = [study for study in STUDIES if study in self.document]
+        if len(studies) > 1:
+            self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
+        study = studies[0] if studies else "propagate" if self.uncertain else ""
+        options = self.study(study) if study else {}
+        answer = self.document.get("answer")
+        if answer is not None and not (type(answer) is int and answer > 0):
+            self.refuse(
+                "answer", f"must be a whole number from 1, got {shown(answer)}: it says which of several answers to take"
+            )
+        page = self.table("report")
+        self.known(page, "report", parameters(report))
+        self.close()
+        return Case(name, call, self.uncertain, study, options, {key: _tuples(value) for key, value in page.items()}, answer)
+
+    def solver(self) -> str:
+        """The one solver that the file has a table of."""
+        inside = self.document.get("reconstruct")
+        reverse = [f"reconstruct.{key}" for key in inside] if isinstance(inside, dict) else []
+        self.known(reverse, "", SOLVERS)
+        found = [name for name in SOLVERS if name in self.document or name in reverse]
+        if len(found) != 1 and not self.problems:
+            bodies = dict.fromkeys(label for function in SOLVERS.values() for label in vehicles(function))
+            self.known(self.document, "", [*FORWARD, "reconstruct", *bodies, *STUDIES, *OTHERS])
+            some, every = (", ".join(f"[{name}]" for name in names) for names in (found, SOLVERS))
+            self.refuse(
+                "", f"has the tables {some}; leave one of them" if found else f"has no table of a solver; write one of {every}"
+            )
+        self.close()
+        return found[0]
+
+    def known(self, table: Iterable[str], place: str, names: Iterable[str]) -> None:
+        """Refuse the keys of a table that are not among these names."""
+        for key in table:
+            if key not in names:
+                self.refuse(f"{place}.{key}".lstrip("."), f"is not known here; {nearest(key, names)}")
+
+    def table(self, name: str) -> dict[str, Any]:
+        """The table at a path with dots; empty where there is none."""
+        found: Any = self.document
+        for part in name.split("."):
+            found = found.get(part, {}) if isinstance(found, dict) else found
+        if isinstance(found, dict):
+            return found
+        self.refuse(name, f"must be a table, got {shown(found)}; write [{name}] on a line of its own, and its keys below")
+        return {}
+
+    def vehicle(self, label: str) -> Call:
+        """The vehicle of a table, by speed and course where it has them."""
+        function = Vehicle.from_speed if {"speed", "course"} & self.table(label).keys() else Vehicle
+        names = parameters(function) | parameters(Vehicle.from_speed)
+        self.known(self.table(label), label, names)
+        return self.call(label, function, {name: value for name, value in self.table(label).items() if name in names})
+
+    def call(
+        self, key: str, function: Callable[..., Any], given: Any, beside: Mapping[str, Any] | None = None, plain: bool = False
+    ) -> Call:
+        """The call of a function with the arguments of a table, and those that stand ``beside`` it in the file.
+
+        With ``plain`` every value is taken as it is.
+        """
+        takes = {name: one for name, one in parameters(function).items() if name not in (beside or {})}
+        if not isinstance(given, dict):
+            self.refuse(key, f"must be a table of arguments, got {shown(given)}; write {{ {next(iter(takes))} = ... }}")
+            given = {}
+        self.known(given, key, takes)
+        for name, one in takes.items():
+            # What may be None is not known, which a file says by leaving it out.
+            if one.default is Parameter.empty and name not in given and "None" not in str(one.annotation):
+                text = descriptions(function).get(name) or (getdoc(getattr(Vehicle, name, None)) or name).rstrip(".")
+                self.refuse(f"{key}.{name}", f"is missing; give it: {text}")
+        prefix = "" if key in SOLVERS else f"{key}."
+        read = {
+            name: _tuples(value) if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
+            for name, value in given.items()
+            if name in takes
+        }
+        unknown = {name: None for name, one in takes.items() if one.default is Parameter.empty}
+        return Call(key, function, {**unknown, **(beside or {}), **read})
+
+    def value(self, key: str, value: Any, kind: str) -> Any:
+        """An argument: a number or a text as it is, or what stands there in place of a number."""
+        if not any(name in kind for name in ("Input", "Pair", "Segments")):
+            return _tuples(value)
+        if isinstance(value, dict):
+            return self.function(key, value)
+        if isinstance(value, list):
+            if any(name in kind for name in ("Pair", "Segments", "Sequence", "tuple")):
+                return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
+            self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
+        elif isinstance(value, str) and (found := _UNCERTAIN.fullmatch(value)):
+            written = found[1].strip() if found[2] != ".." else None
+            return self.stated(key, Call(key, stated, {"text": value}), written)
+        return value
+
+    def function(self, key: str, table: Any) -> Any:
+        """What the function gives that a table names in place of a number."""
+        for name, function in FUNCTIONS.items():
+            inside = table
+            for part in name.split("."):
+                inside = inside.get(part) if isinstance(inside, dict) and len(inside) == 1 else None
+            if inside is not None:
+                count = len(self.problems)
+                call = self.call(f"{key}.{name}", function, inside, plain=name in DISTRIBUTIONS)
+                return self.stated(key, call) if name in DISTRIBUTIONS and len(self.problems) == count else call
+        cure = nearest(".".join(table), FUNCTIONS)
+        self.refuse(key, f"is a table that names no function which may stand for a number, got {shown(table)}; {cure}")
+        return None
+
+    def stated(self, key: str, call: Call, written: str | None = None) -> Any:
+        """An uncertain number; as ``written``, its mean, or the middle of an interval it stands in a single case."""
+        try:
+            found = call({})
+        except CaseError as error:
+            self.problems.extend(error.problems)
+            return None
+        middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else found.mean
+        self.uncertain[key] = Uncertain(key, found, written or middle)
+        return self.uncertain[key]
+
+    def study(self, name: str) -> dict[str, Any]:
+        """The arguments of what is asked of the uncertain numbers."""
+        given = self.table(name)
+        takes = parameters(STUDIES[name])
+        self.known(given, name, [*takes, *(() if "observed" in takes else ("outputs",))])
+        found = {key: _tuples(value) for key, value in given.items()}
+        if name == "propagate":
+            bounds_only = all(isinstance(one.stated, uncertainty.Interval) for one in self.uncertain.values())
+            found = ({"method": "interval"} if bounds_only else _PROPAGATE) | found
+        rows = found.get("correlation", ())
+        if isinstance(rows, tuple) and all(isinstance(row, tuple) and len(row) == 3 for row in rows):
+            found |= {"correlation": {row[:2]: row[2] for row in rows}} if rows else {}
+        else:
+            self.refuse(
+                f"{name}.correlation", f'takes rows such as [["a.mass", "b.mass", 0.5]], got {shown(rows)}; write them so'
+            )
+        if "observed" in takes:
+            rows = given.get("observed")
+            if not isinstance(rows, dict) or not rows:
+                self.refuse(f"{name}.observed", 'must be a table of what was found; write "a.delta_v" = "20 km/h +/- 1 km/h"')
+                rows = {}
+            found["observed"] = {key: self._observed(f"{name}.observed.{key}", value) for key, value in rows.items()}
+        return found
+
+    def _observed(self, key: str, value: Any) -> Any:
+        """A measured value with its error: a text, or a pair."""
+        if not isinstance(value, str):
+            return _tuples(value)
+        try:
+            return Call(key, stated, {"text": value})({})
+        except CaseError as error:
+            self.problems.extend(error.problems)
+            return None

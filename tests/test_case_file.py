@@ -1,0 +1,339 @@
+"""Case files give what the same call in Python gives; what is wrong is a line with the key and the cure."""
+
+import json
+import math
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import collisions as col
+from collisions import reconstruct, travel
+from collisions.__main__ import main
+from collisions.case_answers import answers
+from collisions.case_file import DISTRIBUTIONS, SOLVERS, STUDIES, CaseError, parameters, read, read_text, stated
+from collisions.case_schema import case_schema
+from collisions.reporting import replay
+from collisions.uncertainty import Interval, Normal, Triangular, Uniform, propagate
+
+ROOT = Path(__file__).parents[1]
+CASES = ROOT / "examples" / "cases"
+REAR_END = '[a]\nmass = "1100 kg"\nvx = "80 km/h"\n\n[b]\nmass = "950 kg"\n\n[linear_central]\nrestitution = 0.4\n'
+ECCENTRIC = (
+    '[a]\nmass = 1500\nvx = "50 km/h"\nyaw_inertia = 2400\nx = -2.0\ny = 0.4\nheading = "0 deg"\n[b]\nmass = 1200\nyaw_inertia = 1700\n'
+    'vy = "40 km/h"\nx = 0.8\ny = -1.2\nheading = "90 deg"\n[eccentric]\nrestitution = 0.1\nnormal = "0 deg"\npoint = [0, 0]\nfriction = 0.5\n'
+)
+
+
+def solved(text):
+    """The one result of a case."""
+    (found,) = answers(read_text(text.encode())).results
+    return found
+
+
+def problems(text):
+    """What is wrong with a case, as lines."""
+    with pytest.raises(CaseError) as caught:
+        answers(read_text(text.encode()))
+    return [f"{key}: {text}" for key, text in caught.value.problems]
+
+
+def run(capsys, *arguments):
+    """Exit code, output and error lines of the command."""
+    code = main([*map(str, arguments)])
+    found = capsys.readouterr()
+    return code, found.out, found.err
+
+
+def test_forward_gives_what_the_call_gives():
+    """The eccentric case of the README, with vx and with speed and course; to the bit."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2400, vx="50 km/h", x=-2.0, y=0.4, heading="0 deg")
+    b = col.Vehicle(mass=1200, yaw_inertia=1700, vy="40 km/h", x=0.8, y=-1.2, heading="90 deg")
+    impact = col.eccentric(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5)
+    assert solved(ECCENTRIC) == impact
+    assert solved(ECCENTRIC.replace("vx = ", "course = 0.0\nspeed = ")) == impact
+    assert solved(ECCENTRIC.replace('normal = "0 deg"', "normal = [1, 0]")) == impact
+    least = ECCENTRIC.replace("[eccentric]", '[solve]\ntolerance = "100 km/h"')
+    assert solved(least) == col.solve(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, tolerance="100 km/h")
+
+
+def test_backwards_gives_what_the_call_gives():
+    """Each of the four reverse solvers; a course that is not given is not known."""
+    text = '[reconstruct.central]\nmass_a = 1100\nmass_b = 950\nva = "80 km/h"\nvb = 0\nvb_after = "60 km/h"\n'
+    assert solved(text).restitution == pytest.approx(35 / 88, rel=1e-14)  # example 2 of the paper
+    found = reconstruct.momentum(
+        1500, 1200, course_a=0, course_b="90 deg", course_a_after="25 deg", course_b_after="40 deg",
+        speed_a_after=travel.speed("12 m", drag=0.7), speed_b_after=9.0,
+    )  # fmt: skip
+    text = (
+        '[reconstruct.momentum]\nmass_a = 1500\nmass_b = 1200\ncourse_a = 0\ncourse_b = "90 deg"\ncourse_a_after = "25 deg"\n'
+        'course_b_after = "40 deg"\nspeed_b_after = 9.0\nspeed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }\n'
+    )
+    assert solved(text) == found
+    bodies = "yaw_inertia = 2000\nx = {}\ny = 0.0\n"
+    text = (
+        f"[a]\nmass = 1500\n{bodies.format(-2.0)}[b]\nmass = 1300\n{bodies.format(2.0)}[reconstruct.speeds]\ncourse_a = 0\n"
+        "speed_b = 0\ndelta_v_a = 6\nrestitution = 0.1\nnormal = 0\npoint = [0, 0.4]\nfriction = 0.5\n"
+    )
+    impact = solved(text)
+    assert (impact.a.delta_v, impact.b.before.speed) == (pytest.approx(6.0, rel=1e-13), 0.0)
+    after = "".join(
+        f"[{label}_after]\nmass = {side.after.mass}\nvx = {side.after.vx!r}\nvy = {side.after.vy!r}\nyaw_rate = {side.after.yaw_rate!r}\n"
+        + bodies.format(side.after.x)
+        for label, side in (("a", impact.a), ("b", impact.b))
+    )
+    back = (
+        solved(
+            f"{after}[reconstruct.planar]\nnormal = 0\npoint = [0, 0.4]\nrestitution = 0.1\nfriction = 0.5\nregime = 'sliding'\n"
+        )
+        if impact.regime == "sliding"
+        else None
+    )
+    assert back is None or back.a.before.vx == pytest.approx(impact.a.before.vx, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("50 km/h +/- 3 km/h", Normal("50 km/h", "3 km/h")),
+        ("50 km/h±3 km/h", Normal("50 km/h", "3 km/h")),
+        ("0.4 .. 0.7", Uniform(0.4, 0.7)),
+        ("0.4..0.7", Uniform(0.4, 0.7)),
+        ("-5 deg .. 5 deg", Uniform("-5 deg", "5 deg")),
+        ("1400 kg .. 1600 kg (95 %)", Normal.between("1400 kg", "1600 kg", 0.95)),
+        ("0.5 +/- 0.1 (90 %)", Normal.between(0.4, 0.6, 0.9)),
+    ],
+)
+def test_texts_of_what_is_not_known_exactly(text, wanted):
+    """As written; nothing else is one."""
+    found = stated(text)
+    assert type(found) is type(wanted)
+    assert found.unit == wanted.unit
+    assert found.quantile(0.1) == pytest.approx(wanted.quantile(0.1), rel=1e-14)
+    assert stated("50 km/h") is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["50 +/- 3 km/h", "0.7 .. 0.4", "5 kg +/- 1 m", "1 .. 2 .. 3", "5 +/- ", "1 .. 2 (100 %)", "1 +/- 0", "0.4 .. 0.7 (95)"],
+)
+def test_texts_that_are_refused(text):
+    """Never read as something near it."""
+    (line,) = problems(REAR_END.replace("0.4", f'"{text}"'))
+    assert line.startswith("restitution: ")
+
+
+def test_the_nominal_case_has_what_was_written():
+    """A text keeps its unit beside its error, and the middle stands for a range."""
+    impact = solved(REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"'))
+    assert impact.a.before.given["vx"] == "80 km/h"
+    assert impact.restitution == pytest.approx(0.3, rel=1e-15)
+    turned = solved(ECCENTRIC.replace('"0 deg"\npoint', '"-90 deg +/- 5 deg"\npoint'))
+    assert turned.normal == (0.0, -1.0)
+
+
+def test_propagation_is_that_of_the_same_model():
+    """Same seed, same figures; one normal, one uniform, one triangular input."""
+    text = REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"')
+    text = text.replace('"950 kg"', "{ Triangular = { low = 900, mode = 950, high = 1100 } }")
+    found = answers(read_text(f"{text}[propagate]\nmethod = 'quasi_random'\nseed = 3\nsamples = 256\n".encode())).propagation
+
+    def model(vx, mass, e):
+        impact = col.linear_central(col.Vehicle(mass=1100, vx=vx), col.Vehicle(mass=mass), e, on_failure="nan")
+        return {"a.delta_v": impact.a.q.delta_v, "b.delta_v": impact.b.q.delta_v, "energy_loss": impact.q.energy_loss}
+
+    inputs = {"vx": Normal("80 km/h", "2 km/h"), "mass": Triangular(900, 950, 1100), "e": Uniform(0.2, 0.4)}
+    wanted = propagate(model, inputs, method="quasi_random", seed=3, samples=256)
+    assert list(found) == list(wanted)
+    for name in wanted:
+        assert (found[name].mean, found[name].std) == (wanted[name].mean, wanted[name].std)
+    assert set(found.inputs) == {"a.vx", "b.mass", "restitution"}
+
+
+def test_bounds_alone_give_bounds():
+    """Intervals are no distributions, and nothing is drawn from them."""
+    text = REAR_END.replace("0.4", "{ Interval = { low = 0.2, high = 0.4 } }")
+    found = answers(read_text(text.encode())).propagation
+    assert found.method == "interval"
+    assert found["b.delta_v"].interval() == pytest.approx([80 / 3.6 * 1100 / 2050 * (1 + e) for e in (0.2, 0.4)], rel=1e-9)
+    assert isinstance(found.inputs["restitution"], Interval)
+
+
+def test_one_road_under_both_cars():
+    """Rows of a correlation name keys of the file; the example has the range of the README."""
+    found = answers(read(CASES / "run_out.toml")).propagation
+    low, high = found["speed_a"].interval(0.95)
+    assert (round(3.6 * low), round(3.6 * high)) == (67, 80)
+
+
+def test_fit_of_what_was_observed():
+    """The speed that gives the delta-V in closed form: dv m/(m_a (1 + e))."""
+    text = REAR_END.replace('"80 km/h"', '"10 m/s .. 30 m/s"') + '[fit.observed]\n"b.delta_v" = "15 m/s +/- 0.5 m/s"\n'
+    found = solved(text)
+    assert found["a.vx"].value == pytest.approx(15 * 2050 / 1100 / 1.4, rel=1e-9)
+    assert "a.vx" in answers(read_text(text.encode())).text()
+
+
+def test_two_answers_are_told_apart():
+    """Both are printed; a report or a range needs to know which."""
+    body = "yaw_inertia = {}\nx = {}\ny = {}\n"
+    text = (
+        f"[a]\nmass = 1500\n{body.format(2500, -2, 0)}[b]\nmass = 1300\n{body.format(2000, 2, 0.8)}[reconstruct.speeds]\n"
+        "course_a = 0\ncourse_b = '90 deg'\nenergy_loss = 120000\ndelta_v_a = 6\nrestitution = 0.1\nnormal = 0\npoint = [0, 0.4]\nfriction = 0.5\n"
+    )
+    both = answers(read_text(text.encode()))
+    assert len(both.results) == 2
+    assert "Answer 2 of 2" in both.text()
+    with pytest.raises(CaseError, match="write answer = 1"):
+        both.report("html")
+    assert solved("answer = 2\n" + text) == both.results[1]
+    assert problems("answer = 3\n" + text) == ["answer: is 3, and 2 fit; write a number from 1 to 2"]
+    vague = text.replace("delta_v_a = 6", 'delta_v_a = "5.9 .. 6.1"')
+    assert problems(vague)[0].startswith("answer: is not given, and 2 answers fit")
+    found = answers(
+        read_text(("answer = 2\n" + vague + "[propagate]\nmethod = 'monte_carlo'\nseed = 1\nsamples = 64\n").encode())
+    )
+    mean = found.propagation["a.before.speed"].mean
+    assert mean == pytest.approx(both.results[1].a.before.speed, rel=0.02)  # 6 moves by 1.7 percent, and the answer by less
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        ("restitution", "restitutoin", "linear_central.restitutoin: is not known here; did you mean restitution?"),
+        ("vx", "speeed", "a.speeed: is not known here; did you mean speed?"),
+        ("[b]", "[c]", "c: is not known here"),
+        ("linear_central", "linear_centrl", "linear_centrl: is not known here; did you mean linear_central?"),
+        ("linear_central", "reconstruct.centrall", "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
+        ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
+        ("1100 kg", "1100 kgg", "a.mass: mass: '1100 kgg' cannot be taken as kg"),
+        ('"1100 kg"', "1100 kg", ": is not TOML: "),
+        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart"),
+        ("0.4", "1.4", "linear_central.restitution: restitution must be from 0 to 1, got 1.4"),
+        ("0.4", "[0.4, 0.5]", "restitution: takes one value"),
+        ("0.4", "{ travel.sped = { distance = 1 } }", "restitution: is a table that names no function"),
+        ("0.4", "{ Uniform = { low = 1 } }", "restitution.Uniform.high: is missing"),
+        ("0.4\n", '0.4\n[report]\nunit = "us"\n', "report.unit: is not known here; did you mean units?"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "a.deltav: is no number of the answer; did you mean a.delta_v?"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "a.pdof: is not known: "),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["point"]\n', "point: is no number of the answer"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
+        ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
+        (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_a_line_with_the_key_and_the_cure(old, new, line):
+    """Nothing is passed over, and nothing is read as something else."""
+    found = problems(REAR_END.replace(old, new, 1))
+    assert found[0].startswith(line), found
+    assert all("\n" not in one for one in found)
+
+
+def test_a_vehicle_that_lacks_something_is_named():
+    """The key is that of the file, not of the function."""
+    assert problems(ECCENTRIC.replace("yaw_inertia = 1700\n", "").replace("x = -2.0\n", "")) == [
+        "a.x: a has no x, which eccentric needs; give x='2.5 m' (the centre of mass at the moment of impact)",
+        "b.yaw_inertia: b has no yaw_inertia, which eccentric needs; give yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"])
+def test_each_example_makes_its_report(name, tmp_path, capsys):
+    """From a file to a report in one command; the record in it is that of the result."""
+    page = tmp_path / "report.html"
+    code, text, complaints = run(capsys, CASES / f"{name}.toml", "--report", page)
+    assert (code, complaints) == (0, "")
+    assert "## Results" in text
+    whole = page.read_text(encoding="utf-8")
+    assert whole.count("<figure>") >= 2
+    assert replay(whole) == answers(read(CASES / f"{name}.toml")).results[0]
+
+
+def test_the_examples_have_their_published_answers():
+    """Example 3 of the paper, exactly; test 4474 as printed; the speed of the README's recorder within its range."""
+    (paper,) = answers(read(CASES / "paper_example_3.toml")).results
+    assert paper.b.after.yaw_rate == pytest.approx(-405 / 74, rel=1e-13)
+    assert paper.a.after.vx == pytest.approx(950 / 111, rel=1e-13)
+    (us,) = answers(read(CASES / "us_units.toml")).results
+    assert [side.q.delta_v.m_as("mph") for side in (us.a, us.b)] == pytest.approx([28.7, 40.5], abs=0.2)
+
+
+def test_the_command(tmp_path, capsys):
+    """Its output in each form, the units, and the exit codes."""
+    file = tmp_path / "case.toml"
+    file.write_text(REAR_END, encoding="utf-8")
+    code, text, complaints = run(capsys, file)
+    assert (code, complaints) == (0, "")
+    assert re.search(r"^B +delta-V +59\.9? ?\d* ?km/h|^B +delta-V +60\.\d km/h", text, re.MULTILINE), text
+    assert "mph" in run(capsys, file, "--units", "us")[1]
+    code, text, _ = run(capsys, file, "--json")
+    record = json.loads(text)
+    assert (code, record["warnings"], record["uncertainty"]) == (0, [], None)
+    assert col.Impact.from_dict(record["results"][0]["impact"]) == solved(REAR_END)
+    page = tmp_path / "page.md"
+    assert run(capsys, file, "--report", page)[0] == 0
+    assert replay(page.read_text(encoding="utf-8")) == solved(REAR_END)
+    assert run(capsys, file, "--report", tmp_path)[0] == 2
+    assert run(capsys, tmp_path / "none.toml")[0::2] == (
+        2, f"{tmp_path / 'none.toml'}: cannot be read (No such file or directory); give the path of a case file, or start from what 'new' prints\n",
+    )  # fmt: skip
+    file.write_text(REAR_END.replace("80 km/h", "-80 km/h"), encoding="utf-8")
+    code, text, complaints = run(capsys, file)
+    assert (code, text, complaints.count("\n")) == (1, "", 1)
+    assert complaints.startswith(f"{file}: linear_central: no impact: ")
+    code, text, _ = run(capsys, file, "--json")
+    assert (code, json.loads(text)["code"], json.loads(text)["errors"][0]["key"]) == (1, "separating", "linear_central")
+    file.write_text(REAR_END.replace('"80 km/h"', "80") + "normal = 6.283185307179587\n", encoding="utf-8")
+    file.write_text(REAR_END + "[report]\nduration = 100\n", encoding="utf-8")
+    code, text, complaints = run(capsys, file)
+    assert (code, complaints.startswith(f"{file}: warning: "), text.startswith("## Results")) == (0, True, True)
+    with pytest.raises(SystemExit, match="2"):
+        main(["--nothing"])
+
+
+@pytest.mark.slow
+def test_new_prints_a_case_that_runs(tmp_path, capsys):
+    """As it is, without a warning; in a process of its own."""
+    code, text, _ = run(capsys, "new")
+    assert code == 0
+    file = tmp_path / "case.toml"
+    file.write_text(text, encoding="utf-8")
+    command = [sys.executable, "-W", "error", "-m", "collisions", str(file)]
+    found = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    assert (found.returncode, found.stderr) == (0, "")
+    assert "a.delta_v" in found.stdout
+    assert max(map(len, text.splitlines())) < 128
+
+
+def test_the_schema_is_that_of_the_functions(capsys):
+    """Every argument, every solver; what it refuses is refused, and the examples pass."""
+    jsonschema = pytest.importorskip("jsonschema")
+    import tomllib
+
+    schema = json.loads(run(capsys, "schema")[1])
+    assert schema == case_schema()
+    check = jsonschema.Draft7Validator(schema)
+    check.check_schema(schema)
+    for path in (*CASES.glob("*.toml"), ROOT / "src" / "collisions" / "case_template.toml"):
+        assert not [error.message for error in check.iter_errors(tomllib.loads(path.read_text(encoding="utf-8")))], path
+    for text in (REAR_END.replace("vx", "vxx"), REAR_END.replace("restitution", "e"), REAR_END.replace('"1100 kg"', "true")):
+        assert list(check.iter_errors(tomllib.loads(text)))
+    tables = schema["properties"] | {
+        f"reconstruct.{name}": one for name, one in schema["properties"]["reconstruct"]["properties"].items()
+    }
+    for name, function in (SOLVERS | STUDIES).items():
+        listed = {key for key in parameters(function) if parameters(function)[key].annotation != "Vehicle"}
+        assert set(tables[name]["properties"]) - {"outputs"} == listed
+    assert tables["eccentric"]["properties"]["law"]["enum"][:2] == ["brach", "kudlich-slibar"]
+    assert "Coefficient of restitution" in tables["eccentric"]["properties"]["restitution"]["description"]
+    assert DISTRIBUTIONS.keys() <= schema["$defs"]["function"]["properties"].keys()
+
+
+def test_nothing_is_evaluated():
+    """Texts that Python or pint would work out are refused as what they are."""
+    for text in ("__import__('os')", "2*3", "9**9**9 kg", "1e3+1"):
+        assert problems(REAR_END.replace("1100 kg", text))[0].startswith("a.mass: ")
+    assert math.isinf(solved(REAR_END.replace('"950 kg"', "inf")).b.before.mass)
