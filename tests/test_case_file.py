@@ -218,7 +218,7 @@ def test_two_answers_are_told_apart():
         ("0.4\n", '0.4\n[report]\nunit = "us"\n', "report.unit: is not known here; did you mean units?"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "a.deltav: is no number of the answer; did you mean a.delta_v?"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "a.pdof: is not known: "),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["point"]\n', "point: is no number of the answer"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n', "normal: is no number of the answer"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
         ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
