@@ -9,7 +9,7 @@ Every input is an array here and all answers are written; what the library takes
 
 What it showed (2 cores, Python 3.11, numpy 2, a million cases), against whole arrays: blocks of 8192 take 0.48, replayed 0.17;
 blocks of 65536, which no longer fit the cache of a core, 0.92 and 0.28; blocks of 1024, where the calls themselves weigh, 0.60
-replayed. Decided: ``kernels/tracing.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded from one
+replayed. Decided: ``kernels/replay.py``, in blocks of 8192. The kernel stays a plain formula: its steps are recorded from one
 run.
 """
 
@@ -20,8 +20,8 @@ from measuring import QUICK, batch_speed, compare
 
 from collisions.kernels.batch import run_as_it_is
 from collisions.kernels.eccentric import eccentric
+from collisions.kernels.replay import Replay, aligned, record
 from collisions.kernels.status import EPS, Answer
-from collisions.kernels.tracing import Replay, aligned, record
 
 CASES = 20_000 if QUICK else 1_000_000
 SETTINGS = ("friction", "brach", False, False, EPS)

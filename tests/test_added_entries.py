@@ -10,8 +10,8 @@ import collisions as col
 from collisions import solving
 from collisions.kernels.contact_laws import BRACH, KUDLICH_SLIBAR, LAWS, Law
 from collisions.kernels.elementwise import Domain
+from collisions.kernels.floats import compile_for_floats
 from collisions.kernels.status import Answer, Status
-from collisions.kernels.tracing import compile_for_floats
 from collisions.reading import ArgumentReader
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-2.0, y=0.4, vx=14.0, vy=3.0, yaw_rate=0.2)
@@ -96,7 +96,7 @@ def test_an_operation_that_cannot_be_printed_is_named():
         fine = sine > 0.0
         return Answer(status=np.where(fine, Status.OK, Status.SEPARATING), closing_speed=sine)
 
-    with pytest.raises(TypeError, match="curved uses sin, which cannot be written for floats"):
+    with pytest.raises(TypeError, match="curved uses sin, which cannot be written as a text"):
         compile_for_floats(curved, ("restitution",), ())
 
 

@@ -13,8 +13,8 @@ from collisions.kernels.batch import BLOCK, block_length
 from collisions.kernels.central import linear_central, oblique_central
 from collisions.kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR, LAWS, RULES
 from collisions.kernels.eccentric import eccentric
+from collisions.kernels.replay import Replay, aligned, record
 from collisions.kernels.status import Answer
-from collisions.kernels.tracing import Replay, aligned, record
 
 ODD = (0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324, 1e308)
 
@@ -133,7 +133,7 @@ def test_nothing_is_worked_out_twice_or_for_nothing():
         return (x + y) * (x + y), 1.0 * x
 
     program = record(kernel, (), (None, None), np.float64, (np.dtype(float),) * 2)
-    assert [call.__name__ for call, _ in program.calls] == ["add", "multiply", "_cast"]
+    assert [call.__name__ for call, _ in program.calls] == ["add", "multiply", "cast"]
 
 
 def test_a_kernel_that_branches_is_refused():

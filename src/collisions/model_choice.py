@@ -12,9 +12,9 @@ import numpy as np
 
 from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.elementwise import select
+from .kernels.floats import compile_for_floats
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
-from .kernels.tracing import compile_for_floats
 from .models import MODELS, read_again
 from .progress import halves, reporter
 from .quantities import Shown, derived, lock, same, show

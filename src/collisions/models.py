@@ -15,8 +15,8 @@ from .inputs import Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
+from .kernels.floats import compile_for_floats
 from .kernels.status import Answer
-from .kernels.tracing import compile_for_floats
 from .reading import ArgumentReader, amount
 from .vehicle import Vehicle
 

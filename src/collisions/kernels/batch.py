@@ -16,8 +16,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from .model_error import ECCENTRIC, least_model
+from .replay import Replay, aligned, record
 from .status import Answer, Status
-from .tracing import Replay, aligned, record
 
 BLOCK = 8192
 # Of all threads together, in bytes; a longer block gains nothing.

@@ -1,50 +1,22 @@
-"""Traces a kernel once into a list of numpy steps; runs them without temporaries on blocks, or compiles them to Python source.
+"""Traces a kernel once into a list of steps, the ``Tape``, by calling it with operands that note each operation.
 
-``record`` calls the kernel with operands that note each operation. Common subexpressions are computed once, and steps that no
-output needs are dropped. The operations are those of the kernel itself, so the results agree with it to the bit.
+Common subexpressions are one step. The tape is replayed on blocks of arrays (``replay``), and printed as plain Python
+(``floats``) and as JavaScript (``javascript``): the operations are those of the kernel, so all agree with it to the bit.
 """
 
 from __future__ import annotations
 
-import math
-from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
-from functools import lru_cache
-from operator import itemgetter
-from typing import Any, NamedTuple, TypeAlias
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from .elementwise import larger
-from .status import Answer, Status
+from .status import Status
 
+CODE = np.dtype(np.uint8)
 _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
-_CODE = np.dtype(np.uint8)
-_PAGE = 4096
-# How ``compile_for_floats`` writes each operation as Python source.
-_WRITTEN: dict[Any, str] = {
-    np.add: "({} + {})",
-    np.subtract: "({} - {})",
-    np.multiply: "({} * {})",
-    np.true_divide: "({} / {})",
-    np.negative: "(-{})",
-    np.absolute: "abs({})",
-    np.fmax: "larger({}, {})",
-    np.sqrt: "({} ** 0.5)",
-    np.greater: "({} > {})",
-    np.greater_equal: "({} >= {})",
-    np.less: "({} < {})",
-    np.less_equal: "({} <= {})",
-    np.equal: "({} == {})",
-    np.not_equal: "({} != {})",
-    np.bitwise_and: "({} and {})",
-    np.bitwise_or: "({} or {})",
-    np.bitwise_xor: "({} != {})",
-    np.where: "({1} if {0} else {2})",
-}
-
-Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
 class Step(NamedTuple):
@@ -99,7 +71,7 @@ class Tape:
         """The operand for a traced value or a plain number, cast to ``dtype`` if one is given."""
         if isinstance(value, Traced):
             same = dtype is None or dtype == value.sample.dtype
-            return value if same else self.add(_cast, (value.index,), value.sample.astype(dtype))
+            return value if same else self.add(cast, (value.index,), value.sample.astype(dtype))
         number = value if dtype is None else np.array(value, dtype=dtype)
         array = np.asarray(number)
         return self.add(None, (), number, ("number", type(number), array.dtype, array.tobytes()))
@@ -124,7 +96,7 @@ class Tape:
         dtype, which = np.where(*samples).dtype, self.operand(condition)
         codes = dtype.kind in "iu"
         if codes:
-            dtype = _CODE
+            dtype = CODE
         else:
             which = self.add(_mask, (which.index,), np.zeros(1, _BITS[dtype.itemsize]))
         operands = which, self.operand(yes, dtype), self.operand(no, dtype)
@@ -138,147 +110,15 @@ class Tape:
         return None if self.steps[operands[0]].function is None else operands[0]
 
 
-class _FloatTape(Tape):
-    """A tape for single cases, which keeps ``np.where`` as it is: it becomes an ``if`` expression."""
+class TextTape(Tape):
+    """A tape to be printed, which keeps ``np.where`` as it is: it becomes a conditional expression."""
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         operands = [self.operand(value) for value in (condition, yes, no)]
         return self.add(np.where, tuple(one.index for one in operands), np.where(*(one.sample for one in operands)))
 
 
-class Program(NamedTuple):
-    """Calls in order, each a function and an itemgetter of the arrays that it reads and, last, the one that it writes.
-
-    The arrays are inputs, outputs, constants and buffers. The late calls only serve to compute the status, and are skipped for
-    a block in which all cases are fine.
-    """
-
-    calls: tuple[Call, ...]
-    late: tuple[Call, ...]
-    fine: int | None
-    constants: tuple[Any, ...]
-    buffers: tuple[Any, ...]
-
-
-@lru_cache(maxsize=64)
-def record(
-    kernel: Callable[..., tuple[Any, ...]],
-    settings: tuple[Any, ...],
-    inputs: tuple[str | None, ...],
-    dtype: Any,
-    outputs: tuple[Any, ...],
-) -> Program:
-    """Trace a kernel whose inputs are arrays of ``dtype`` (None in ``inputs``) or plain numbers (as ``float.hex`` texts).
-
-    ``outputs`` has the dtype of each output, None for one that is not wanted; the first, the status, always is.
-    """
-    tape = Tape()
-    operands = [tape.input(at, dtype) if text is None else float.fromhex(text) for at, text in enumerate(inputs)]
-    written: dict[int, int] = {}
-    with np.errstate(all="ignore"):
-        for which, (answer, wanted) in enumerate(zip(kernel(*operands, *settings), outputs, strict=True)):
-            if wanted is not None:
-                value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
-                step, index = tape.steps[value.index], value.index
-                if step.function is None or index in written or step.sample.dtype != wanted:
-                    index = len(tape.steps)
-                    tape.steps.append(Step(_cast, (value.index,), np.zeros(1, wanted)))
-                written[index] = which
-    return _placed(tape, written, len(inputs), len(outputs))
-
-
-def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
-    """The computed steps that these depend on, themselves included."""
-    needed = set(wanted)
-    for index in range(len(steps) - 1, -1, -1):
-        if index in needed and steps[index].function is not None:
-            needed.update(steps[index].operands)
-    return {index for index in needed if steps[index].function is not None}
-
-
-class _Room(NamedTuple):
-    """Memory for an intermediate result: a buffer, or an output array until the step that writes the output."""
-
-    until: float
-    place: int
-
-
-def _placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Program:
-    """Drop unused steps and assign buffers by last use."""
-    steps = tape.steps
-    (status,) = (index for index, which in written.items() if which == 0)
-    fine = tape.fine(status)
-    early = _needs(steps, set(written) if fine is None else (written.keys() - {status}) | {fine})
-    order = [*sorted(early), *sorted(_needs(steps, set(written)) - early)]
-    last = {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
-    constants = [index for index in sorted(last) if steps[index].function is None and not steps[index].operands]
-    # Where each result is found among inputs, outputs, constants and buffers.
-    places = {index: steps[index].operands[0] for index in last if steps[index].function is None and steps[index].operands}
-    places |= {index: inputs + which for index, which in written.items()}
-    places |= {index: inputs + outputs + at for at, index in enumerate(constants)}
-    rooms: dict[int, _Room] = {}
-    free: dict[Any, list[_Room]] = defaultdict(list)
-    # A ufunc may write its result over an operand; the helpers below that take two numpy calls may not.
-    in_place = [isinstance(steps[index].function, np.ufunc) for index in order]
-    for at, index in enumerate(order):
-        if index in written and index != status:
-            free[steps[index].sample.dtype].append(_Room(at if in_place[at] else at - 1, places[index]))
-    buffers: list[Any] = []
-    for at, index in enumerate(order):
-        dtype = steps[index].sample.dtype
-        ended = [operand for operand in set(steps[index].operands) & rooms.keys() if last[operand] == at]
-        if index not in written:
-            found = [rooms[one] for one in ended if in_place[at] and steps[one].sample.dtype == dtype] + free[dtype][::-1]
-            found = [room for room in found if room.until >= last[index]]
-            if not found:
-                found.append(_Room(math.inf, inputs + outputs + len(constants) + len(buffers)))
-                buffers.append(dtype)
-            rooms[index] = min(found)
-            places[index] = rooms[index].place
-        for one in ended:
-            free[steps[one].sample.dtype].append(rooms.pop(one))
-        free[dtype] = [room for room in free[dtype] if room != rooms.get(index)]
-    calls: list[Any] = [(steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i)))) for i in order]
-    return Program(
-        tuple(calls[: len(early)]),
-        tuple(calls[len(early) :]),
-        None if fine is None else places[fine],
-        tuple(steps[index].sample for index in constants),
-        tuple(buffers),
-    )
-
-
-def aligned(length: int, dtype: Any) -> Any:
-    """An empty array aligned to a memory page; numpy's own alignment can make a step over it take up to twice as long."""
-    dtype = np.dtype(dtype)
-    whole = np.empty(length * dtype.itemsize + _PAGE, dtype=_CODE)
-    start = -whole.ctypes.data % _PAGE
-    return whole[start : start + length * dtype.itemsize].view(dtype)
-
-
-class Replay:
-    """A program with its own buffers for blocks of one length: one per thread."""
-
-    def __init__(self, program: Program, length: int) -> None:
-        self.program = program
-        self.length = length
-        self.buffers = [aligned(length, dtype) for dtype in program.buffers]
-
-    def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
-        """Run one block: the inputs, with arrays cut to the block, and slices of the outputs to write to."""
-        length = len(outputs[0])
-        buffers = self.buffers if length == self.length else [buffer[:length] for buffer in self.buffers]
-        arrays = [*inputs, *outputs, *self.program.constants, *buffers]
-        for function, chosen in self.program.calls:
-            function(*chosen(arrays))
-        if self.program.fine is not None and arrays[self.program.fine].all():
-            outputs[0].fill(0)
-            return
-        for function, chosen in self.program.late:
-            function(*chosen(arrays))
-
-
-def _cast(value: Any, out: Any) -> None:
+def cast(value: Any, out: Any) -> None:
     np.copyto(out, value, casting="unsafe")
 
 
@@ -301,57 +141,38 @@ def _pick(mask: Any, yes: Any, no: Any, out: Any) -> None:
     np.bitwise_xor(bits, other, bits)
 
 
-def compile_for_floats(
-    kernel: Callable[..., tuple[Any, ...]], takes: tuple[str, ...], settings: tuple[Any, ...]
-) -> Callable[[Any], Any]:
-    """A kernel with these settings compiled to one plain function, which reads its numbers at the paths in ``takes``.
+def statements(
+    tape: Tape,
+    wanted: Sequence[int],
+    inputs: Sequence[str],
+    written: Mapping[Any, str],
+    constant: Callable[[Any], str],
+    kernel: str,
+) -> tuple[list[str], list[str]]:
+    """The tape as a text: assignments of what is used more than once, and an expression for each of the wanted steps.
 
-    Of a kernel that gives an ``Answer`` it answers only cases whose status is plainly OK. For any other case, and where Python
-    raises, as in a division by 0, it returns None, and the caller runs the kernel itself.
+    ``inputs`` are the expressions of the inputs, ``written`` has the pattern of each operation, ``constant`` writes a number.
     """
-    tape = _FloatTape()
-    with np.errstate(all="ignore"):
-        numbers = [tape.input(which, np.float64) for which in range(len(takes))]
-        given = kernel(*numbers, *settings)
-        answers = [tape.operand(answer).index for answer in given]
-    fine = tape.fine(answers[0]) if isinstance(given, Answer) else tape.operand(True).index
-    if fine is None:
-        raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
-    wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
     uses = Counter(wanted)
     for index in range(len(tape.steps) - 1, -1, -1):
         if index in uses and tape.steps[index].function is not None:
             uses.update(tape.steps[index].operands)
     names: dict[int, str] = {}
-    lines = ["a = inputs.a", "b = inputs.b"]
+    lines: list[str] = []
     for index in sorted(uses):
         function, operands, sample = tape.steps[index]
-        parts = [] if function is None else [names[operand] for operand in operands]
-        if function is np.bitwise_xor and parts[1] == "True":
-            written = f"(not {parts[0]})"
+        if function is np.bitwise_xor and tape.steps[operands[1]].sample is True:
+            text = written[np.logical_not].format(names[operands[0]])
         elif function is not None:
-            if function not in _WRITTEN:
+            if function not in written:
                 name = getattr(function, "__name__", repr(function))
-                raise TypeError(f"{kernel.__name__} uses {name}, which cannot be written for floats; see collisions.kernels")
-            written = _WRITTEN[function].format(*parts)
-        elif operands:
-            path = takes[operands[0]]
-            written = path if path.startswith(("a.", "b.")) else f"inputs.{path}"
+                raise TypeError(f"{kernel} uses {name}, which cannot be written as a text; see collisions.kernels")
+            text = written[function].format(*(names[operand] for operand in operands))
         else:
             value = sample.item() if isinstance(sample, (np.ndarray, np.generic)) else sample
-            written = repr(value) if math.isfinite(value) else f"float('{value}')"
-        names[index] = written
+            text = inputs[operands[0]] if operands else constant(value)
+        names[index] = text
         if uses[index] > 1 and (function is not None or operands):
             names[index] = f"v{index}"
-            lines.append(f"v{index} = {written}")
-    returned = ", ".join(names[index] for index in wanted[1:])
-    returned = f"new(Answer, (OK, {returned}))" if isinstance(given, Answer) else f"({returned})"
-    body = "\n        ".join([*lines, f"if {names[fine]}:"])
-    source = (
-        f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
-        f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
-    )
-    found: dict[str, Any] = {"larger": larger, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
-    exec(compile(source, f"<{kernel.__name__} of floats>", "exec"), found)
-    compiled: Callable[[Any], Any] = found["function"]
-    return compiled
+            lines.append(f"v{index} = {text}")
+    return lines, [names[index] for index in wanted]
