@@ -511,9 +511,12 @@ def test_speeds(case: Case) -> None:
     e = case.value("restitution")
     impact = case.call("eccentric", col.eccentric, a, b, e, **keywords)
     kinds = {"speed_a": "speed", "speed_b": "speed", "delta_v_a": "speed", "delta_v_b": "speed", "energy_loss": "energy_loss"}
+    kinds |= {f"delta_v_{part}_{side}": "vx" for part in ("forward", "left") for side in "ab"}
     names = [case.choice(("speed_a", "speed_b")), case.choice(("delta_v_a", "delta_v_b", "energy_loss"))]
     if case.maybe(0.3):
         names = case.sample(sorted(kinds), case.choice((2, 2, 2, 1, 3)))
+    elif case.maybe(0.3):
+        names = [f"delta_v_{part}_{side}" for side in case.choice(("a", "b", "ab")) for part in ("forward", "left")]
     known = {name: case.value(kinds[name]) for name in names}
     courses = {f"course_{side}": case.value("course") for side in "ab"}
     if isinstance(impact, col.Impact) and case.maybe(0.8):
@@ -542,7 +545,10 @@ def _known_of(impact: col.Impact, name: str) -> Any:
     if name == "energy_loss":
         return impact.energy_loss
     side = getattr(impact, name[-1])
-    return side.before.speed if name.startswith("speed") else side.delta_v
+    if name.startswith("speed"):
+        return side.before.speed
+    found = getattr(side, name[:-2])
+    return 1.0 if found is None else found
 
 
 # --- fit -------------------------------------------------------------------------------------------------------------------

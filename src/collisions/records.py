@@ -32,7 +32,8 @@ _MOTION = ("vx", "vy", "yaw_rate")
 _POLAR: tuple[str, ...] = ("speed", "course")
 # What each reverse solver may be given in addition to the contact.
 _ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
-_PAIRS = tuple(f"{name}_{label}" for name in ("speed", "course", "delta_v", "ees", "max_crush_speed") for label in "ab")
+_SPEEDS = ("speed", "delta_v", "delta_v_forward", "delta_v_left", "ees", "max_crush_speed")
+_PAIRS = tuple(f"{name}_{label}" for name in (*_SPEEDS, "course") for label in "ab")
 _KNOWN = {
     "central": ("va_after", "vb_after", "energy_loss"),
     "planar": (*_ENDS, "closing_speed", "energy_loss"),

@@ -12,6 +12,7 @@ from typing import Any
 from .errors import CollisionsWarning
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
+_sampling: ContextVar[bool] = ContextVar("sampling", default=False)
 
 
 def warn(warning: CollisionsWarning) -> None:
@@ -25,14 +26,21 @@ def warn_of_cases(warning: CollisionsWarning) -> None:
         warn(warning)
 
 
+def warn_of_samples(warning: CollisionsWarning) -> None:
+    """Warn of what matters only where the cases are samples of one: within ``quietly(samples=True)``."""
+    if _sampling.get():
+        warn(warning)
+
+
 @contextmanager
-def quietly() -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent."""
-    token = _quiet.set(True)
+def quietly(samples: bool = False) -> Iterator[None]:
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``samples`` the cases are samples of one."""
+    token, sampled = _quiet.set(True), _sampling.set(samples)
     try:
         yield
     finally:
         _quiet.reset(token)
+        _sampling.reset(sampled)
 
 
 def callers_level() -> int:

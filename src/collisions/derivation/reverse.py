@@ -197,6 +197,12 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
             speed = Symbol(rf"\lvert v_{label} \rvert", body.start.speed, "speed")
             by_components = root(body.along("x").squared() + body.along("y").squared())
             page.equation(f"Speed of {label} before, known", speed, by_components)
+        components = [name for name in ("forward", "left") if f"delta_v_{name}_{label.lower()}" in known]
+        if components:
+            page.say(
+                f"Delta-V of {label} was known by its components in the axes of the vehicle ({', '.join(components)}): in each "
+                f"regime the speeds follow from them by least squares, all weighing alike as parts of the impulse."
+            )
         if f"delta_v_{label.lower()}" in known and not body.fixed:
             by_impulse = root(s.normal.squared() + s.tangential.squared()) / body.mass
             page.equation(f"Delta-V of {label}, known", body.delta_v(), by_impulse)

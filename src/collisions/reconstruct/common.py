@@ -28,7 +28,7 @@ from ..warning import quietly
 forward: Callable[..., Any] = eccentric
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # Prefixes of the names of numbers that cannot be below 0.
-_AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_", "ees_", "max_crush")
+_AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_", "max_crush")
 # Known values of both vehicles that count as one.
 PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
 # For functions whose result has no status.

@@ -19,14 +19,17 @@ from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair
-from ..vehicle import Vehicle, moved
-from ..warning import warn
+from ..vehicle import Vehicle, missing, moved
+from ..warning import warn, warn_of_samples
 from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
+from .speeds_components import ComponentScene
 
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
+# Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are apart.
+_NEAR_FOLD = 0.7
 
 
 def speeds(
@@ -51,6 +54,11 @@ def speeds(
     ees_b: Input | None = None,
     max_crush_speed_a: Input | None = None,
     max_crush_speed_b: Input | None = None,
+    delta_v_forward_a: Input | None = None,
+    delta_v_left_a: Input | None = None,
+    delta_v_forward_b: Input | None = None,
+    delta_v_left_b: Input | None = None,
+    forward_only: bool = False,
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from where and how they met and two things that were found out.
 
@@ -86,11 +94,20 @@ def speeds(
         Energy equivalent speeds of both by ISO 12353: together they stand for the energy dissipated, so they replace it.
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
         Speeds of maximum crush of both: the energy absorbed along the normal at maximum crush, before restitution.
+    delta_v_forward_a, delta_v_left_a, delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
+        Components of delta-V in the axes of a vehicle, which then needs its heading, as from an event data recorder (which
+        counts lateral delta-V to the right: the opposite sign). They need two in all with the speeds that are known, and take
+        none of the other kinds beside them. Where the contact sticks, both components of one vehicle are enough, and with
+        ``friction=inf`` no value of friction is needed. Where it slides they repeat the friction, and one speed must be known.
+    forward_only : bool
+        Leave out the impacts in which a vehicle moves backwards along its course.
 
     Returns
     -------
     tuple of Impact
         Every impact that fits, by rising closing speed. In a batch each holds one root of every case, NaN where it has none.
+        Of more components than are needed the answer is that of least squares: all weigh alike as parts of the impulse, of
+        which a recorder is wrong by a share, and a speed is taken as exact.
 
     Raises
     ------
@@ -102,7 +119,11 @@ def speeds(
     Warns
     -----
     OutOfRangeWarning
-        A speed came out negative: backwards along its course.
+        A speed came out negative: backwards along its course. Or under ``propagate`` and the like: where two answers meet and
+        end, or near it, the samples are no range of one answer.
+    IllConditionedWarning
+        Components differ among themselves, or from a speed, by more than ``reference.RECORDER_ACCURACY``; beyond three times
+        that they are refused. Or they leave open whether the contact stuck, as taken, or slid.
     CollisionsWarning
         Cases of a batch have no answer at all; they are NaN, and ``status`` of the first impact says why.
 
@@ -118,8 +139,24 @@ def speeds(
     ...     friction=0.5)
     >>> round(found.a.before.vx, 2), round(found.a.delta_v, 12)
     (11.96, 6.0)
+
+    With both components, and a contact that stuck, neither speed nor friction need be known.
+
+    >>> a, b = (v.replace(heading=heading) for v, heading in ((a, "10 deg"), (b, "80 deg")))
+    >>> (found,) = col.reconstruct.speeds(
+    ...     a, b, course_a="10 deg", course_b="80 deg", delta_v_forward_a="-18.5 km/h", delta_v_left_a="4.6 km/h",
+    ...     restitution=0.1, normal=0.0, point=(0.0, 0.4), friction=float("inf"))
+    >>> [round(3.6 * side.before.speed, 1) for side in (found.a, found.b)]
+    [49.9, 39.8]
     """
-    given = exactly(
+    components = {
+        "delta_v_forward_a": delta_v_forward_a,
+        "delta_v_left_a": delta_v_left_a,
+        "delta_v_forward_b": delta_v_forward_b,
+        "delta_v_left_b": delta_v_left_b,
+    }
+    given = _given(
+        {name: value for name, value in components.items() if value is not None},
         {
             "speed_a": speed_a,
             "speed_b": speed_b,
@@ -131,11 +168,11 @@ def speeds(
             "max_crush_speed_a": max_crush_speed_a,
             "max_crush_speed_b": max_crush_speed_b,
         },
-        2,
-        "speeds",
     )
     reader = ArgumentReader()
-    known = read_amounts(reader, given)
+    measured = {name: value for name, value in given.items() if name in components}
+    known = read_amounts(reader, {name: value for name, value in given.items() if name not in measured})
+    known |= {name: reader.number(value, "m/s", name) for name, value in measured.items()}
     courses = {}
     for label, angle, body in (("a", course_a, a), ("b", course_b, b)):
         if angle is not None:
@@ -159,6 +196,8 @@ def speeds(
                     argument="pivot",
                 )
             )
+        if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in measured):
+            reader.refuse(missing(body, "heading", "a component of its delta-V", label))
     inputs, _ = read_inputs(
         "eccentric",
         a,
@@ -181,10 +220,43 @@ def speeds(
         _refuse_pairs(known, a, b)
         function = RestitutionOf(restitution, cases) if callable(restitution) else None
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-        scene = Scene(arrays, inputs.rule, inputs.law or BRACH, counted(given))
+        scene = (ComponentScene if measured else Scene)(arrays, inputs.rule, inputs.law or BRACH, counted(given))
+        scene.forward_only = bool(forward_only)
+        if measured and (function is not None or scene.shares_critical()):
+            raise InputError(
+                "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
+                "friction=, friction=inf or impulse_ratio=",
+                code="bad_combination",
+                argument="restitution" if function is not None else "critical_fraction",
+            )
         found = _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function)
+
+
+def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+    """What was given: two of the kinds of knowledge, or components, with speeds, two at least."""
+    if not components:
+        return exactly(known, 2, "speeds")
+    others = {name: value for name, value in known.items() if value is not None}
+    stray = [name for name in others if not name.startswith("speed")]
+    if stray:
+        raise InputError(
+            f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside components of delta-V give a speed",
+            code="bad_combination",
+            argument=stray[0],
+        )
+    if len(others) == 2:
+        raise InputError(
+            "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
+        )
+    if len(components) + len(others) < 2:
+        raise InputError(
+            f"{next(iter(components))} alone leaves the speeds open; give another component, or one of the speeds",
+            code="too_few_knowns",
+            argument=next(iter(components)),
+        )
+    return others | components
 
 
 def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
@@ -254,6 +326,8 @@ def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root,
         if np.any(fit):
             scene.undetermined = scene.undetermined | (fit & scene.one_of_many(root))
     fits &= ~scene.undetermined
+    if scene.forward_only:
+        fits &= np.minimum(parts[0], parts[1]) >= -ROOT_TOL * closing
     order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
     *values, fits, closing = (np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing))
     for i in range(1, len(roots)):
@@ -306,6 +380,9 @@ def _answers(
         impacts.append(impact)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
+    _warn_of_folds(scene, found, count)
+    if isinstance(scene, ComponentScene):
+        scene.warn(np.logical_not(impacts[0].refused))
     if backward < 0.0:
         warn(
             OutOfRangeWarning(
@@ -318,17 +395,40 @@ def _answers(
     return tuple(impacts)
 
 
+def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:
+    """Warn a study of samples where two answers meet: some have none, or they come as near to it as they are apart."""
+    if len(found) < 2:
+        return
+    (one, _), (other, both) = found[:2]
+    gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)
+    gap = np.broadcast_to(gap, np.shape(count))[np.broadcast_to(both, np.shape(count))]
+    if gap.size and (np.any(np.less(count, 2)) or gap.min() < _NEAR_FOLD * gap.max()):
+        warn_of_samples(
+            OutOfRangeWarning(
+                f"{' and '.join(scene.names)} reach a fold, where two answers meet and beyond which there is none: the samples "
+                f"are no range of one answer. Look at both answers, or give components of delta-V or another known",
+                code="fold",
+            )
+        )
+
+
 def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> CollisionsError:
     """The error for a single case without a solution."""
     names = " and ".join(known)
     values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
     speed_is_known = scene.kinds[0].startswith("speed")
+    forward = ", none of them backwards," if scene.forward_only else ""
     (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))
         other = "delta_v_b" if kind == "delta_v_a" else "delta_v_a"
         text = f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give {other}"
-    elif not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
+    elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
+        text = (
+            f"the contact slides, or its speeds do not show in {names}: their direction only repeats the friction, and the "
+            f"slip is open; give one of the speeds"
+        )
+    elif not isinstance(scene, ComponentScene) and not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
         status = Status.PARALLEL_HEADINGS
         text = f"the courses are parallel, so {names} tell of the closing speed alone; give one of the speeds"
     elif status == Status.UNDETERMINED and "energy_loss" in scene.kinds and scene.e > _ELASTIC:
@@ -348,8 +448,8 @@ def _refusal(scene: Scene, status: int, known: dict[str, Any], function: Restitu
             function.complain()
         status = Status.CONTRADICTORY
         text = (
-            f"no speeds along these courses fit {' and '.join(values.values())} with this restitution, {scene.rule} and "
-            f"geometry; check the courses, and the normal, which must point from A into B, or give another known in place of "
-            f"one of these"
+            f"no speeds along these courses{forward} fit {' and '.join(values.values())} with this restitution, {scene.rule} "
+            f"and geometry; check the courses, and the normal, which must point from A into B, or give another known in place "
+            f"of one of these"
         )
     return error_of(status, text)

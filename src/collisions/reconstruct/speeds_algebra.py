@@ -60,9 +60,9 @@ class Scene:
         self.rule, self.law, self.names = rule, law, kinds
         self.kinds = tuple(_SAME.get(kind, kind) for kind in kinds)
         masses = np.minimum(given["a.mass"], given["b.mass"])
-        sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else given[kind] for kind in kinds]
+        sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else abs(given[kind]) for kind in kinds]
         self.mass_unit = _power_of_two(masses)
-        self.speed_unit = _power_of_two(np.maximum(*sizes))
+        self.speed_unit = _power_of_two(np.maximum.reduce(np.broadcast_arrays(*sizes)))
         self.numbers = {name: self._in_units(name, value) for name, value in given.items()}
         self.e, self.bound = given["restitution"], given[rule]
         self.targets = {kind: self._target(name) for kind, name in zip(self.kinds, kinds, strict=True)}
@@ -71,6 +71,8 @@ class Scene:
             * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
             for label in "ab"
         )
+        # Whether backward roots are left out.
+        self.forward_only = False
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
         zero, one = np.zeros(()), np.ones(())
@@ -148,6 +150,7 @@ class Scene:
             "slip": raw.slip_before,
             "whole": whole,
             "normal": normal,
+            "tangential": tangential,
             "impulse": np.sqrt(squared),
             # The terms of the loss, with each contact velocity as large as the velocities it is the difference of.
             "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
@@ -320,10 +323,9 @@ class Scene:
         the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
         grows beyond the observation itself and tells nothing: there a part of the observation is the bound.
         """
-        status, seen = self.outcome(root.speed_a, root.speed_b, root.restitution)
-        # A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
-        # makes of such large speeds counts as 0.
-        fits = (status <= Status.ENERGY_GAIN) & (seen["closing"] > _KERNEL_ROUNDING * seen["whole"])
+        raw = self.run(root.speed_a, root.speed_b, root.restitution, self.rule, self.bound)
+        seen = self._seen(raw, root.speed_a, root.speed_b, root.restitution)
+        fits = self.pushed(raw, root.speed_a, root.speed_b)
         for kind, slope in zip(self.kinds, root.slopes, strict=True):
             scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
             if kind == "energy_loss":
@@ -333,6 +335,15 @@ class Scene:
             rounding = _KERNEL_ROUNDING * (slope * seen["whole"] + parts)
             fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, ROOT_TOL * scale))
         return fits, seen["closing"]
+
+    def pushed(self, raw: Any, speed_a: Any, speed_b: Any) -> Any:
+        """Whether these speeds are answered, with a closing speed beyond rounding.
+
+        A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
+        makes of such large speeds counts as 0.
+        """
+        whole = abs(speed_a) + abs(speed_b) + self.spinning
+        return (raw.status <= Status.ENERGY_GAIN) & (raw.closing_speed > _KERNEL_ROUNDING * whole)
 
     def _can_occur(self, regime: Any) -> Any:
         """Whether the law allows a regime: no sticking without friction, nor with less than the critical ratio."""

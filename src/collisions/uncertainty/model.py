@@ -59,7 +59,7 @@ class Model:
         for value in values.values():
             value.setflags(write=False)
         try:
-            with quietly(), np.errstate(all="ignore"):
+            with quietly(samples=True), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
         except Exception as error:
             called = (

@@ -1,0 +1,176 @@
+"""The algebra of ``speeds`` from components of delta-V (``ComponentScene``): least squares, linear in each regime.
+
+Components are components of the impulse, which in each regime is linear in both speeds: each regime is one linear problem, of
+as many equations as components were given. Its answer counts if the law leads from these speeds to that regime. Components are
+known relative to the impulse, so all weigh alike as momenta; a speed that is given is taken as exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..directions import Angle
+from ..errors import IllConditionedWarning
+from ..reference import RECORDER_ACCURACY
+from ..warning import warn_of_cases
+from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
+
+ACCURACY = RECORDER_ACCURACY.high
+# Beyond so many times the stated accuracy the known values contradict each other.
+_CONTRADICTION = 3.0
+# Relative size below which the effect of a speed is rounding.
+_NO_EFFECT = 1e-12
+_REFINEMENTS = 3
+
+
+class ComponentScene(Scene):
+    """Two vehicles whose speeds are unknown, components of delta-V in their own axes, and perhaps a speed."""
+
+    def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...]) -> None:
+        super().__init__(given, rule, law, kinds)
+        self.components = [kind for kind in kinds if kind.startswith("delta_v")]
+        self.unknown = [at for at, label in enumerate("ab") if f"speed_{label}" not in kinds]
+        self.misfit: Any = np.full((), np.nan)
+        self.near_sliding: Any = np.zeros((), dtype=bool)
+        nx, ny = given["normal[0]"], given["normal[1]"]
+        self._axes, self._momenta = [], []
+        for kind in self.components:
+            label = kind[-1]
+            fx, fy = Angle(given[f"{label}.heading"], False).direction
+            ax, ay = (fx, fy) if "forward" in kind else (-fy, fx)
+            sign = 1.0 if label == "b" else -1.0
+            self._axes.append((sign * (nx * ax + ny * ay), sign * (nx * ay - ny * ax)))
+            self._momenta.append(self.numbers[f"{label}.mass"] * self.numbers[kind])
+
+    def roots(self, e: Any = None, polish: int = 0, slope: Callable[[Any], Any] | None = None) -> list[Root]:
+        """The answer of each regime that the law leads to, NaN where it is none; of several those within the accuracy."""
+        e = self.e if e is None else e
+        self.undetermined = np.zeros((), dtype=bool)
+        found, misfits, open_slip = [], [], np.full((), np.inf)
+        for regime in self.regimes():
+            root, rest, stays_open = self._solved(regime, e)
+            fits, _ = self.fits(root)
+            usable = fits & ~stays_open & (rest <= _CONTRADICTION * ACCURACY)
+            found.append(root._replace(speed_a=np.where(usable, root.speed_a, np.nan)))
+            misfits.append(np.where(usable, rest, np.inf))
+            pushes = self._can_occur(regime) & (root.slopes[0] > 0.0)
+            open_slip = np.fmin(open_slip, np.where(stays_open & pushes, rest, np.inf))
+        self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
+        for i, (root, rest) in enumerate(zip(found, misfits, strict=True)):
+            found[i] = root._replace(speed_a=np.where(rest <= np.maximum(ACCURACY, self.misfit), root.speed_a, np.nan))
+        none = np.isinf(self.misfit)
+        self.undetermined = (open_slip <= REDUNDANT) | (none & (open_slip <= _CONTRADICTION * ACCURACY))
+        self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
+        return found
+
+    def _solved(self, regime: Any, e: Any) -> tuple[Root, Any, Any]:
+        """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
+        zero, one = np.zeros(()), np.ones(())
+        known = tuple(self.targets.get(f"speed_{label}", zero) for label in "ab")
+        rest = self._seen_momenta(regime, zero, zero, e)
+        effects = [
+            [at - still for at, still in zip(self._seen_momenta(regime, *pair, e), rest, strict=True)]
+            for pair in ((one, zero), (zero, one))
+        ]
+        columns = [effects[at] for at in self.unknown]
+        inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
+        speeds = [value + 0.0 * rest[0] for value in known]
+        for _ in range(_REFINEMENTS):
+            left = self._left(regime, speeds[0], speeds[1], e)
+            for at, row in zip(self.unknown, inverse, strict=True):
+                step = sum(part * off for part, off in zip(row, left, strict=True))
+                speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
+        speed_a, speed_b = speeds
+        seen = self.observe(regime, speed_a, speed_b, e)
+        impulse = np.hypot(seen["normal"], seen["tangential"])
+        left = self._left(regime, speed_a, speed_b, e)
+        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / impulse
+        # A known speed enters by what it takes off the momenta.
+        given = [(momentum, i) for i, momentum in enumerate(self._momenta)]
+        moved: Any = 0.0
+        for row in inverse:
+            of_row = sum(abs(row[i] * momentum) for momentum, i in given)
+            for at, label in enumerate("ab"):
+                if at not in self.unknown:
+                    by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
+                    of_row = of_row + abs(by_speed * self.targets[f"speed_{label}"])
+            moved = np.maximum(moved, of_row)
+        condition = moved / abs(seen["closing"])
+        return Root(speed_a, speed_b, e, condition, (seen["normal"], seen["tangential"])), misfit, stays_open
+
+    def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
+        seen = self.observe(regime, speed_a, speed_b, e)
+        return [n * seen["normal"] + t * seen["tangential"] for n, t in self._axes]
+
+    def _left(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
+        seen = self._seen_momenta(regime, speed_a, speed_b, e)
+        return [target - one for target, one in zip(self._momenta, seen, strict=True)]
+
+    def _of(self, label: str, left: Sequence[Any]) -> Any:
+        """The length of what is left of the components of one vehicle."""
+        return np.sqrt(sum((one * one for kind, one in zip(self.components, left, strict=True) if kind[-1] == label), 0.0))
+
+    def fits(self, root: Root) -> tuple[Any, Any]:
+        """Whether the given law leads from these speeds to the impulse of the root's regime, and the closing speed."""
+        raw = self.run(root.speed_a, root.speed_b, root.restitution, self.rule, self.bound)
+        normal, tangential = root.slopes
+        apart = abs(raw.normal_impulse - normal) + abs(raw.tangential_impulse - tangential)
+        fits = self.pushed(raw, root.speed_a, root.speed_b) & (apart <= ROOT_TOL * abs(normal))
+        return fits, raw.closing_speed
+
+    def warn(self, answered: Any) -> None:
+        """Warn of answers whose known values differ beyond the stated accuracy, or that may have slid."""
+        worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
+        if worst > ACCURACY:
+            warn_of_cases(
+                IllConditionedWarning(
+                    f"{' and '.join(self.names)} differ from their best common answer by {worst:.0%} of the impulse, where "
+                    f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or the geometry is wrong",
+                    code="recorders_differ",
+                    value=worst,
+                )
+            )
+        if np.any(self.near_sliding & answered):
+            warn_of_cases(
+                IllConditionedWarning(
+                    "the direction of the delta-Vs is that of a contact that slides to the end, within the stated accuracy of "
+                    "recorders; it was taken to stick, as they lie within the friction. If it slid the slip is open: give one "
+                    "of the speeds",
+                    code="may_slide",
+                )
+            )
+
+    def one_of_many(self, root: Root) -> Any:
+        """No root of a linear problem of full rank has others beside it."""
+        return False
+
+
+def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[list[list[Any]], Any]:
+    """The rows of the pseudoinverse of one or two columns, by their orthogonal parts, and where these have no full rank.
+
+    Without full rank they are those of the longer column alone.
+    """
+
+    def dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+        return sum(a * b for a, b in zip(one, other, strict=True))
+
+    least = (_NO_EFFECT * np.maximum.reduce(np.broadcast_arrays(*sizes))) ** 2
+    squares = [dot(column, column) for column in columns]
+    if len(columns) == 1:
+        return [[part / squares[0] for part in columns[0]]], ~(squares[0] > least)
+    swapped = squares[1] > squares[0]
+    first, second = ([np.where(swapped, b, a) for a, b in zip(*pair, strict=True)] for pair in (columns, columns[::-1]))
+    square = np.maximum(*squares)
+    along = dot(first, second) / square
+    across = [b - along * a for a, b in zip(first, second, strict=True)]
+    crossed = dot(across, across)
+    flat = ~(crossed > np.maximum(_NO_EFFECT**2 * square, 0.0))
+    of_second = [np.where(flat, 0.0, part / crossed) for part in across]
+    of_first = [part / square - along * other for part, other in zip(first, of_second, strict=True)]
+    rows = [
+        [np.where(swapped, b, a) for a, b in zip(*pair, strict=True)] for pair in ((of_first, of_second), (of_second, of_first))
+    ]
+    return rows, flat
