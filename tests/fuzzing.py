@@ -39,6 +39,7 @@ from collisions.model_choice import ByModel
 from collisions.quantities import Quantities
 from collisions.reconstruct.fit_result import Direction, Estimate, Residual, Values
 from collisions.reconstruct.momentum_solution import Sensitivity
+from collisions.reconstruct.posterior_result import PosteriorOutput
 from collisions.side import Side
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
@@ -62,7 +63,9 @@ def seeds() -> range:
 
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
-GIVEN_BACK = (Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs)
+GIVEN_BACK = (
+    Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs, PosteriorOutput,
+)  # fmt: skip
 
 
 @cache

@@ -661,6 +661,98 @@ def known_fit() -> reconstruct.Fit:
     return reconstruct.fit(straight, known, {"s": (12.0, 0.5)})
 
 
+POSTERIOR_OPEN = FIT_OPEN | {"uncertainty.LogNormal.support"} | {
+    f"reconstruct.{name}" for name in ("Posterior.p_value", "Posterior.correlation", "Posterior.predicted", "Posterior.draws")
+} | {
+    f"PosteriorOutput.{name}" for name in ("mean", "std", "values", "unit", "mean_standard_error", "std_standard_error")
+}  # fmt: skip
+
+
+def reading(case: Case) -> Any:
+    """What a posterior takes as an observation."""
+    value, error = case.value("speed"), case.option(0.5, 1.0, 1e-3, None)
+    low = case.option(None, case.uniform(0.0, 15.0))
+    made = case.choice(
+        (
+            lambda: (value, 0.5),
+            lambda: uncertainty.Normal(case.uniform(0.0, 20.0), 0.8),
+            lambda: uncertainty.Interval(3.0, case.uniform(4.0, 20.0)),
+            lambda: case.call("uncertainty.Censored", uncertainty.Censored, **case.spoil({"low": low, "high": case.option(None, 17.0), "error": error})),
+        )
+    )  # fmt: skip
+    return made()
+
+
+def posterior_of(case: Case, observed: Any = None) -> Any:
+    """A posterior of few samples, or its refusal."""
+    model = case.choice((straight, bent, struck, angled))
+    unknowns: Any = {name: stated(case) for name in "xy"}
+    if case.maybe(0.6):
+        unknowns = {"x": uncertainty.Uniform(0.0, 40.0), "y": uncertainty.Normal(4.0, 2.0)}
+    observed = observed or {name: reading(case) for name in case.choice((("s", "d"), ("s",), ("d",)))}
+    if case.mood == "odd":
+        model = case.option(model, unlawful(case))
+        unknowns = case.option(unknowns, {"x": case.garbage(), "y": uncertainty.Uniform(0, 1)}, case.garbage())
+        observed = case.option(observed, {"s": case.garbage()}, case.garbage())
+    options = {
+        "samples": 512,
+        "seed": case.randrange(2**64),
+        "correlation": case.option(None, {("x", "y"): case.uniform(-1, 1)}),
+    }
+    return case.call("reconstruct.posterior", reconstruct.posterior, model, unknowns, observed, **case.spoil(options))
+
+
+@functools.cache
+def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
+    """A posterior of a line."""
+    known = {"x": uncertainty.Normal(5.0, 3.0), "y": uncertainty.Normal(mean, 2.0)}
+    return reconstruct.posterior(straight, known, {"s": (12.0, 0.5)}, samples=512, seed=1)
+
+
+@fuzzes(
+    "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare", "reconstruct.Comparison", "uncertainty.Censored",
+    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict",
+    *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".quantile_standard_error", ".may_wrap", ".turned")),
+    "plot.corner", "plot.residuals",
+    share=0.25,
+)  # fmt: skip
+def test_posterior(case: Case) -> None:
+    """Any model, priors and readings; one that was answered is read in full and compared with another."""
+    found = posterior_of(case)
+    if not isinstance(found, reconstruct.Posterior):
+        found = known_posterior()
+    case.look(found, POSTERIOR_OPEN, thorough=False)
+    assert json.dumps(case.must("reconstruct.Posterior.to_dict", found.to_dict), allow_nan=False)
+    for name in found:
+        output = found[name]
+        case.look(output, POSTERIOR_OPEN, thorough=False)
+        assert json.dumps(case.must("PosteriorOutput.record", output.record), allow_nan=False)
+        case.call("PosteriorOutput.histogram", output.histogram, case.option(40, 5, case.garbage()))
+        case.call(
+            "PosteriorOutput.quantile_standard_error", output.quantile_standard_error, case.option(0.5, case.value("share_a"))
+        )
+        assert case.must("PosteriorOutput.may_wrap", output.may_wrap) in (True, False)
+        assert len(case.must("PosteriorOutput.turned", output.turned, 1.0).values) == found.samples
+    if not isinstance(inputs := case.call("reconstruct.Posterior.inputs", found.inputs), Exception):
+        assert list(inputs) == list(found)
+    condition = case.option(lambda at: at["x"] > case.uniform(0.0, 10.0), lambda at: at["x"], case.garbage())
+    chance = case.call("reconstruct.Posterior.probability", found.probability, condition)
+    assert isinstance(chance, Exception) or (0.0 <= chance[0] <= 1.0 and chance[1] >= 0.0), chance
+    one, other = case.choice(((known_posterior(), known_posterior(5.0)), (found, found), (found, known_posterior())))
+    prior = case.option(None, {"one": 0.3, "other": 0.7}, {"one": case.value("share_a"), "other": 0.5})
+    accounts = case.option({"one": one, "other": other}, {"one": one}, case.garbage())
+    compared = case.call("reconstruct.compare", reconstruct.compare, accounts, **case.spoil({"prior": prior}))
+    if isinstance(compared, reconstruct.Comparison):
+        case.look(compared)
+        assert json.dumps(case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False)
+        assert math.isclose(sum(compared.probability.values()), 1.0, rel_tol=1e-9)
+    if case.maybe(0.2):
+        case.call("plot.corner", plot.corner, found, **case.spoil({"unknowns": case.option(None, ["x"], "y"), "units": "us"}))
+        plt.close("all")
+        blank.cache_clear()
+        case.call("plot.residuals", plot.residuals, case.option(found, known_fit(), case.garbage()), axes=blank())
+
+
 # --- travel ----------------------------------------------------------------------------------------------------------------
 
 

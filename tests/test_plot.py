@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import collisions as col
-from collisions import plot, uncertainty
+from collisions import plot, reconstruct, uncertainty
 from collisions.plot.canvas import Units, number
 from scenes import cases, solved
 
@@ -1302,3 +1302,68 @@ def test_what_is_too_large_or_too_small_to_be_drawn_is_refused(mass, speed, dura
         a, b = col.Vehicle(mass=mass, vx=speed, x=0.0, y=0.0), col.Vehicle(mass=mass, x=3.0, y=0.0)
         for draw in (plot.energy, plot.impulse_plane, plot.momentum, plot.scene):
             draw(col.linear_central(a, b, 0.3)).figure.draw_without_rendering()
+
+
+# --- evidence
+
+
+@pytest.fixture(scope="module")
+def two_speeds():
+    """A posterior of a sum and a difference."""
+    known = {"x": uncertainty.Normal("20 m/s", "3 m/s"), "y": uncertainty.Uniform(0.0, 10.0)}
+    seen = {"s": (25.0, 0.5), "d": uncertainty.Censored(low=12.0)}
+    return reconstruct.posterior(lambda x, y: {"s": x + y, "d": x - y}, known, seen, samples=1024, seed=1)
+
+
+def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
+    """In the units asked for; the lines hold their share of the samples."""
+    figure = plot.corner(two_speeds, units="metric")
+    alone, pair, _ = figure.axes
+    assert [axes.get_gid() for axes in figure.axes] == ["x", "x and y", "y"]
+    assert pair.get_xlabel() == "x [km/h]"
+    assert pair.get_ylabel() == "y"
+    assert alone.get_xlim() == pytest.approx(pair.get_xlim())
+    x, y = 3.6 * two_speeds["x"].values, two_speeds["y"].values
+    (lines,) = [one for one in pair.collections if one.get_gid() == "shares"]
+    for path, share in zip(lines.get_paths(), (0.95, 0.5), strict=True):
+        # 1,024 samples on 28 x 28 cells, smoothed by a cell to each side, which widens the lines a little.
+        assert np.mean(path.contains_points(np.stack([x, y], axis=1))) == pytest.approx(share, abs=0.08)
+    assert len(plot.corner(two_speeds, unknowns=["s", "y", "x"]).axes) == 6
+    assert len(plot.corner(two_speeds, unknowns="x").axes) == 1
+    plt.close("all")
+
+
+def test_residuals_stand_where_they_are(two_speeds):
+    """Observed less computed over the error; a sharp bound has none. Of a fit the points alone."""
+    axes = plot.residuals(two_speeds)
+    by_gid = {line.get_gid(): line for line in axes.get_lines()}
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["s"]
+    assert by_gid["residuals"].get_xdata() == pytest.approx([2.0 * (25.0 - two_speeds.predicted["s"].mean)], abs=1e-9)
+    low, high = two_speeds.predicted["s"].interval(0.95)
+    assert sorted(by_gid["range of s"].get_xdata()) == pytest.approx([2.0 * (25.0 - high), 2.0 * (25.0 - low)], abs=1e-9)
+    fitted = reconstruct.fit(lambda v: {"p": v, "q": v}, {"v": 10.0}, {"p": (10.0, 1.0), "q": (12.0, 1.0)})
+    (points,) = [line for line in plot.residuals(fitted).get_lines() if line.get_gid() == "residuals"]
+    assert points.get_xdata() == pytest.approx([-1.0, 1.0], abs=1e-6)
+    assert plot.distribution(two_speeds["x"]).get_title() == "given the evidence and the priors"
+    plt.close("all")
+
+
+def test_evidence_that_cannot_be_drawn(two_speeds):
+    sharp = reconstruct.posterior(
+        lambda x: {"x": x, "one": 1.0 + 0.0 * x},
+        {"x": uncertainty.Uniform(0, 1)},
+        {"x": uncertainty.Interval(0.1, 0.2)},
+        samples=512,
+        seed=1,
+    )
+    for call, code in (
+        (lambda: plot.corner(3.0), "bad_option"),
+        (lambda: plot.corner(two_speeds, unknowns=[]), "bad_option"),
+        (lambda: plot.corner(two_speeds, unknowns=["z"]), "unknown_name"),
+        (lambda: plot.corner(sharp, unknowns=["one"]), "no_spread"),
+        (lambda: plot.residuals(3.0), "bad_option"),
+        (lambda: plot.residuals(sharp), "no_residuals"),
+    ):
+        with pytest.raises(col.InputError) as refused:
+            call()
+        assert refused.value.code == code

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 import collisions as col
 from collisions import plot, reconstruct, reference, travel, uncertainty
-from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 
 speed: Any = col.Vehicle(mass=1.0, vx="80 km/h").q.vx
 angles: npt.NDArray[np.float64] = np.array([0.0, 0.1])
@@ -100,6 +100,12 @@ def backwards() -> float:
     mu: float = reconstruct.friction(a, b, a, b, normal=0, point=corner)
     fitted = reconstruct.fit(dict[str, Any], {"speed": Interval(5, "90 km/h")}, {"after": Normal(8, 0.5)})
     assert_type(fitted, reconstruct.Fit)
+    seen: dict[str, Any] = {"after": Censored(low="8 m/s", error="0.5 m/s"), "before": (9.0, 0.5), "rest": Interval(1, 2)}
+    sampled = reconstruct.posterior(dict[str, Any], {"speed": Uniform(5, "90 km/h")}, seen, samples=1024, seed=1)
+    assert_type(sampled, reconstruct.Posterior)
+    chance, _ = sampled.probability(lambda at: at["speed"] > 13.9)
+    compared: reconstruct.Comparison = reconstruct.compare({"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5})
+    e += chance + compared.probability["one"] + sampled.log_evidence
     return line.closing_speed + found.speed_a + before.closing_speed + several[0].a.before.speed + closing + energy + e + mu
 
 

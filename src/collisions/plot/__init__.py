@@ -6,10 +6,21 @@ on the ``axes`` given, or on a new figure, and returns the Axes. ``units`` is "s
 """
 
 from .energy import energy
+from .evidence import corner, residuals
 from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
 from .scene import scene
 from .uncertainty import contributions, distribution
 
-__all__ = ["contributions", "distribution", "energy", "force_time", "impulse_plane", "momentum", "scene"]
+__all__ = [
+    "contributions",
+    "corner",
+    "distribution",
+    "energy",
+    "force_time",
+    "impulse_plane",
+    "momentum",
+    "residuals",
+    "scene",
+]

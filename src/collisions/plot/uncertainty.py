@@ -27,7 +27,8 @@ def distribution(
     Parameters
     ----------
     output : Output
-        One output of what ``uncertainty.propagate`` returned, by a method that samples: ``result["delta_v"]``.
+        One output of what ``uncertainty.propagate`` returned, by a method that samples, ``result["delta_v"]``, or one of a
+        posterior.
     coverage : float
         Probability of the interval that is shaded, as much left out below it as above.
     bins : int
@@ -101,7 +102,7 @@ def distribution(
     axes.set_ylim(0.0, 1.08 * 100.0 * float(histogram.shares.max()))
     axes.set_xlabel(drawable(labels.label(output.name, unit) if unit else output.name), parse_math=False)
     axes.set_ylabel("share of the cases [%]")
-    axes.set_title("given the stated inputs", fontsize=10.5, color=GREY)
+    axes.set_title(f"given {output.given}", fontsize=10.5, color=GREY)
     tidy(axes)
     legend_below(axes)
     return axes

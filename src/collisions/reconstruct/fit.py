@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError, NoSolutionError, SuspectUnitsWarning
+from ..errors import AmbiguousSolutionError, NoSolutionError, SuspectUnitsWarning
 from ..quantities import lock
 from ..warning import warn
 from .fit_candidate import SAME_CHI_SQUARED, TWO_ERROR_RISE, Candidate, examined, with_limits
 from .fit_problem import FitInputs, read_fit_inputs
-from .fit_result import Direction, Fit, Residual, Values, notes_of
+from .fit_result import Direction, Fit, Residual, Values, notes_of, warn_of
 from .least_squares import (
     AT_REFUSAL,
     CONVERGED,
@@ -26,6 +26,7 @@ from .least_squares import (
     minimise,
     spread,
 )
+from .observations import listed, refused_everywhere
 
 _STARTS = 64
 _MORE_STARTS = 4096  # looked at where the model refuses all of the first
@@ -154,18 +155,10 @@ def _search(inputs: FitInputs, problem: Problem) -> Ends:
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
     at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
-    reason = "; call the model there with on_failure='raise' to see why"
-    try:
-        inputs.model.function(**at)
-    except CollisionsError as error:
-        reason = f": {error}"
-    except Exception:
-        # A model of arrays need not take floats; an error about that says nothing about the scene.
-        pass
     tried = _STARTS + _MORE_STARTS
     return NoSolutionError(
-        f"the model refuses all {tried} points tried for the unknowns, among them {_listed(at)}{reason}. Give bounds or starts "
-        f"of the unknowns within which the impact happens",
+        f"the model refuses all {tried} points tried for the unknowns, among them {listed(at)}"
+        f"{refused_everywhere(inputs.model, at)}. Give bounds or starts of the unknowns within which the impact happens",
         code="refused",
         points=tried,
         at=at,
@@ -209,7 +202,7 @@ def _check_minimum(best: Candidate, ends: Ends) -> None:
     if why is not None:
         at = dict(zip(best.inputs.names, best.point.tolist(), strict=True))
         raise NoSolutionError(
-            f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {_listed(at)}, and "
+            f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, and "
             f"{why}. {advice}",
             code="no_convergence",
             chi_squared=float(best.chi_squared),
@@ -315,11 +308,7 @@ def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
 
 def _warn_of(found: Fit) -> None:
     """Give each warning that the result needs, once."""
-    notes = list(notes_of(found))
-    for note in {note.code: note for note in notes}.values():
-        if note.warning:
-            sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
-            warn(note.warning(sentences + note.rest, code=note.code))
+    warn_of(notes_of(found))
     for name, one in found.residuals.items():
         bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
         if bare and abs(one.residual) > math.pi:
@@ -334,14 +323,10 @@ def _warn_of(found: Fit) -> None:
 
 
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
-    listed = "; ".join(f"chi-squared {one.chi_squared:.4g} at {_listed(one.values)}" for one in fits)
+    answers = "; ".join(f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits)
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {listed}. All are in .solutions; narrow the bounds of an unknown "
-        f"to one of them, or add an observation that tells them apart",
+        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; narrow the bounds of an "
+        f"unknown to one of them, or add an observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),
     )
-
-
-def _listed(values: Mapping[str, float]) -> str:
-    return ", ".join(f"{name} {'undetermined' if math.isnan(value) else f'= {value:.6g}'}" for name, value in values.items())

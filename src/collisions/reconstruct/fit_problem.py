@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, UnitsError
+from ..errors import InputError
 from ..reading import ArgumentReader
-from ..uncertainty.distribution import read_alike, show
+from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
 from ..uncertainty.model import Model, check_names
 from ..units import is_quantity
 from .least_squares import Problem
-
-T = TypeVar("T")
+from .observations import Observation, observed_columns, read_each, read_value
 
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 
@@ -44,6 +43,10 @@ class Stated(NamedTuple):
     name: str
     value: Normal
     is_prior: bool
+
+    def is_angle(self, units: Mapping[str, str | None]) -> bool:
+        """Whether it is an observed angle, given the units of the model's outputs."""
+        return not self.is_prior and Observation(self.name, self.value).is_angle(units.get(self.name))
 
 
 class FitInputs(NamedTuple):
@@ -81,15 +84,7 @@ class FitInputs(NamedTuple):
     def computed(self, points: Any) -> Any:
         """The model's value for each row at these points (k, n), in SI; a refused point is NaN in all observations."""
         answered = self.model({name: np.array(points[:, j]) for j, name in enumerate(self.names)}, len(points))
-        observed = [row.name for row in self.rows if not row.is_prior]
-        absent = [name for name in observed if name not in answered]
-        if absent:
-            raise InputError(
-                f"observed names {', '.join(absent)}, which the model does not return; it returns {', '.join(answered)}",
-                code="unknown_output",
-                argument="observed",
-            )
-        found = np.stack([answered[name] for name in observed], axis=1)
+        found = np.stack(observed_columns([row.name for row in self.rows if not row.is_prior], answered), axis=1)
         found = np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
         return np.concatenate([found, points[:, self.has_prior]], axis=1)
 
@@ -99,32 +94,18 @@ class FitInputs(NamedTuple):
         return Problem(
             evaluate=lambda points: self.computed(points) / sigma,
             target=np.array([row.value.given_mean for row in self.rows]) / sigma,
-            period=np.where([self._is_angle(row) for row in self.rows], math.tau / sigma, np.nan),
+            period=np.where([row.is_angle(self.model.units) for row in self.rows], math.tau / sigma, np.nan),
             low=self.numbers_of("low"),
             high=self.numbers_of("high"),
             scale=self.numbers_of("scale"),
         )
 
-    def _is_angle(self, row: Stated) -> bool:
-        """Whether an observation is an angle, judged by its unit."""
-        returned, observed = self.model.units.get(row.name), row.value.unit
-        if row.is_prior:
-            return False
-        if returned and observed and returned != observed:
-            raise UnitsError(
-                f"observed {row.name} is in {observed}, but the model returns it in {returned}; one of them is another "
-                f"quantity",
-                code="bad_units",
-                argument="observed",
-            )
-        return "rad" in (observed, returned)
-
 
 def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
     """The arguments of a fit through the reader: one error names all that cannot be used."""
     reader = ArgumentReader()
-    known = _each(reader, unknowns, "unknowns", "20.0", _unknown)
-    measured = _each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", _observation)
+    known = read_each(reader, unknowns, "unknowns", "20.0", _unknown)
+    measured = read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_value)
     reader.close()
     rows = [Stated(name, value, False) for name, value in measured]
     rows += [Stated(name, unknown.prior, True) for name, unknown in known if unknown.prior]
@@ -133,28 +114,6 @@ def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
     # Two cases, because a model that takes numbers would answer an array of one.
     inputs.computed(np.tile(inputs.numbers_of("start"), (2, 1)))
     return inputs
-
-
-def _each(
-    reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]
-) -> list[tuple[str, T]]:
-    """Read each entry of a dict, by name; an error names its entry."""
-    if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
-        got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
-        raise InputError(
-            f"{argument} must be a dict by names, such as {{'speed_a': {example}}}, got {got}",
-            code="bad_type",
-            argument=argument,
-        )
-    found = []
-    for name, value in given.items():
-        label = f"{argument}[{name!r}]"
-        try:
-            found.append((name, read(label, value)))
-        except InputError as problem:
-            text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
-            reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))
-    return found
 
 
 def _unknown(label: str, given: Any) -> Unknown:
@@ -174,29 +133,3 @@ def _unknown(label: str, given: Any) -> Unknown:
         )
     (start,), unit = read_alike({label: given})
     return Unknown(unit, start, abs(start) or 1.0, -math.inf, math.inf, None)
-
-
-def _observation(label: str, given: Any) -> Normal:
-    if isinstance(given, (tuple, list)) and len(given) == 2:
-        (_, sigma), unit = read_alike(dict(zip((f"{label} value", f"{label} error"), given, strict=True)))
-        if not sigma > 0.0:
-            raise InputError(
-                f"{label} error must be > 0, got {show(sigma, unit)}; give the pair (value, error), the error as a standard "
-                f"deviation. What is known exactly is written into the model",
-                code="not_positive",
-            )
-        given = Normal(*given)
-    if not isinstance(given, Normal):
-        kind = "a number without its error" if isinstance(given, (int, float, str)) else f"of type {type(given).__name__}"
-        raise InputError(
-            f"{label} is {kind}; give Normal(value, error) or the pair (value, error), the error as a standard deviation. Of a "
-            f"range write Normal.between(low, high, coverage)",
-            code="bad_observation",
-        )
-    if given.truncate is not None:
-        raise InputError(
-            f"{label} is truncated at {given.truncate}, which the error of a measurement is not; leave truncate= out, bounds "
-            f"belong to unknowns",
-            code="bad_observation",
-        )
-    return given

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, NamedTuple
 
@@ -15,11 +15,12 @@ from ..records import strict
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
+from ..warning import warn
 
 TWO_ERRORS = 2.0
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 # Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict itself.
-_WEAK, _CONTRADICTION = 0.05, 0.01
+_WEAK, CONTRADICTION = 0.05, 0.01
 
 
 def _quantity(value: float, unit: str) -> Any:
@@ -234,16 +235,7 @@ class Fit(Shown):
     @property
     def consistent(self) -> bool | None:
         """Whether a misfit this large has a probability of 0.01 or more; None with no more observations than unknowns."""
-        return None if math.isnan(self.p_value) else self.p_value >= _CONTRADICTION
-
-    @property
-    def _chance(self) -> str:
-        """The probability of a misfit this large or larger, in two digits that round it past neither 0.05 nor 0.01."""
-        text = f"{self.p_value:.2g}"
-        for limit in (_WEAK, _CONTRADICTION):
-            if self.p_value < limit <= float(text):
-                return f"just below {limit:g}"
-        return text
+        return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
 
     @property
     def told_by_bounds(self) -> tuple[str, ...]:
@@ -347,20 +339,8 @@ def notes_of(found: Fit) -> Iterator[Note]:
     if found.consistent is None:
         yield Note(None, "there is no more evidence than unknowns, so that nothing checks it")
     else:
-        chance = f"a misfit this large or larger has a chance of {found._chance}"
-        name, worst = max(found.residuals.items(), key=lambda item: abs(item[1].over_sigma))
-        if not found.consistent:
-            yield Note(
-                CollisionsWarning,
-                f"the evidence contradicts itself, the model or the stated errors: {chance}",
-                f", and {_CONTRADICTION} would pass (chi-squared {found.chi_squared:.4g} with {found.degrees_of_freedom} "
-                f"degrees of freedom); the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
-                "contradictory",
-            )
-        elif found.p_value < _WEAK:
-            yield Note(None, f"the evidence agrees only weakly with itself, the model and the stated errors: {chance}")
-        else:
-            yield Note(None, f"the evidence agrees with itself: {chance}")
+        by = f" (chi-squared {found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom)"
+        yield agreement(found.p_value, found.residuals, by)
     for direction in found.undetermined:
         advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that determines it"
         if direction.held_by_prior:
@@ -392,6 +372,33 @@ def notes_of(found: Fit) -> Iterator[Note]:
         )
     if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
         yield Note(IllConditionedWarning, found.bend, "; sample the unknowns, or give closer priors", "not_linear")
+
+
+def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
+    """Whether the evidence agrees with itself, by the chance of its misfit in two digits that round past no limit."""
+    text = f"{p_value:.2g}"
+    text = next((f"just below {limit:g}" for limit in (_WEAK, CONTRADICTION) if p_value < limit <= float(text)), text)
+    chance = f"a misfit this large or larger has a chance of {text}"
+    if p_value >= _WEAK:
+        return Note(None, f"the evidence agrees with itself: {chance}")
+    if p_value >= CONTRADICTION:
+        return Note(None, f"the evidence agrees only weakly with itself, the model and the stated errors: {chance}")
+    name, worst = max(residuals.items(), key=lambda item: abs(item[1].over_sigma))
+    return Note(
+        CollisionsWarning,
+        f"the evidence contradicts itself, the model or the stated errors: {chance}",
+        f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
+        "contradictory",
+    )
+
+
+def warn_of(notes: Iterable[Note]) -> None:
+    """Give each warning among the notes, one for each code."""
+    notes = list(notes)
+    for note in {note.code: note for note in notes}.values():
+        if note.warning:
+            sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
+            warn(note.warning(sentences + note.rest, code=note.code))
 
 
 def _with_error(one: Estimate) -> str:

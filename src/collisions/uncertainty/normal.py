@@ -141,16 +141,26 @@ def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
 def _tails(z: Any) -> Any:
     """The upper-tail probabilities of an array."""
     distance = np.minimum(np.abs(z), _NOTHING_BEYOND)
-    density = np.exp(-0.5 * np.square(distance))
-    smaller = _TAIL[0] * (u := (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
-    for coefficient in _TAIL[1:-1]:
-        smaller += coefficient
-        smaller *= u
-    smaller += _TAIL[-1]
-    distance += 1.0
-    smaller /= distance
-    smaller *= density
+    smaller = _beside_exponential(distance) * np.exp(-0.5 * np.square(distance))
     return np.where(z > 0.0, smaller, 1.0 - smaller)
+
+
+def log_survival(z: Any) -> Any:
+    """The logarithm of the probability above each of an array, also where that is too small for a float."""
+    distance = np.abs(z)
+    far = np.log(_beside_exponential(distance)) - 0.5 * np.square(distance)
+    return np.where(z > 0.0, far, np.log1p(-_tails(distance)))
+
+
+def _beside_exponential(distance: Any) -> Any:
+    """The probability beyond distances >= 0, over exp(-distance**2 / 2)."""
+    found = _TAIL[0] * (u := (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
+    for coefficient in _TAIL[1:-1]:
+        found += coefficient
+        found *= u
+    found += _TAIL[-1]
+    found /= distance + 1.0
+    return found
 
 
 def power_of_two(values: Any) -> float:

@@ -63,6 +63,8 @@ class Output:
     so counted. Of a normal error of a direction that is far less than half a turn these are its mean and standard deviation.
     """
 
+    given = "the stated inputs"
+
     def __init__(self, name: str, unit: str | None) -> None:
         self.name = name
         self.unit = unit
@@ -169,21 +171,22 @@ class Output:
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
-        figures = {
+        shares = {"contributions": self.contributions, "total_contributions": self.total_contributions}
+        return {name: _plain(value) for name, value in (self._summary() | shares).items()}
+
+    def __repr__(self) -> str:
+        name, text = self.row()
+        return f"<{name}: {text}, given {self.given}>"
+
+    def _summary(self) -> dict[str, Any]:
+        return {
             "unit": self.unit,
             "mean": self.mean,
             "std": self.std,
             "mean_standard_error": self.mean_standard_error,
             "std_standard_error": self.std_standard_error,
             "interval_95": list(self.interval()),
-            "contributions": self.contributions,
-            "total_contributions": self.total_contributions,
         }
-        return {name: _plain(value) for name, value in figures.items()}
-
-    def __repr__(self) -> str:
-        name, text = self.row()
-        return f"<{name}: {text}, given the stated inputs>"
 
     def _mean(self) -> Any:
         raise NotImplementedError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from .result import Shares, average, deviation
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
 Correlation: TypeAlias = Mapping[tuple[str, str], float]
+
+T = TypeVar("T")
+R = TypeVar("R")
 
 BLOCK = 16384
 FIRST_BLOCK = 1024
@@ -46,22 +49,38 @@ class Joint:
         self._factors = {group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1}
 
     def values(self, points: Any) -> dict[str, Any]:
-        """The inputs at points (dimensions, cases)."""
+        """The inputs at points (dimensions, cases) of the unit cube."""
+        return self._at(points, lambda p: p, normal.quantile, lambda one, p: one.quantile(p))
+
+    def scored(self, scores: Any) -> dict[str, Any]:
+        """The inputs at independent normal scores (dimensions, cases)."""
+        return self._at(scores, normal.cdf, lambda z: z, lambda one, z: one.scored(z))
+
+    def _at(
+        self, rows: Any, share: Callable[[Any], Any], score: Callable[[Any], Any], alone: Callable[[Distribution, Any], Any]
+    ) -> dict[str, Any]:
+        """The inputs, with what makes probabilities, scores and the value of an independent input of a row."""
         found: dict[str, Any] = {}
-        for group, rows in self.rows.items():
+        for group, places in self.rows.items():
             if group[0] in self._columns:
                 for name in group:
                     column = self._columns[name]
-                    found[name] = column[(points[rows[0]] * len(column)).astype(np.intp)]
+                    at = (share(rows[places[0]]) * len(column)).astype(np.intp)
+                    found[name] = column[np.minimum(at, len(column) - 1)]
             elif group in self._factors:
-                independent = [normal.quantile(points[row]) for row in rows]
+                independent = [score(rows[place]) for place in places]
                 for name, weights in zip(group, self._factors[group], strict=True):
                     # Term by term: a matrix product adds in an order that depends on how many cases there are.
                     scores = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
                     found[name] = self.inputs[name].scored(scores)
             else:
-                found[group[0]] = self.inputs[group[0]].quantile(points[rows[0]])
+                found[group[0]] = alone(self.inputs[group[0]], rows[places[0]])
         return {name: found[name] for name in self.inputs}
+
+    @property
+    def ordered(self) -> Any:
+        """For each row, whether its values rise with it, as they do not for joint samples, which lie in no order."""
+        return np.array([group[0] not in self._columns for group, places in self.rows.items() for _ in places])
 
     def correlations(self) -> Any:
         """Pearson's correlations of the inputs themselves, in their order."""
@@ -173,7 +192,7 @@ class Sample:
         blocks = _blocks(self.done, samples)
         parts = [self.outputs] if self.outputs else []
         try:
-            for (_, stop), answers in zip(blocks, self._each(blocks), strict=True):
+            for (_, stop), answers in zip(blocks, in_order(self._answers, blocks, self.threads), strict=True):
                 parts.append(answers)
                 if progress is not None:
                     progress(stop, samples)
@@ -188,20 +207,6 @@ class Sample:
         """Cases without an answer to at least one output."""
         return int(np.count_nonzero(np.any([np.isnan(values) for values in self.outputs.values()], axis=0)))
 
-    def _each(self, blocks: list[tuple[int, int]]) -> Iterator[dict[str, Any]]:
-        """The outputs of each block, in order."""
-        if self.threads == 1 or len(blocks) < 2:
-            yield from map(self._answers, blocks)
-            return
-        from concurrent.futures import ThreadPoolExecutor
-
-        with ThreadPoolExecutor(self.threads) as pool:
-            try:
-                yield from pool.map(self._answers, blocks)
-            except BaseException:
-                pool.shutdown(wait=True, cancel_futures=True)
-                raise
-
     def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
         start, stop = block
         # Case i is place i // REPLICATES of sequence i % REPLICATES, so that any beginning holds as much of each.
@@ -211,6 +216,21 @@ class Sample:
         with np.errstate(all="ignore"):
             values = self.joint.values(points[:, offset : offset + stop - start])
         return self.model(values, stop - start, check=start == 0)
+
+
+def in_order(work: Callable[[T], R], items: Sequence[T], threads: int) -> Iterator[R]:
+    """What becomes of each item, in order, with so many threads at work."""
+    if threads == 1 or len(items) < 2:
+        yield from map(work, items)
+        return
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            yield from pool.map(work, items)
+        except BaseException:
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
 
 
 def _blocks(start: int, stop: int) -> list[tuple[int, int]]:

@@ -1,0 +1,193 @@
+"""What the evidence says: the unknowns of a posterior in pairs, and each observation beside what is computed of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..formatting import UnitSystem
+from ..reconstruct import Fit, Posterior
+from ..units import shown
+from .canvas import FORCE, GREY, INK, LIGHT, SMALLEST, Units, begin, check_size, in_lines, tidy
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_SHARES = (0.5, 0.95)  # of the samples within the two lines
+_BINS = 28
+_KERNEL = (1.0, 2.0, 1.0)
+_MOST = 10
+
+
+def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem = "si") -> Figure:
+    """The unknowns of a posterior: each by itself on the diagonal, each pair below it, given the evidence and the priors.
+
+    Of a pair the darker the likelier; the lines hold 50 and 95 percent of the samples. A narrow slanting band says that the
+    evidence tells the two together better than either.
+
+    Parameters
+    ----------
+    posterior : Posterior
+        What ``reconstruct.posterior`` returned.
+    unknowns : sequence of str, optional
+        Names of the unknowns or outputs to draw, in this order; by default all unknowns. At most ten.
+    units : "si", "metric" or "us"
+        Of those that have a unit.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A new figure; its Axes by gid: "speed_a" on the diagonal, "speed_a and speed_b" below.
+
+    Raises
+    ------
+    InputError
+        Not a posterior, a name that is not there or does not vary, or more than ten.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    >>> from collisions import plot, reconstruct, uncertainty
+    >>> priors = {"a": uncertainty.Normal(10.0, 2.0), "b": uncertainty.Uniform(0.0, 5.0)}
+    >>> found = reconstruct.posterior(lambda a, b: {"sum": a + b}, priors, {"sum": (12.0, 0.5)}, samples=1024, seed=1)
+    >>> [axes.get_gid() for axes in plot.corner(found).axes]
+    ['a', 'a and b', 'b']
+    """
+    labels = Units(units)
+    if not isinstance(posterior, Posterior):
+        raise InputError(
+            f"posterior must be what reconstruct.posterior returned, got {type(posterior).__name__}",
+            code="bad_option",
+            argument="posterior",
+        )
+    names = list(posterior if unknowns is None else [unknowns] if isinstance(unknowns, str) else unknowns)
+    if not 1 <= len(names) <= _MOST:
+        raise InputError(
+            f"a corner plot shows 1 to {_MOST} unknowns, got {len(names)}; write unknowns=['{next(iter(posterior))}', ...]",
+            code="bad_option",
+            argument="unknowns",
+        )
+    columns = [posterior[name] for name in names]
+    for one in columns:
+        if not one.std > 0.0:
+            raise InputError(f"{one.name!r} does not vary from sample to sample", code="no_spread", argument="unknowns")
+        check_size(one.name, float(np.nanmax(abs(one.values))))
+        check_size(f"spread of {one.name}", one.std, SMALLEST)
+    first = begin(None, (1.2 + 1.75 * len(names),) * 2)
+    figure: Figure = first.figure.get_figure(root=True)
+    first.remove()
+    grid = figure.add_gridspec(len(names), len(names))
+    for row, output in enumerate(columns):
+        for column, other in enumerate(columns[: row + 1]):
+            axes = figure.add_subplot(grid[row, column])
+            x, y = (one.values * (labels.factor(one.unit) if one.unit else 1.0) for one in (other, output))
+            if column == row:
+                axes.set_gid(output.name)
+                axes.hist(x, _BINS, fc="#c9d6e6", ec=INK, lw=0.6, histtype="stepfilled")
+                axes.set_yticks([])
+            else:
+                axes.set_gid(f"{other.name} and {output.name}")
+                _pair(axes, x, y)
+            axes.set_xlim(np.nanmin(x), np.nanmax(x))
+            tidy(axes)
+            axes.tick_params(labelbottom=row == len(columns) - 1, labelleft=column == 0 < row, labelsize=8)
+            if row == len(columns) - 1:
+                axes.set_xlabel(_label(labels, other), fontsize=9, parse_math=False)
+            if column == 0 < row:
+                axes.set_ylabel(_label(labels, output), fontsize=9, parse_math=False)
+    figure.align_labels()
+    return figure
+
+
+def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
+    """Each observation less what is computed of it, over its stated error: where the evidence pulls against the model.
+
+    Within the dark band lie two of three observations whose errors are as stated, within the light one nineteen of twenty. Of a
+    posterior the line holds 95 percent of what is computed. Readings with sharp bounds, which are met, are left out.
+
+    Parameters
+    ----------
+    found : Posterior or Fit
+        What ``reconstruct.posterior`` or ``reconstruct.fit`` returned.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The points are the line "residuals"; of a posterior each range has the gid "range of ..." with the name.
+
+    Raises
+    ------
+    InputError
+        Neither a posterior nor a fit, or no observation with an error.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    >>> from collisions import plot, reconstruct, uncertainty
+    >>> found = reconstruct.fit(lambda v: {"one": v, "two": v}, {"v": 10.0}, {"one": (10.0, 1.0), "two": (12.0, 1.0)})
+    >>> points = next(line for line in plot.residuals(found).get_lines() if line.get_gid() == "residuals")
+    >>> [round(float(x), 3) for x in points.get_xdata()]
+    [-1.0, 1.0]
+    """
+    if not isinstance(found, (Posterior, Fit)):
+        raise InputError(
+            f"found must be what reconstruct.posterior or reconstruct.fit returned, got {shown(found)}",
+            code="bad_option",
+            argument="found",
+        )
+    rows = {name: one for name, one in found.residuals.items() if one.sigma}
+    if not rows:
+        raise InputError(
+            "no observation has an error to count its residual in; those with sharp bounds are met",
+            code="no_residuals",
+            argument="found",
+        )
+    axes = begin(axes, (6.5, 1.7 + 0.42 * len(rows)))
+    for width, shade in ((2.0, 0.3), (1.0, 0.55)):
+        axes.axvspan(-width, width, color=LIGHT, alpha=shade, lw=0, zorder=0)
+    axes.axvline(0.0, color=INK, lw=0.9, zorder=1)
+    over = [one.over_sigma for one in rows.values()]
+    axes.plot(over, range(len(rows)), "o", color=INK, ms=7, ls="none", zorder=4, gid="residuals")
+    for place, (name, one) in enumerate(rows.items()):
+        if isinstance(found, Posterior):
+            output = found.predicted[name]
+            ends = [one.over_sigma + (float(output.mean) - end) / one.sigma for end in output.interval(0.95)]
+            axes.plot(ends, [place, place], "-", color=FORCE, lw=2.2, zorder=3, gid=f"range of {name}")
+    axes.set_yticks(range(len(rows)), [in_lines(name, most=2) for name in rows], parse_math=False)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_xlim(-(most := max(3.2, 1.15 * max(map(abs, over)))), most)
+    axes.set_xlabel("observed less computed, in stated errors")
+    axes.set_title(
+        f"given {'the evidence and the priors' if isinstance(found, Posterior) else 'the fit'}", fontsize=10.5, color=GREY
+    )
+    tidy(axes)
+    return axes
+
+
+def _pair(axes: Axes, x: Any, y: Any) -> None:
+    """The density of two columns, and the lines within which the shares of the samples lie."""
+    known = ~(np.isnan(x) | np.isnan(y))
+    counts, xs, ys = np.histogram2d(x[known], y[known], _BINS)
+    # A cell and its neighbours, so that the lines are not those of chance.
+    wide = np.lib.stride_tricks.sliding_window_view(np.pad(counts, 1), (3, 3))
+    smooth = np.einsum("ijkl,k,l->ij", wide, _KERNEL, _KERNEL)
+    falling = np.sort(smooth.ravel())[::-1]
+    sums = np.cumsum(falling)
+    levels = sorted({float(falling[np.searchsorted(sums, share * sums[-1])]) for share in _SHARES})
+    axes.pcolormesh(xs, ys, smooth.T, cmap="Greys", rasterized=True)
+    middles = (0.5 * (ends[1:] + ends[:-1]) for ends in (xs, ys))
+    axes.contour(*middles, smooth.T, levels, colors=[FORCE], linewidths=1.1).set_gid("shares")
+
+
+def _label(labels: Units, output: Any) -> str:
+    """Name and unit of an axis."""
+    name = in_lines(output.name, 18)
+    return labels.label(name, output.unit) if output.unit else name

@@ -1,0 +1,283 @@
+"""``posterior``: samples of the unknowns of a scene given all the evidence, and how probable the evidence is."""
+
+from __future__ import annotations
+
+import math
+import secrets
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, NoSolutionError
+from ..progress import reporter
+from ..quantities import lock
+from ..reading import ArgumentReader
+from ..uncertainty.distributions import Distribution, Normal, range_hint
+from ..uncertainty.model import Model, check_names
+from ..uncertainty.propagation import check_options
+from ..uncertainty.sampling import Correlation, Joint, in_order
+from ..units import shown
+from .fit_result import Residual, warn_of
+from .islands import Island, UnreachableError, islands
+from .least_squares import chi_squared_tail
+from .observations import Observation, listed, observed_columns, read_each, read_reading, refused_everywhere
+from .posterior_result import Posterior, PosteriorOutput, notes_of
+
+ISLANDS = 8
+_SIDE_BY_SIDE = 2  # in each call of the model, for any number of threads: so that no bit depends on it
+_LEAST_SAMPLES = 512
+
+
+def posterior(
+    model: Callable[..., Mapping[str, Any]],
+    unknowns: Mapping[str, Any],
+    observed: Mapping[str, Any],
+    *,
+    samples: int = 8192,
+    seed: int | None = None,
+    correlation: Correlation | None = None,
+    threads: int = 1,
+    progress: Callable[[int, int], None] | bool | None = None,
+) -> Posterior:
+    """How probable each value of the unknowns of a scene is, given what was known before and everything observed.
+
+    Bayes' theorem by sampling: whatever the priors, however the model turns, and with as many answers as there are. Tempered
+    sequential Monte Carlo takes the samples from the priors to the posterior, in eight islands that know nothing of each other
+    and whose differences give the errors of sampling. All figures are given the model, the priors and the stated errors of the
+    observations, which are taken as normal and independent.
+
+    Parameters
+    ----------
+    model : function
+        ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and ``uncertainty.propagate``: it is called with
+        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``), and there the evidence is
+        impossible. What is known exactly is written in the model.
+    unknowns : dict
+        By name the prior, what was known before: any distribution of ``uncertainty``, truncated or not. An ``Interval`` says
+        nothing of likelihood and is refused: give ``Uniform``.
+    observed : dict
+        By output of the model, ``Normal(value, error)`` or the pair (value, error) as for ``fit``; an ``Interval`` within which
+        it lies; or ``Censored(low, high, error)``, a reading of which only one bound, or both, are known. Angles with a unit go
+        round the circle.
+    samples : int, optional
+        Samples in all, at least 512. Four times as many halve the errors of sampling.
+    seed : int, optional
+        Makes the result reproducible to the bit, for any number of threads; without it, ``.seed`` tells what was used.
+    correlation : dict, optional
+        Of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``: between their normal scores.
+    threads : int, optional
+        Islands worked on at once. The model must then be safe to call from several threads.
+    progress : function or bool, optional
+        Called with samples done and samples in all; True shows a bar. An interrupt returns the islands finished until then.
+
+    Returns
+    -------
+    Posterior
+        Mean, spread, intervals and joint samples of the unknowns; predicted outputs; ``probability`` of any condition; the
+        logarithm of the evidence with its error.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used, or a model (code "bad_model") that does not answer case by case.
+    NoSolutionError
+        The model refuses everywhere (code "refused"); or no sample meets the sharp bounds that were observed, or the errors are
+        too small for any to fit (code "contradictory").
+
+    Warns
+    -----
+    CollisionsWarning
+        The evidence contradicts itself or the priors: a misfit this large has a chance below 0.01.
+    IllConditionedWarning
+        The evidence says nothing of an unknown with a uniform prior; or the islands disagree, or the sample collapsed.
+
+    References
+    ----------
+    .. [1] P. Del Moral, A. Doucet and A. Jasra, "Sequential Monte Carlo samplers", Journal of the Royal Statistical Society B
+       68 (2006) 411-436.
+    .. [2] G. A. Davis, "Bayesian reconstruction of traffic accidents", Law, Probability and Risk 2 (2003) 69-89.
+
+    Examples
+    --------
+    A speed known to lie around 20 m/s, read twice. All is normal, so the answer is the weighted mean: weights 1/4, 1 and 1.
+
+    >>> from collisions.reconstruct import posterior
+    >>> from collisions.uncertainty import Normal
+    >>> readings = {"video": (22.0, 1.0), "marks": (21.0, 1.0)}
+    >>> model = lambda speed: {"video": speed, "marks": speed}
+    >>> found = posterior(model, {"speed": Normal(20.0, 2.0)}, readings, seed=1)
+    >>> round(found["speed"].mean, 1), round((0.25 * 20 + 22 + 21) / 2.25, 1)
+    (21.3, 21.3)
+    >>> probability, error = found.probability(lambda at: at["speed"] > 20.0)
+    >>> f"{probability:.3f} +- {error:.3f}"
+    '0.976 +- 0.001'
+    """
+    check_options("monte_carlo", samples, None, seed, threads, progress)
+    if samples < _LEAST_SAMPLES:
+        raise InputError(
+            f"samples must be a whole number from {_LEAST_SAMPLES}, got {shown(samples)}", code="bad_option", argument="samples"
+        )
+    reader = ArgumentReader()
+    priors = dict(read_each(reader, unknowns, "unknowns", "Normal('50 km/h', '10 km/h')", _prior))
+    readings = dict(read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_reading))
+    reader.close()
+    check_names(model, priors, "unknowns", "bad_model")
+    rows = [Observation(name, value) for name, value in readings.items()]
+    problem = _Problem(Model(model, {}), Joint(priors, correlation), rows)
+    seed = int(seed) if seed is not None else secrets.randbits(64)
+    # A point at which numbers overflow counts as refused.
+    with np.errstate(all="ignore"):
+        islands = list(problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress)))
+        found = problem.result(islands, int(samples), seed)
+    warn_of(notes_of(found))
+    return found
+
+
+def _prior(label: str, given: Any) -> Distribution:
+    if isinstance(given, Distribution):
+        return given
+    raise InputError(
+        f"{label} is of type {type(given).__name__}; give a distribution of what was known before: Normal, or "
+        f"Uniform(low, high) where any value between two is as likely, which an Interval does not say. What is known exactly "
+        f"is written into the model{range_hint(given)}",
+        code="bad_prior",
+    )
+
+
+class _Problem:
+    """The model, the priors and the observations, as a likelihood of normal scores."""
+
+    def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
+        self.model, self.joint, self.rows = model, joint, rows
+        self.answered = False
+
+    def computed(self, scores: Any, check: bool) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The unknowns at these scores (cases, dimensions), and the outputs of the model."""
+        values = self.joint.scored(scores.T)
+        return values, self.model(values, len(scores), check)
+
+    def columns(self, answers: Mapping[str, Any]) -> Iterator[tuple[Observation, Any, bool]]:
+        """Each observation, what the model computes of it, and whether it is an angle."""
+        columns = observed_columns([row.name for row in self.rows], answers)
+        for row, column in zip(self.rows, columns, strict=True):
+            yield row, column, row.is_angle(self.model.units[row.name])
+
+    def evaluate(self, scores: Any, check: bool) -> tuple[Any, Any]:
+        """Log-likelihoods, and by how much sharp bounds are missed; infinite where the evidence is impossible."""
+        likelihood, missed = np.zeros(len(scores)), np.zeros(len(scores))
+        answered = np.ones(len(scores), dtype=bool)
+        for row, column, angle in self.columns(self.computed(scores, check)[1]):
+            answered &= ~np.isnan(column)
+            likelihood += row.log_likelihood(column, angle)
+            missed += row.missed(column, angle)
+        self.answered |= bool(np.any(answered))
+        possible = np.isfinite(likelihood) & np.isfinite(missed)
+        return np.where(possible, likelihood, -np.inf), np.where(possible, missed, np.inf)
+
+    def islands(self, count: int, seed: int, threads: int, report: Callable[[int, int], None] | None) -> list[Island]:
+        """Islands of so many points; after an interrupt the finished ones, if there are any."""
+        found: list[Island] = []
+
+        def tell(part: float = 0.0) -> None:
+            if report is not None:
+                report(int((len(found) + part * _SIDE_BY_SIDE) * count), ISLANDS * count)
+
+        def work(first: int) -> list[Island]:
+            seeds = [np.random.SeedSequence(seed, spawn_key=(3, first + k)) for k in range(_SIDE_BY_SIDE)]
+            randoms = [np.random.Generator(np.random.PCG64DXSM(each)) for each in seeds]
+            within = tell if threads == 1 else lambda part: None
+            with np.errstate(all="ignore"):
+                # Always the first islands check that the model answers case by case.
+                return islands(lambda scores: self.evaluate(scores, not first), self.joint.dimensions, count, randoms, within)
+
+        try:
+            for each in in_order(work, range(0, ISLANDS, _SIDE_BY_SIDE), threads):
+                found += each
+                tell()
+        except KeyboardInterrupt:
+            if not found:
+                raise
+        except UnreachableError as problem:
+            raise self._no_solution(problem) from None
+        return found
+
+    def _no_solution(self, problem: UnreachableError) -> NoSolutionError:
+        """Why no point of the priors explains what was observed."""
+        at = {name: float(prior.quantile(0.5)) for name, prior in self.joint.inputs.items()}
+        if not self.answered:
+            return NoSolutionError(
+                f"the model refuses all {problem.draws} points drawn from the priors, as it does their medians, {listed(at)}"
+                f"{refused_everywhere(self.model, at)}. Give priors within which the impact happens",
+                code="refused",
+                points=problem.draws,
+                at=at,
+            )
+        sharp = [row.name for row in self.rows if not row.sigma] if math.isfinite(problem.missed) else []
+        what = "fits within numbers that a float holds"
+        if sharp:
+            what = f"meets the bounds observed of {', '.join(sharp)}: the nearest misses them by {problem.missed:.3g} (SI)"
+        return NoSolutionError(
+            f"the evidence contradicts the priors: no point of them {what}. Look for a slipped digit or a wrong unit, or give "
+            f"wider priors or errors",
+            code="contradictory",
+        )
+
+    def result(self, islands: list[Island], samples: int, seed: int) -> Posterior:
+        """The islands as one sample, each with its share of the evidence."""
+        logs = np.array([one.log_evidence for one in islands])
+        places = len(islands) * samples // ISLANDS
+        ends = np.rint(places * np.cumsum(np.exp(logs - _log_mean(logs))) / len(islands)).astype(np.intp)
+        counts = np.diff(ends, prepend=0)
+        labels = np.repeat(np.arange(len(islands)), counts)
+        points = [
+            one.points[((np.arange(count) + 0.5) * len(one.points) / max(count, 1)).astype(np.intp)]
+            for one, count in zip(islands, counts.tolist(), strict=True)
+        ]
+        scores = np.concatenate(points)
+        values, answers = self.computed(scores, check=False)
+        left_out = [_log_mean(np.delete(logs, k)) for k in range(len(logs))]
+        squares, residuals = np.sum(scores[:, self.joint.ordered] ** 2, axis=1), {}
+        for row, column, angle in self.columns(answers):
+            apart = row.apart(column, angle)
+            squares += (apart / row.sigma) ** 2 if row.sigma else 0.0
+            residuals[row.name] = _residual(row, column, float(np.mean(apart)), self.model.units[row.name])
+        units = {name: prior.unit for name, prior in self.joint.inputs.items()}
+        return Posterior(
+            priors=dict(self.joint.inputs),
+            observed={row.name: row.value for row in self.rows},
+            draws=lock(answers | values),
+            unknowns={name: PosteriorOutput(name, units[name] or None, column, labels) for name, column in values.items()},
+            predicted={name: PosteriorOutput(name, self.model.units[name], column, labels) for name, column in answers.items()},
+            residuals=residuals,
+            log_evidence=_log_mean(logs),
+            log_evidence_error=math.sqrt(float(np.var(left_out)) * (len(logs) - 1)),
+            p_value=chi_squared_tail(float(np.min(squares)), sum(row.sigma > 0.0 for row in self.rows)),
+            refused=float(np.mean([one.refused for one in islands])),
+            moved=min(one.moved for one in islands),
+            samples=len(scores),
+            seed=seed,
+            interrupted=len(islands) < ISLANDS,
+        )
+
+
+def _residual(row: Observation, computed: Any, apart: float, unit: str | None) -> Residual:
+    """An observation beside the mean of what is computed; of a censored reading the bound that is missed, if any."""
+    middle = float(np.mean(computed))
+    observed = row.value.given_mean if isinstance(row.value, Normal) else middle + apart
+    return Residual(
+        name=row.name,
+        unit=row.value.unit or unit or "",
+        observed=observed,
+        computed=observed - apart,
+        residual=apart,
+        sigma=row.sigma,
+        over_sigma=apart / row.sigma if row.sigma else 0.0,
+        is_prior=False,
+    )
+
+
+def _log_mean(logs: Any) -> float:
+    """Logarithm of the mean of numbers given by their logarithms."""
+    most = float(np.max(logs))
+    return most + math.log(float(np.mean(np.exp(logs - most))))
