@@ -1032,6 +1032,50 @@ def known_shares(case: Case) -> None:
     case._look_at(output._shares(), uncertainty.Shares, OUTPUT_OPEN, False)
 
 
+# --- summaries -------------------------------------------------------------------------------------------------------------
+
+
+@fuzzes(
+    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary", "LeftOutSide.summary",
+    "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary", "reconstruct.MomentumSolution.summary",
+    "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to",
+)  # fmt: skip
+def test_summaries(case: Case) -> None:
+    """A table of any result, in any units, as text and for a notebook."""
+    a, b, found = meeting(case, "eccentric")
+    results: dict[str, Any] = {"Vehicle": a, "reconstruct.Fit": known_fit(), "Estimate": known_fit()["x"]}
+    results |= {"Residual": known_fit().residuals["s"], "uncertainty.Propagation": known_propagation()}
+    impact = case.call("eccentric", col.eccentric, a, b, case.number("restitution"), **found, on_failure="nan")
+    if isinstance(impact, col.Impact):
+        left = case.call("left_out", col.left_out, impact)
+        findings = case.call("diagnose", col.diagnose, impact)
+        results |= {"Impact": impact, "Side": impact.b, "LeftOut": left, "LeftOutSide": getattr(left, "a", None)}
+        results |= {"Findings": findings}
+    courses = {name: case.number("heading") for name in ("course_a", "course_b", "course_a_after", "course_b_after")}
+    known = {"speed_a_after": case.number("speed"), "speed_b_after": case.number("speed"), **courses}
+    results["reconstruct.MomentumSolution"] = case.call(
+        "reconstruct.momentum", reconstruct.momentum, case.number("mass"), case.number("mass"), **known
+    )
+    results["travel.RunOut"] = case.call(
+        "travel.path", travel.path, [(0.0, 0.0), (case.number("x"), 20.0)], [0.0, 1.0], friction=0.7, lock=case.random()
+    )
+    results["ModelChoice"] = case.call("required_model", col.required_model, a, b, 0.1, **found)
+    for name, result in results.items():
+        if result is not None and not isinstance(result, Exception):
+            table = case.call(f"{name}.summary", result.summary, case.option(None, *UNIT_SYSTEMS))
+            if not isinstance(table, Exception):
+                assert isinstance(str(table) + table._repr_html_(), str)
+    ends = case.call("uncertainty.Output.to", known_in_mph().to, case.option("mph", "km/h", "ft/s", "kg"))
+    assert isinstance(ends, Exception) or ends.mean > 0.0
+
+
+@functools.cache
+def known_in_mph() -> uncertainty.Output:
+    """An output with a unit."""
+    speed = uncertainty.Normal("30 mph", "2 mph")
+    return uncertainty.propagate(lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": speed}, seed=1, samples=64)["v"]
+
+
 # --- reference -------------------------------------------------------------------------------------------------------------
 
 

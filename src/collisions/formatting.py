@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -36,8 +37,24 @@ def with_decimals(value: float, decimals: int, thousands: str = "") -> str:
     return text if text.strip("-0.") else text.lstrip("-")
 
 
+def typeset(text: str) -> str:
+    """Units as they are printed: "lb*ft**2" is lb·ft², "30 deg" is 30°."""
+    for plain, printed in (("**2", "²"), ("**3", "³"), ("^2", "²"), ("*", "·")):
+        text = text.replace(plain, printed)
+    return re.sub(r"(?<![a-z]) ?\b(?:degrees?|deg)\b", "°", text)
+
+
+def number_with_unit(number: str, unit: str) -> str:
+    """A number and its unit as they are printed; no space before a degree sign."""
+    printed = typeset(unit)
+    return f"{number}{'' if printed[:1] == '°' else ' '}{printed}".rstrip()
+
+
 class Numbers:
     """How SI numbers are written in one system of units, by kind of quantity."""
+
+    # Whether units are written as on a printed page, lb·ft² and 30°, or as pint reads them.
+    typeset = False
 
     def __init__(self, system: str) -> None:
         self.name = system
@@ -48,7 +65,8 @@ class Numbers:
 
     def unit(self, kind: str) -> str:
         """The unit behind a number, with the space before it."""
-        return f" {self.label(kind)}".rstrip()
+        label = self.label(kind)
+        return number_with_unit("", label) if self.typeset else f" {label}".rstrip()
 
     def scale(self, kind: str) -> float:
         """The factor from SI to the unit of this kind."""

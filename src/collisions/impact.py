@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import fields, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -17,16 +18,17 @@ from .kernels.elementwise import UNIT_INTERVAL, select
 from .model_choice import ModelChoice, part_of_choice, solve_least, where_answered
 from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
-from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, table
+from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
-from .side import Side
+from .side import SIGNS, Side, beside
 from .solving import solve_inputs
+from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
 
 
-class Impact(Frozen):
+class Impact(Frozen, Summarized):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
 
     Made by the solvers, never by hand. Frozen. Attributes are floats, or arrays in a batch, all in SI; the same attributes of
@@ -43,6 +45,7 @@ class Impact(Frozen):
     """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
     _answer: Any
+    _elsewhere = MappingProxyType({Side: "impact.a.{0} or impact.b.{0}", Vehicle: "impact.a.after.{0}, or of .before or b"})
 
     def __init__(self) -> None:
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
@@ -447,15 +450,42 @@ class Impact(Frozen):
         )
         return f"<Impact {self.model}: {shown}, delta_v a={show(self.a.delta_v)} b={show(self.b.delta_v, 'm/s')}>"
 
-    def _repr_html_(self) -> str:
-        rows = [
-            (name, show(value, vars(Impact)[name].unit))
-            for name in attributes(Impact)
-            if (value := _own(self, name)) is not None
-        ]
-        for label, side in (("a", self.a), ("b", self.b)):
-            rows += [(f"{label}.{name}", text) for name, text in side._rows()]
-        return table(f"Impact ({self.model})", iter(rows))
+    def _summary(self, numbers: Cells) -> Summary:
+        a, b = self.a, self.b
+        contact = [(label, numbers.text(getattr(self, name), unit_of(Impact, name))) for name, label in _CONTACT.items()]
+        contact = contact if self.inputs.law else [row for row in contact if row[0] not in _TANGENTIAL]
+        notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
+        if np.any(self.refused):
+            many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases are refused; their status says why."
+            notes = (f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many, *notes)
+        title = f"Impact of {a.label} and {b.label}"
+        everything = all_numbers(self._rows())
+        return Summary(title, [*beside((a, b), numbers), Part(contact, "Contact"), everything], notes)
+
+    def _texts(self) -> Iterable[Any]:
+        return self.inputs.texts
+
+    def _rows(self) -> Iterator[tuple[str, str]]:
+        for name in attributes(Impact):
+            value = getattr(self, name)
+            if isinstance(value, Side):
+                yield from ((f"{name}.{inner}", text) for inner, text in value._rows())
+            elif value is not None:
+                yield name, show(value, unit_of(Impact, name))
+
+
+# The rows of a summary on the contact, and those among them that a linear impact does not have.
+_CONTACT = {
+    "model": "model",
+    "closing_speed": "closing speed",
+    "restitution": "restitution",
+    "normal_impulse": "normal impulse",
+    "tangential_impulse": "tangential impulse",
+    "impulse_ratio": "impulse ratio",
+    "regime": "regime",
+    "energy_loss": "energy lost",
+}
+_TANGENTIAL = ("tangential impulse", "impulse ratio", "regime")
 
 
 def build(inputs: Inputs, raw: Any) -> Impact:
@@ -534,11 +564,6 @@ def _rebuild(inputs: Inputs, raw: Any, provenance: dict[str, Any]) -> Impact:
             lock(tuple(getattr(found, f.name) for f in fields(found)))
     vars(impact).update(provenance)
     return impact
-
-
-def _own(impact: Impact, name: str) -> Any:
-    value = getattr(impact, name)
-    return None if isinstance(value, Side) else value
 
 
 def _divided(numerator: Value, denominator: Value) -> Value:

@@ -72,6 +72,11 @@ class Inputs:
         normal = None if self.given is None else self.given.get("normal")
         return None if isinstance(normal, str) else normal
 
+    @property
+    def texts(self) -> tuple[Any, ...]:
+        """What was given with a unit, as texts, by the vehicles too."""
+        return tuple(text for given in (self.a.given, self.b.given, self.given) for text in (given or {}).values())
+
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal; the texts they were given as do not count."""
         if not isinstance(other, Inputs):

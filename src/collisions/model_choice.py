@@ -17,7 +17,7 @@ from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS
 from .models import MODELS, read_again
 from .progress import halves, reporter
-from .quantities import Shown, derived, lock, same, show
+from .quantities import Shown, derived, lock, same
 from .reading import ArgumentReader, broadcast
 from .solving import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
 from .units import Value, to_quantity
@@ -114,15 +114,12 @@ class ModelChoice(Shown):
         """By model, what it still needs, such as "a.yaw_inertia" or "point"."""
         return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing})
 
-    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
-        yield prefix + "model", show(self.model)
-        yield prefix + "reason", self.reason
-        for name, error in self.errors.items():
-            yield f"{prefix}errors.{name}", show(error, "m/s")
-        for name, needed in self.missing.items():
-            if needed:
-                yield f"{prefix}missing.{name}", ", ".join(needed)
-        yield prefix + "tolerance", show(self.tolerance, "m/s")
+    def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
+        yield prefix + "model", self.model, None
+        yield prefix + "reason", self.reason, None
+        yield from ((f"{prefix}errors.{name}", error, "m/s") for name, error in self.errors.items())
+        yield from ((f"{prefix}missing.{name}", ", ".join(needed), None) for name, needed in self.missing.items() if needed)
+        yield prefix + "tolerance", self.tolerance, "m/s"
 
 
 def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:

@@ -12,6 +12,8 @@ import numpy as np
 
 from .errors import MissingInputError, Status
 from .formatting import in_words
+from .reading import ArgumentReader
+from .summary import Cells, Summarized, Summary, all_numbers, sided
 from .units import Value, to_quantity
 
 T = TypeVar("T")
@@ -58,6 +60,16 @@ class Derived(Generic[T]):
 
 class Frozen:
     """Base of results that cannot be changed."""
+
+    # By attribute of something within the result, where it is found: a missing name is looked up there.
+    _elsewhere: ClassVar[Mapping[type[Any], str]] = {}
+
+    if not TYPE_CHECKING:  # with it type checkers would take any name
+
+        def __getattr__(self, name: str) -> Any:
+            places = [where for kind, where in self._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
+            hint = f"; write {places[0].format(name)}" if places else ""
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=self)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
@@ -118,13 +130,16 @@ class Quantities:
         if callable(value):
             if unit is None:
                 raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")
-            return lambda *args, **kwargs: to_quantity(value(*args, **kwargs), unit)
+            return lambda *args, **kwargs: self._with_unit(value(*args, **kwargs), unit)
         if value is None and unit is not None and hasattr(self._owner, "_missing"):
             problem = self._owner._missing(name)
             if problem is not None:
                 raise NoQuantityError(str(problem), code=problem.code, **problem.fields)
         if value is None or unit is None:
             return getattr(value, "q", value)
+        return self._with_unit(value, unit)
+
+    def _with_unit(self, value: Any, unit: str) -> Any:
         return to_quantity(value, unit)
 
     def __dir__(self) -> list[str]:
@@ -134,6 +149,21 @@ class Quantities:
 
     def __repr__(self) -> str:
         return f"<Quantities of {self._owner!r}>"
+
+
+class InUnit(Quantities):
+    """The owner's attributes and the results of its methods as plain numbers in a unit that was asked for."""
+
+    __slots__ = ("_factor",)
+
+    def __init__(self, owner: Any, unit: str) -> None:
+        super().__init__(owner)
+        reader = ArgumentReader()
+        self._factor = reader.number(f"1 {unit}", owner.unit, "unit")
+        reader.close()
+
+    def _with_unit(self, value: Any, unit: str) -> Any:
+        return tuple(part / self._factor for part in value) if isinstance(value, tuple) else value / self._factor
 
 
 def lock(value: Any) -> Any:
@@ -199,18 +229,7 @@ def same_fields(one: Any, other: Any) -> bool:
     return type(one) is type(other) and all(same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))
 
 
-def table(title: str, rows: Iterator[tuple[str, str]]) -> str:
-    """An HTML table of names and shown values for notebooks."""
-    from html import escape
-
-    body = "".join(
-        f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
-        for name, text in rows
-    )
-    return f"<table><caption>{escape(title)}</caption><tbody>{body}</tbody></table>"
-
-
-class Shown:
+class Shown(Summarized):
     """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay locked when unpickled."""
 
     __slots__ = ()
@@ -232,16 +251,21 @@ class Shown:
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
 
-    def _repr_html_(self) -> str:
-        return table(self._title, self._rows())
+    def _summary(self, numbers: Cells) -> Summary:
+        return Summary(self._title, [*sided(self._values(), numbers), all_numbers(self._rows())])
 
-    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+    def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
+        """Name, value and SI unit of every attribute that has one; of results within it by their own names."""
         for name in (*(f.name for f in fields(self)), *attributes(type(self))):
             value, unit = getattr(self, name), unit_of(type(self), name)
             if isinstance(value, Shown):
-                yield from value._rows(f"{name}.")
+                yield from value._values(f"{name}.")
             elif value is not None and unit is not None:
-                yield prefix + name, show(value, unit)
+                yield prefix + name, value, unit
+
+    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        for name, value, unit in self._values(prefix):
+            yield name, show(value, unit)
 
 
 def _restored(kind: type[Any], values: dict[str, Any]) -> Any:

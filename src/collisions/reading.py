@@ -257,7 +257,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
                 f"{argument} is a {type(value).__name__} with {shown(item)} in it; put the unit on the whole: "
-                f"Quantity([1.0, 2.0], 'm/s'), or convert each to SI numbers first",
+                f"{_as_quantity(value)}, or give numbers in SI",
                 code="bad_units",
                 argument=argument,
             )
@@ -271,6 +271,15 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         raise ShapeError(
             f"{argument} is a {type(value).__name__} of unequal rows; give an array", code="bad_shape", argument=argument
         ) from None
+
+
+def _as_quantity(values: Sequence[Any]) -> str:
+    """How a list of texts of one unit is written as one Quantity; an example for others."""
+    parts = [part.partition(" ") for part in values if isinstance(part, str)]
+    numbers, units = ", ".join(number for number, _, _ in parts), {unit.strip() for _, _, unit in parts}
+    if len(parts) != len(values) or len(units) != 1 or not numbers.replace(", ", "").replace(".", "").isdigit():
+        numbers, units = "40, 50", {"mph"}
+    return f"pint.Quantity([{shown(numbers)[1:-1]}], {units.pop()!r})"
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:

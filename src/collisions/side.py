@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -12,13 +14,14 @@ from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .model_choice import ModelChoice
-from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, table
+from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
+from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Pair, Value
-from .vehicle import Vehicle, missing, moved, turn_at
+from .vehicle import Vehicle, missing, moved, turn_at, without_turning
 
 
-class Side(Frozen):
+class Side(Frozen, Summarized):
     """One vehicle's part in an impact: its states before, during and after, and what changed.
 
     ``delta_v`` is the change of velocity of the centre of mass. Scene axes, angles counter-clockwise from +x, except for the
@@ -29,6 +32,7 @@ class Side(Frozen):
     _answer: Any
     _index: int
     _choice: ModelChoice | None
+    _elsewhere = MappingProxyType({Vehicle: "before.{0} or after.{0} in its place"})
 
     def __init__(self, inputs: Inputs, raw: Any, index: int, choice: ModelChoice | None) -> None:
         # Not the Impact itself: a cycle would keep a batch in memory until the collector runs.
@@ -250,11 +254,59 @@ class Side(Frozen):
     def __repr__(self) -> str:
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"
 
-    def _repr_html_(self) -> str:
-        return table(self.before.name or "ab"[self._index], self._rows())
+    def _summary(self, numbers: Cells) -> Summary:
+        return Summary(self.label, [*beside((self,), numbers), all_numbers(self._rows())], SIGNS)
+
+    def _texts(self) -> Iterable[Any]:
+        return self._inputs.texts
+
+    @property
+    def label(self) -> str:
+        """The letter of the vehicle, and its name if that says more."""
+        letter, name = "AB"[self._index], " ".join(self.before.name.split())
+        return letter if name in ("", letter) else f"{letter} ({name})"
 
     def _rows(self) -> Any:
         for name in attributes(type(self)):
             value = getattr(self, name)
             if value is not None and not isinstance(value, Vehicle):
                 yield name, show(value, vars(type(self))[name].unit)
+
+
+SIGNS = (
+    "Courses and yaw are counter-clockwise from the x axis.",
+    "PDOF is where the force comes from: 0 from straight ahead, positive clockwise, from the right.",
+)
+_STATE = {"speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
+_CHANGE = {"delta_v": "total", "delta_v_forward": "forward", "delta_v_left": "left", "pdof": "PDOF"}
+
+
+def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
+    """The rows of a summary on one or both vehicles, each in a column of its own."""
+    turning = any(not without_turning(state.yaw_rate) for side in sides for state in (side.before, side.after))
+    state = {name: label for name, label in _STATE.items() if turning or name != "yaw_rate"}
+
+    def rows(text: Callable[[Side, str], str], labels: dict[str, str]) -> list[tuple[str, ...]]:
+        return [(label, *(text(side, name) for side in sides)) for name, label in labels.items()]
+
+    columns = tuple(side.label for side in sides)
+    return [
+        Part(rows(lambda side, name: _of_state(side.before, name, numbers), state), "Before", columns),
+        Part(rows(lambda side, name: _of_state(side.after, name, numbers), state), "After", columns),
+        Part(rows(lambda side, name: _of_change(side, name, numbers), _CHANGE), "Delta-V", columns),
+    ]
+
+
+def _of_state(vehicle: Vehicle, name: str, numbers: Cells) -> str:
+    value = getattr(vehicle, name)
+    if isinstance(value, float) and math.isnan(value) and vehicle.speed == 0.0:
+        return "at rest"
+    return numbers.text(value, unit_of(Vehicle, name))
+
+
+def _of_change(side: Side, name: str, numbers: Cells) -> str:
+    value, hour = getattr(side, name), side.pdof_clock
+    if value is None:
+        return "no heading"
+    clock = f" ({hour} o'clock)" if name == "pdof" and isinstance(hour, int) else ""
+    return numbers.text(value, unit_of(Side, name)) + clock

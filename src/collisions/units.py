@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from weakref import WeakKeyDictionary
 
@@ -97,6 +97,15 @@ _AMBIGUOUS = {
     "mil": "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of pint: write 'deg' or 'rad'",
     "ton": "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'",
     "quarter": "a quarter may be 25 lb, 28 lb, 500 lb or 560 lb: write 'kg' or 'lb'",
+}
+_US_UNITS = {"mile_per_hour", "mile", "foot", "inch", "yard", "pound", "force_pound", "slug"}
+# Ways of writing units that pint does not read.
+_MEANT = {
+    **{unit.lower(): unit for unit in ("kg", "lb", "mph", "km/h", "deg", "ft", "kJ")},
+    **dict.fromkeys(("kmh", "kmph"), "km/h"),
+    **dict.fromkeys(("ftlb", "ftlbs", "lbft"), "ft*lbf"),
+    "kgs": "kg",
+    "lbm": "lb",
 }
 _NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
@@ -197,6 +206,50 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
     return _written(powers)
 
 
+def unit_as_written(given: Any) -> str:
+    """The unit of a text as it stands there; of a Quantity, or a unit, its symbol."""
+    if isinstance(given, str):
+        return re.sub(_NUMBER, "", given.strip(), count=1).strip()
+    return f"{getattr(given, 'units', given):~}".replace(" ", "")
+
+
+def with_symbol(text: str) -> str:
+    """A text with the symbol of its unit, such as mph, where it has the name that pint gives a Quantity's."""
+    try:
+        units = parse(text, _ANY_KIND, "").units
+    except UnitsError:
+        return text
+    named = f"{units}"
+    return text.replace(named, unit_as_written(units)).replace(".0 ", " ", 1) if f" {named}" in text else text
+
+
+def system_given(texts: Iterable[str]) -> str:
+    """The system, "si", "metric" or "us", that these texts with units agree on; of speeds if others differ; else SI."""
+    found = [_systems(text) for text in texts]
+    for votes in (found, [vote for vote in found if "speed" in vote]):
+        agreed = set.intersection({"si", "metric", "us", "speed"}, *votes) - {"speed"}
+        if votes and agreed:
+            return next(name for name in ("si", "metric", "us") if name in agreed)
+    return "si"
+
+
+def _systems(text: str) -> set[str]:
+    """The systems of units that a text may be in, and "speed" if it is one."""
+    try:
+        units = parse(text, _ANY_KIND, "")._units
+    except UnitsError:
+        return {"si", "metric", "us"}
+    names = {str(name) for name in units}
+    speed = {"speed"} if names & {"mile_per_hour", "kilometer_per_hour"} or names >= {"kilometer", "hour"} else set()
+    if names & _US_UNITS:
+        return speed | {"us"}
+    if names & {"kilometer", "kilometer_per_hour"}:
+        return speed | {"metric"}
+    if names >= {"meter", "second"}:
+        return speed | {"si"}
+    return {"si", "metric"} if names & {"meter", "kilogram", "newton", "kilonewton"} else {"si", "metric", "us"}
+
+
 def parse(text: str, unit: str, argument: str) -> Any:
     """A Quantity from one plain number and one unit: float reads the number, pint only the unit.
 
@@ -211,7 +264,7 @@ def parse(text: str, unit: str, argument: str) -> Any:
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
-            f"{argument}: cannot read {shown(text)}; write {how}, such as {example(unit)}",
+            f"{argument}: cannot read {shown(text)}{_cure(stripped)}; write {how}, such as {example(unit)}",
             code="bad_units",
             argument=argument,
             text=text,
@@ -223,6 +276,20 @@ def parse(text: str, unit: str, argument: str) -> Any:
         return registry.Quantity(float(number.group()), units)
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from error
+
+
+def _cure(text: str) -> str:
+    """The hint for a text that is nearly one number and one unit; "" for others."""
+    feet = re.fullmatch(r"""(\d+)\s*(?:'|ft|feet)\s*(\d+(?:\.\d+)?)\s*(?:"|''|in|inch|inches)""", text)
+    if feet:
+        return f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' is one"
+    if re.match(r"[+-]?\d[\d,]*,\d", text):
+        whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
+        point = [text.replace(",", ".")] if text.count(",") == 1 and "." not in text else []
+        return f": no comma stands in a number, {' or '.join(map(repr, whole + point))}" if whole or point else ""
+    if re.search(r"[a-z]-[a-z]", text):
+        return f": units are multiplied by *, {text.replace('-', '*')!r}"
+    return ""
 
 
 def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
@@ -316,6 +383,9 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
     is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
+    name = unit_as_written(given) if isinstance(given, str) else ""
+    if meant := _MEANT.get(name.rstrip(".").lower()):
+        hint = f"; {name!r} is written {meant!r}"
     if unit == "kg" and is_force:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
     elif unit == "kg*m**2" and is_force:

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import FrozenInstanceError, dataclass, field, fields
-from typing import Any
+from difflib import get_close_matches
+from typing import Any, Never
 
 import numpy as np
 
 from .directions import Angle, angle_of, direction
 from .errors import InputError, MissingInputError
 from .kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
-from .quantities import Quantities, derived, hypot, lock, returns, same, show, table
+from .quantities import Quantities, derived, hypot, lock, returns, same, show
 from .reading import ArgumentReader, broadcast, widened
+from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
 from .units import Input, Pair, Value, shown
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
 
 
-class _AsGiven:
+class _AsGiven(Summarized):
     """Base that adds ``given``: the texts that the fields were given as."""
 
     __slots__ = ("given",)
@@ -93,7 +95,10 @@ class Vehicle(_AsGiven):
         heading: Input | None = None,
         pivot: Pair | None = None,
         name: str = "",
+        **unknown: Never,
     ) -> None:
+        if unknown:
+            raise _unknown(next(iter(unknown)))
         if not (
             # Valid plain floats skip the reader; everything else goes through it.
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
@@ -330,8 +335,17 @@ class Vehicle(_AsGiven):
     def __repr__(self) -> str:
         return f"Vehicle({', '.join(f'{name}={text}' for name, text in self._rows())})"
 
-    def _repr_html_(self) -> str:
-        return table(self.name or "Vehicle", self._rows())
+    def _summary(self, numbers: Cells) -> Summary:
+        kept = {name: getattr(self, name) for name in ("mass", "speed", "course", *NAMES[3:9])}
+        kept = {name: value for name, value in kept.items() if value is not None}
+        if without_turning(self.yaw_rate):
+            del kept["yaw_rate"]
+        units = {"speed": "m/s", "course": "rad", **UNITS}
+        rows = [(label_of(name), numbers.text(value, units[name])) for name, value in kept.items()]
+        return Summary(self.name or "Vehicle", [Part(rows), all_numbers(self._rows())])
+
+    def _texts(self) -> Iterable[Any]:
+        return (self.given or {}).values()
 
     def _rows(self) -> Any:
         for f in fields(self):
@@ -356,7 +370,10 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
 for _name in ("__setattr__", "__delattr__"):
     setattr(Vehicle, _name, _refuse_setting)
 
+# Python would say that mass is missing, and not that it was given as weight.
+(Vehicle.__init__.__kwdefaults__ or {})["mass"] = None
 NAMES = tuple(f.name for f in fields(Vehicle))
+UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
@@ -428,6 +445,27 @@ def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: 
         return yaw_rate, yaw_rate
     x, y = (needed(vehicle, name, purpose) if value is None else value for name, value in (("x", x), ("y", y)))
     return turning_velocity(yaw_rate, px, py, x, y)
+
+
+# What people call the fields, and what is asked for by speed.
+_CALLED = {
+    "mass": ("weight", "m"),
+    "yaw_rate": ("omega", "angular_velocity", "spin", "r"),
+    "yaw_inertia": ("inertia", "izz", "iz", "moment_of_inertia", "I"),
+    "heading": ("angle", "theta", "psi", "yaw", "orientation"),
+}
+_BY_SPEED = ("speed", "velocity", "v", "course", "direction")
+
+
+def _unknown(name: str) -> TypeError:
+    """The error for an argument that a Vehicle does not have, with the one that is meant."""
+    near = [field for field, others in _CALLED.items() if name in others] or get_close_matches(name, NAMES, 1)
+    hint = f"; write {near[0]}=" if near else f"; it has {', '.join(NAMES)}"
+    if name in _BY_SPEED:
+        hint = "; write Vehicle.from_speed(speed='45 mph', course='0 deg', ...), or the velocity in scene axes as vx= and vy="
+    if name == "weight":
+        hint += ", such as mass='3400 lb' for a vehicle that weighs 3400 lb"
+    return TypeError(f"Vehicle has no argument {name!r}{hint}")
 
 
 def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> Any:

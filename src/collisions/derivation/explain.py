@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
+from ..document import Document
 from ..errors import InputError, ShapeError, Status
 from ..formatting import SI_UNITS, UnitSystem, bad_system
 from ..impact import Impact
@@ -85,7 +86,7 @@ def explain(
     units: UnitSystem = "si",
     form: Form = "markdown",
     uncertainty: Propagation | Mapping[str, Any] | None = None,
-) -> str:
+) -> Document:
     """The derivation of an answer with the numbers in it, step by step.
 
     Every line is a formula, the same with numbers, and the number of the result: nothing is solved again, and a formula that
@@ -118,8 +119,9 @@ def explain(
 
     Returns
     -------
-    str
-        The derivation; the same for the same arguments.
+    Document
+        The derivation, a ``str`` that a notebook shows as a page and that ``.save(path)`` writes to a file; the same for the
+        same arguments.
 
     Raises
     ------

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
+from ..document import Document
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
@@ -134,9 +135,9 @@ class Page:
                 return more
         return 0
 
-    def text(self) -> str:
+    def text(self) -> Document:
         """The whole page."""
-        return "\n\n".join(self.parts) + "\n"
+        return Document("\n\n".join(self.parts) + "\n", "markdown" if self.latex else "text")
 
     def _in_symbols(self, formula: Expression) -> str:
         return formula.write(Pen(self.latex)).text

@@ -80,8 +80,8 @@ def diagnose(
     Returns
     -------
     tuple of Finding
-        In the order of ``LIMITS``, vehicle A before B; empty if nothing was found. Its ``measured`` has the codes of all that
-        was looked at, found or not.
+        In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was found. Its ``measured`` has the
+        codes of all that was looked at, found or not.
 
     Raises
     ------
@@ -111,7 +111,9 @@ def diagnose(
     >>> finding.code, finding.measured, finding.limit
     ('restitution', 0.8, 0.3)
     >>> diagnose(impact, limits={"restitution": 0.9, "normal": 1.0})
-    ()
+    No findings
+    23 checks were made.
+    A finding is a reason to look again, not an error; no finding is no proof.
     """
     # An implausible limit is intended, so the unit check is skipped.
     reader = ArgumentReader(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
@@ -153,7 +155,7 @@ def diagnose(
             values = list(check.measure(case))
             findings += check.findings(values, allowed[check.code])
             measured += [check.code] if values else []
-    return Findings(findings, measured)
+    return Findings(findings, measured, units)
 
 
 def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:

@@ -9,7 +9,9 @@ from functools import partial
 from typing import Any, NamedTuple, get_type_hints
 
 from ..quantities import OWN, Quantities
+from ..summary import Cells, Part, Summarized, Summary
 
+_NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
 # Sources of several limits.
 _HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
 MESSAGES = f"EDCRASH manual, chapter 6 ({_HVE}/06-messages.md)"
@@ -74,15 +76,33 @@ class Finding:
         return Quantities(self)
 
 
-class Findings(tuple[Finding, ...]):
+class Findings(tuple[Finding, ...], Summarized):
     """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they found anything or not."""
 
     measured: frozenset[str]
+    _system: str
 
-    def __new__(cls, found: Iterable[Finding] = (), measured: Iterable[str] = ()) -> Findings:
+    def __new__(cls, found: Iterable[Finding] = (), measured: Iterable[str] = (), units: str = "metric") -> Findings:
         made = super().__new__(cls, found)
-        made.measured = frozenset(measured)
+        made.measured, made._system = frozenset(measured), units
         return made
+
+    def summary(self, units: str | None = None) -> Summary:
+        """The findings as a table; ``units`` of measure and limit, by default those of the sentences."""
+        return super().summary(self._system if units is None else units)
+
+    def _summary(self, numbers: Cells) -> Summary:
+        rows = []
+        for finding in self:
+            of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
+            measured, limit = (numbers.text(value, finding.unit) for value in (finding.measured, finding.limit))
+            rows.append((f"{finding.code}{of}", finding.sentence, measured, limit))
+        checks = f"{len(self.measured)} checks were made."
+        title = f"{len(self) or 'No'} finding{'s' * (len(self) != 1)}"
+        return Summary(title, [Part(rows, "", ("what was found", "measured", "limit"))], (checks, _NO_PROOF))
+
+    def __repr__(self) -> str:
+        return str(self.summary())
 
 
 class Measured(NamedTuple):

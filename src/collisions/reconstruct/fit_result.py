@@ -12,12 +12,16 @@ import numpy as np
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError
 from ..quantities import OWN, Shown, derived, show
 from ..records import strict
+from ..summary import Cells, Part, Summary, all_numbers
+from ..uncertainty.distribution import GivenUnit
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
 from ..warning import warn
 
 TWO_ERRORS = 2.0
+_GIVEN_ERRORS = "A standard error is given the stated errors of the observations and priors."
+_NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 # Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict itself.
 _WEAK, CONTRADICTION = 0.05, 0.01
@@ -53,11 +57,11 @@ class WithUnit(Shown):
         shared = {f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN}
         return {name: _quantity(value, self.unit) for name, value in shared.items() if value is not None}
 
-    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+    def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         for f in fields(self):
             value = getattr(self, f.name)
             if value is not None and f.name != "unit":
-                yield prefix + f.name, show(value, self.unit if f.metadata.get("unit") == OWN else None)
+                yield prefix + f.name, value, self.unit if f.metadata.get("unit") == OWN else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -281,10 +285,33 @@ class Fit(Shown):
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
 
+    def _summary(self, numbers: Cells) -> Summary:
+        def row(one: Estimate) -> tuple[str, ...]:
+            if not one.determined:
+                return one.name, "not determined", _NONE, _NONE
+            value, error, *ends = (numbers.text(end, one.unit) for end in (one.value, one.standard_error, *one.interval(0.95)))
+            bound = f" ({one.at_bound} bound)" if one.at_bound else ""
+            return one.name, value + bound, error, " to ".join(ends)
+
+        found = [row(self[name]) for name in self.names]
+        misfit = [
+            (one.name, *(numbers.text(value, one.unit) for value in (one.observed, one.computed)), f"{one.over_sigma:+.2f}")
+            for one in self.residuals.values()
+        ]
+        parts = [
+            Part(found, "Unknown", ("estimate", "standard error", "95 percent interval")),
+            Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
+            Part([("chi-squared", f"{self.chi_squared:.4g} with {self.degrees_of_freedom} degrees of freedom")]),
+            all_numbers(self._rows()),
+        ]
+        return Summary(self._title, parts, (*(f"{text[0].upper()}{text[1:]}." for text in self.statements), _GIVEN_ERRORS))
+
+    def _texts(self) -> Iterator[str]:
+        units = (*self.units.values(), *(one.unit for one in self.residuals.values()))
+        return (f"1 {unit.written}" for unit in units if isinstance(unit, GivenUnit))
+
     def __str__(self) -> str:
-        rows = list(self._rows())
-        width = max(len(name) for name, _ in rows)
-        return "\n".join([self._title, *(f"{name:<{width}}  {text}" for name, text in rows)])
+        return str(self.summary())
 
     def __repr__(self) -> str:
         estimates = ", ".join(f"{name}={_with_error(self[name])}" for name in self.names)
@@ -297,7 +324,7 @@ class Fit(Shown):
         for name in self.names:
             bound = f", at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
             yield prefix + name, _with_error(self[name]) + bound
-        yield f"{prefix}errors", "+/- is one standard error, given the stated errors of the observations and priors"
+        yield f"{prefix}errors", _GIVEN_ERRORS
         for name, one in self.residuals.items():
             numbers = f"observed {show(one.observed, one.unit)}, computed {show(one.computed, one.unit)}"
             yield prefix + name, f"{numbers}, residual over sigma {one.over_sigma:+.2f}"

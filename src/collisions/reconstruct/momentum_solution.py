@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -84,6 +84,9 @@ class MomentumSolution(Shown):
         return MissingInputError(
             f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
         )
+
+    def _texts(self) -> Iterable[Any]:
+        return (self.given or {}).values()
 
     @derived()
     def ok(self) -> Any:

@@ -18,6 +18,7 @@ from ..contact_effects import left_out
 from ..derivation.evidence import fit
 from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
 from ..diagnostics import diagnose
+from ..document import Document
 from ..errors import InputError, ShapeError
 from ..formatting import UnitSystem, bad_system
 from ..impact import Impact, with_vehicles
@@ -27,12 +28,12 @@ from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
-from ..uncertainty.result import Sampled
+from ..uncertainty.result import Sampled, varies
 from ..units import Input, shown
 from . import sections
 from .record import EVIDENCE, plain_options, record
 from .render import Html, Markdown, plain, visible
-from .uncertainty import Spread, varies
+from .uncertainty import Spread
 
 Form: TypeAlias = Literal["html", "markdown"]
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -71,7 +72,7 @@ def report(
     notes: str | Sequence[str] | None = None,
     figures: bool = True,
     derivation: bool = False,
-) -> str:
+) -> Document:
     """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
 
     An energy gain stands first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, by the
@@ -110,8 +111,8 @@ def report(
 
     Returns
     -------
-    str
-        The page.
+    Document
+        The page: a ``str`` that a notebook shows as it is, and that ``.save("report.html")`` writes to a file.
 
     Raises
     ------
@@ -183,7 +184,7 @@ def report(
     sheet.heading("Record")
     unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
     sheet.record(record(impact, __version__, unusual, uncertainty))
-    return sheet.whole(__version__)
+    return Document(sheet.whole(__version__), form)
 
 
 _USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}

@@ -11,7 +11,8 @@ from itertools import groupby
 
 from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
-from ..formatting import SI_UNITS
+from ..formatting import SI_UNITS, number_with_unit, typeset
+from ..units import with_symbol
 
 RECORD = "collisions-record"
 _STYLE = """\
@@ -60,11 +61,17 @@ def visible(text: str) -> str:
     return "".join("\ufffd" if sign in hidden else sign for sign in text)
 
 
+class Printed(System):
+    """Formats numbers with units as on a printed page."""
+
+    typeset = True
+
+
 class Sheet(Page):
     """A derivation page with the additions of a report, such as lists, pictures and the record."""
 
     def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
-        super().__init__(System(units), False, deviations, ranges)
+        super().__init__(Printed(units), False, deviations, ranges)
         self.blocks: list[str] = []
 
     def name(self, text: str) -> str:
@@ -73,16 +80,16 @@ class Sheet(Page):
     def as_given(self, value: float | None, kind: str, text: str | None) -> str:
         """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
         if value is None:
-            return f"given as {plain(text or '')}"
+            return f"given as {typeset(with_symbol(plain(text or '')))}"
         number = self.number(value, kind)
         if text is not None:
             return given_as(number, text)
         if not math.isfinite(value) or abs(float(f"{value:.{_DIGITS}g}") - value) > 1e-15 * abs(value):
             return number
-        printed = float(number.split()[0])
+        printed = float(number.removesuffix(self.system.unit(kind)))
         if abs(printed - value * self.system.scale(kind)) <= _AS_PRINTED * abs(printed):
             return number
-        return f"{number}, exactly {value:.{_DIGITS}g} {SI_UNITS[kind]}".rstrip()
+        return f"{number}, exactly {number_with_unit(f'{value:.{_DIGITS}g}', SI_UNITS[kind])}"
 
     def listed(self, lines: Sequence[str]) -> None:
         self.items([("", line) for line in lines])
@@ -106,7 +113,8 @@ class Sheet(Page):
 
 def given_as(value: str, text: str) -> str:
     """A number as it is printed, and as it was given."""
-    return value if plain(text) == value else f"{value}, given as {plain(text)}"
+    given = typeset(with_symbol(plain(text)))
+    return value if given == value else f"{value}, given as {given}"
 
 
 class Html(Sheet):

@@ -18,7 +18,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings
 from ..directions import course
 from ..errors import Status
-from ..formatting import KIND_OF, SI_UNITS, percent
+from ..formatting import KIND_OF, SI_UNITS, percent, typeset
 from ..impact import Impact
 from ..kernels.contact_laws import LAWS
 from ..models import BY_NAME
@@ -216,7 +216,9 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
     for answer, row in solution.sensitivity.items():
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
-            moved = f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {system.label(kind)}"
+            moved = (
+                f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {typeset(system.label(kind))}"
+            )
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
 

@@ -7,15 +7,12 @@ from typing import Any
 
 from ..derivation.explain import kinds_of_answers
 from ..errors import InputError
-from ..formatting import KIND_OF, SI_UNITS, percent, with_decimals
+from ..formatting import SI_UNITS, percent, with_decimals
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Output, Propagation
-from ..units import shown
+from ..uncertainty.result import NO_SPREAD, NOTHING, ends_of, figures, varies
 from .render import Sheet, plain
-
-# A smaller spread, relative to the mean or in SI for results that should be 0, is rounding.
-_NO_SPREAD, _NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
 
 
 class Spread:
@@ -34,13 +31,13 @@ class Spread:
     @property
     def deviations(self) -> dict[str, float]:
         """Standard deviations by result; an output that depends on an interval has none, only a range."""
-        found = {name: _ends_of(output.std) for name, output in self.outputs.items() if varies(output, self.kinds[name])}
+        found = {name: ends_of(output.std) for name, output in self.outputs.items() if varies(output, self.kinds[name])}
         return {name: std[0] for name, std in found.items() if len(std) == 1 and math.isfinite(std[0])}
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
         """The ranges of the outputs that depend on an interval."""
-        return {name: output.interval() for name, output in self.outputs.items() if len(_ends_of(output.std)) > 1}
+        return {name: output.interval() for name, output in self.outputs.items() if len(ends_of(output.std)) > 1}
 
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
@@ -49,7 +46,7 @@ class Spread:
             self._check(sheet, name, output)
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
-            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output, uncertainty.method)]
+            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output)]
         sheet.table(rows)
         if any(what.startswith("share of the variance") for _, what, _ in rows):
             sheet.say(
@@ -57,7 +54,7 @@ class Spread:
                 "Where the shares by themselves fall short of 100 percent by more than their errors, the rest comes of inputs "
                 "together."
             )
-        stated = [("Inputs as stated", plain(name), plain(shown(value, 1000))) for name, value in uncertainty.inputs.items()]
+        stated = [("Inputs as stated", plain(name), plain(str(value))) for name, value in uncertainty.inputs.items()]
         sheet.table(stated)
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
@@ -74,7 +71,7 @@ class Spread:
             value = getattr(value, part)
         kind, (low, high) = self.kinds[name], output.interval()
         turns = (-1, 0, 1) if kind == "angle" else (0,)
-        off = max(_NO_SPREAD * max(abs(low), abs(high)), _NOTHING.get(kind, _NO_SPREAD))
+        off = max(NO_SPREAD * max(abs(low), abs(high)), NOTHING.get(kind, NO_SPREAD))
         if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
             text = "none" if value is None else sheet.system.answer(float(value), kind)
             sheet.stress(
@@ -82,46 +79,10 @@ class Spread:
                 f"case?"
             )
 
-    def _figures(self, sheet: Sheet, output: Output, method: str) -> list[tuple[str, str]]:
+    def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
         own = next((self.kinds[name] for name, answer in self.outputs.items() if answer is output), None)
-        kind = own or KIND_OF.get(output.unit or "none")
-        if kind is None:
-            return [("figures", plain(output.row()[1])), *_shares(output)]
-        mean, std, (low, high) = _ends_of(output.mean), _ends_of(output.std), output.interval()
-
-        def number(value: float) -> str:
-            return sheet.system.answer(value, kind)
-
-        if method == "interval":
-            return [("range, wherever in the intervals the truth is", f"{number(low)} to {number(high)}")]
-        if len(mean) > 1:
-            return [
-                ("mean, wherever in the intervals the truth is", f"{number(mean[0])} to {number(mean[1])}"),
-                ("range that holds 95 percent", f"{number(low)} to {number(high)}"),
-                *_shares(output),
-            ]
-        if math.isnan(std[0]):
-            return [("in the one case that has an answer, so no spread is known", number(mean[0]))]
-        if not varies(output, kind):
-            return [("the same in every case", number(mean[0]))]
-        first, second = (sheet.system.answer(end, kind, std[0]).partition(" ± ")[0] for end in (low, high))
-        unit = sheet.system.unit(kind)
-        return [
-            ("mean ± standard deviation", sheet.system.answer(mean[0], kind, std[0])),
-            ("95 percent interval", f"{first.removesuffix(unit)} to {second.removesuffix(unit)}{unit}"),
-            *_shares(output),
-        ]
-
-
-def _ends_of(figure: Any) -> tuple[float, ...]:
-    """One figure, or the ends of its range."""
-    return tuple(map(float, figure)) if isinstance(figure, tuple) else (float(figure),)
-
-
-def varies(output: Output, kind: str = "") -> bool:
-    """Whether an output varies between cases by more than rounding."""
-    size = max(map(abs, _ends_of(output.mean)))
-    return max(_ends_of(output.std)) > max(_NO_SPREAD * size, _NOTHING.get(kind, _NO_SPREAD))
+        found = [(what, plain(text)) for what, text in figures(output, sheet.system, own)]
+        return found if output.bounds_only else [*found, *_shares(output)]
 
 
 def _shares(output: Output) -> list[tuple[str, str]]:

@@ -5,15 +5,31 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import FrozenInstanceError
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from ..errors import InputError, ShapeError, UnitsError
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..reading import ArgumentReader, is_whole
-from ..units import has_unit, is_quantity, shown, si_unit
+from ..units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
 from .normal import both_tails
+
+
+class GivenUnit(str):
+    """An SI unit that also has the unit its numbers were ``written`` in, and the ``factor`` from that to SI."""
+
+    written: str
+    factor: float
+
+    @classmethod
+    def of(cls, given: Any, argument: str) -> GivenUnit:
+        """The unit of a text or a Quantity."""
+        made = cls(si_unit(given, argument))
+        quantity = parse(given, made, argument) if isinstance(given, str) else given
+        made.factor = factor(quantity, made, argument, given)[0]
+        made.written = unit_as_written(given)
+        return made
 
 
 class Stated:
@@ -25,6 +41,7 @@ class Stated:
     __slots__ = ("_parts", "unit")
 
     unit: str
+    _words: ClassVar[str]
     _parts: dict[str, Any]
     _derive: Callable[..., None]
 
@@ -56,6 +73,9 @@ class Stated:
     def __repr__(self) -> str:
         shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts.items() if part is not None)
         return f"{type(self).__name__}({', '.join(shown)})"
+
+    def __str__(self) -> str:
+        return self._words.format(**{name: show(part, self.unit) for name, part in self._parts.items()})
 
 
 class Distribution(Stated):
@@ -189,11 +209,13 @@ def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
 
 
 def show(value: Any, unit: str) -> str:
-    """A number of an input for people: four digits, or all before the point, and the unit."""
+    """A number of an input for people, in the unit it was given in: four digits, or all before the point."""
     if isinstance(value, tuple):
         return f"({', '.join(show(part, unit) for part in value)})"
     if not isinstance(value, float):
         return str(value)
+    if isinstance(unit, GivenUnit):
+        value, unit = value / unit.factor, unit.written
     text = f"{value:.0f}" if 1e4 <= abs(value) < 1e15 else f"{value:.4g}"
     return f"{text} {unit}" if unit else text
 
@@ -205,7 +227,7 @@ def read_alike(
     optional = optional or {}
     given = {**needed, **{name: value for name, value in optional.items() if value is not None}}
     measured = [name for name, value in given.items() if has_unit(value)]
-    unit = si_unit(given[measured[0]], measured[0]) if measured else ""
+    unit = GivenUnit.of(given[measured[0]], measured[0]) if measured else ""
     # 0 is the same in every unit.
     zeros = [name for name, value in given.items() if (isinstance(value, float) or is_whole(value)) and value == 0]
     bare = [name for name in given if name not in measured and name not in zeros]

@@ -42,10 +42,12 @@ class Uniform(Distribution):
     A reading to the nearest 5 degrees.
 
     >>> Uniform("42.5 deg", "47.5 deg")
-    Uniform(low=0.7418 rad, high=0.829 rad)
+    Uniform(low=42.5 deg, high=47.5 deg)
     """
 
     __slots__ = ()
+
+    _words = "{low} to {high}, all values equally likely"
 
     def __init__(self, low: Input, high: Input) -> None:
         (start, end), unit = read_alike({"low": low, "high": high})
@@ -83,6 +85,8 @@ class Triangular(Distribution):
     """
 
     __slots__ = ("mode",)
+
+    _words = "{low} to {high}, most likely {mode}"
 
     mode: float
 
@@ -222,6 +226,10 @@ class Samples(Distribution):
         joint = ", joint" if self.group is not None else ""
         return f"Samples({self.rows.size} values, mean={show(self.mean, self.unit)}, sd={show(self.sd, self.unit)}{joint})"
 
+    def __str__(self) -> str:
+        low, high = (show(end, self.unit) for end in self.support)
+        return f"one of {self.rows.size} measured values from {low} to {high}"
+
     def _at(self, below: Any, above: Any) -> Any:
         places = np.minimum(np.floor(np.asarray(below) * self.rows.size).astype(np.intp), self.rows.size - 1)
         found = self._sorted[places]
@@ -279,6 +287,8 @@ class Interval(Stated):
     """
 
     __slots__ = ("high", "low")
+
+    _words = "{low} to {high}, no value likelier than another"
 
     low: float
     high: float

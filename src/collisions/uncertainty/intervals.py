@@ -210,6 +210,11 @@ class Bounds(Output):
         # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
         self.cases = cases if cut is None else [_within_turn(case, cut) for case in cases]
 
+    @property
+    def bounds_only(self) -> bool:
+        """Whether intervals are all that is uncertain about it."""
+        return bool(self.mean == self.interval())
+
     @derived(OWN)
     def mean_standard_error(self) -> Any:
         """The largest standard error among the means."""
@@ -236,7 +241,7 @@ class Bounds(Output):
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
         least, most = self.mean
-        if (least, most) == (low, high):
+        if self.bounds_only:
             return self.name, f"between {low:.6g} and {high:.6g}{unit}"
         return self.name, f"mean between {least:.6g} and {most:.6g}{unit}, 95 percent within {low:.6g} to {high:.6g}{unit}"
 

@@ -52,6 +52,13 @@ class NormalFamily(Distribution):
         (given_mean, given_sd, *bounds), unit = read_alike({"mean": mean, "sd": sd}, _named_bounds(truncate))
         self._make(unit, mean=given_mean, sd=given_sd, truncate=_pair(bounds))
 
+    def __str__(self) -> str:
+        mean, sd = (show(value, self.unit) for value in (self.given_mean, self.given_sd))
+        _, apart, unit = mean.partition(" ")
+        text = f"{mean.removesuffix(apart + unit)} ± {sd}"
+        ends = zip(("at least", "at most"), self.truncate or (), strict=False)
+        return ", ".join([text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)])
+
     @classmethod
     def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
         """The distribution of this kind that has a share of its probability between two values, and as much below as above.
@@ -209,7 +216,7 @@ class Normal(NormalFamily):
     Examples
     --------
     >>> Normal("60 km/h", "3 km/h")
-    Normal(mean=16.67 m/s, sd=0.8333 m/s)
+    Normal(mean=60 km/h, sd=3 km/h)
     >>> low_speed_restitution = Normal(0.1, 0.1, truncate=(0, 1))
     >>> round(low_speed_restitution.mean, 4), round(low_speed_restitution.sd, 4)
     (0.1288, 0.0794)
@@ -256,12 +263,15 @@ class LogNormal(NormalFamily):
     --------
     >>> stiffness = LogNormal("700 kN/m", "200 kN/m")
     >>> stiffness
-    LogNormal(mean=700000 N/m, sd=200000 N/m)
+    LogNormal(mean=700 kN/m, sd=200 kN/m)
     >>> round(stiffness.quantile(0.5))
     673067
     """
 
     __slots__ = ("_median", "_scale")
+
+    def __str__(self) -> str:
+        return f"{super().__str__()}, log-normal"
 
     _median: float
     _scale: float

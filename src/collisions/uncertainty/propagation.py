@@ -18,6 +18,7 @@ from ..units import shown
 from ..warning import warn
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
+from .distribution import Stated
 from .distributions import Distribution, Interval, pair_hints, read_input
 from .intervals import COMMON_CASES, Bounds, extremes
 from .model import Function, Model, check_names
@@ -53,7 +54,7 @@ def propagate(
     model: Function,
     inputs: Mapping[str, Any],
     *,
-    method: Method,
+    method: Method | None = None,
     samples: int | None = None,
     tolerance: Any = None,
     seed: int | None = None,
@@ -81,8 +82,9 @@ def propagate(
     inputs : dict
         By name ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval``, or a fixed value. Numbers
         reach the model in SI, without their unit.
-    method : str
-        "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo" or "interval".
+    method : str, optional
+        "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo" or "interval". By default
+        "quasi_random", or "interval" if intervals are all that is uncertain.
     samples : int, optional
         Cases to draw, at least 64; 8192 if neither this nor ``tolerance`` is given. Powers of two serve "quasi_random" best.
     tolerance : float, str, Quantity or dict of these by output, optional
@@ -133,8 +135,11 @@ def propagate(
     >>> [f"{name} {share:.0%}" for name, share in found.contributions.items()]
     ['speed 52%', 'restitution 48%']
     """
-    check_options(method, samples, tolerance, seed, threads, progress)
+    check_options("quasi_random" if method is None else method, samples, tolerance, seed, threads, progress)
     stated = _read_inputs(inputs)
+    if method is None:
+        kinds = {type(value) for value in stated.values() if isinstance(value, Stated)}
+        method = "interval" if kinds == {Interval} and samples is tolerance is None else "quasi_random"
     drawn = {name: value for name, value in stated.items() if isinstance(value, Distribution)}
     intervals = {name: (value.low, value.high) for name, value in stated.items() if isinstance(value, Interval)}
     whole = Model(model, {name: value for name, value in stated.items() if name not in drawn and name not in intervals})

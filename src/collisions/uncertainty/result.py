@@ -12,8 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import OWN, Derived, Quantities, derived, returns, same, show, table
+from ..formatting import KIND_OF, Numbers
+from ..quantities import OWN, Derived, InUnit, Quantities, derived, returns, same, show
 from ..reading import is_whole
+from ..summary import Cells, Part, Summarized, Summary, all_numbers
 from ..units import shown
 from . import angles
 from .designs import REPLICATES
@@ -22,6 +24,10 @@ from .normal import power_of_two
 
 COVERAGE = 0.95
 _MOST_BINS = 10000
+
+
+# A smaller spread, relative to the mean or in SI for results that should be 0, is rounding.
+NO_SPREAD, NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8}
 
 
 class Shares(NamedTuple):
@@ -72,6 +78,27 @@ class Output:
     @property
     def q(self) -> Any:
         """The same attributes as pint Quantities; only where the model returned Quantities."""
+        self._check_unit()
+        return Quantities(self)
+
+    def to(self, unit: str) -> InUnit:
+        """The same attributes as plain numbers in this unit; only where the model returned Quantities.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> from collisions.uncertainty import Normal, propagate
+        >>> def struck(speed):
+        ...     impact = col.linear_central(col.Vehicle(mass="3400 lb", vx=speed), col.Vehicle(mass="2900 lb"), 0.1)
+        ...     return {"delta_v": impact.b.q.delta_v}
+        >>> delta_v = propagate(struck, {"speed": Normal("30 mph", "2 mph")}, seed=1)["delta_v"]
+        >>> [round(end, 1) for end in delta_v.to("mph").interval(0.95)]
+        [15.5, 20.1]
+        """
+        self._check_unit()
+        return InUnit(self, unit)
+
+    def _check_unit(self) -> None:
         if self.unit is None:
             raise InputError(
                 f"{self.name!r} has no unit, because the model returned plain numbers; return a Quantity such as "
@@ -79,12 +106,16 @@ class Output:
                 code="no_unit",
                 argument=self.name,
             )
-        return Quantities(self)
 
     def __setattr__(self, name: str, value: Any) -> None:
         if isinstance(getattr(type(self), name, None), Derived):
             raise AttributeError(f"{name} is worked out and cannot be set")
         object.__setattr__(self, name, value)
+
+    @property
+    def bounds_only(self) -> bool:
+        """Whether it is known between bounds and nothing else."""
+        return False
 
     @derived(OWN)
     def mean(self) -> Any:
@@ -336,7 +367,7 @@ class Sampled(Output):
 
 
 @dataclass(eq=False, repr=False)
-class Propagation:
+class Propagation(Summarized):
     """The outputs of a model given the stated inputs; ``result["delta_v"]`` is one of them.
 
     Attributes
@@ -407,12 +438,56 @@ class Propagation:
         cases = f"{self.samples} cases, {self.failed} without an answer"
         return f"<Propagation by {self.method}, {cases}; given the stated inputs\n{lines}>"
 
-    def _repr_html_(self) -> str:
+    def _summary(self, numbers: Cells) -> Summary:
         title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
-        return table(title, self._rows())
+        rows = [(output.name, figures(output, numbers)) for output in self.outputs.values()]
+        heads = list(dict.fromkeys(what for _, row in rows for what, _ in row))
+        found = Part([(name, *(dict(row).get(head, "") for head in heads)) for name, row in rows], "", tuple(heads))
+        stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
+        return Summary(title, [found, stated, all_numbers(self._rows())])
+
+    def _texts(self) -> Iterator[str]:
+        return (f"1 {value.unit.written}" for value in self.inputs.values() if hasattr(getattr(value, "unit", ""), "written"))
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         return (output.row() for output in self.outputs.values())
+
+
+def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[tuple[str, str]]:
+    """What is known of an output, in words and numbers, for a table; ``kind`` is that of numbers without a unit."""
+    kind = kind or KIND_OF.get(output.unit or "none")
+    if kind is None:
+        return [("figures", output.row()[1])]
+    mean, std, (low, high) = ends_of(output.mean), ends_of(output.std), output.interval()
+    ends = f"{numbers.answer(low, kind)} to {numbers.answer(high, kind)}"
+    if output.bounds_only:
+        return [("range, wherever in the intervals the truth is", ends)]
+    if len(mean) > 1:
+        return [
+            ("mean, wherever in the intervals the truth is", " to ".join(numbers.answer(end, kind) for end in mean)),
+            ("range that holds 95 percent", ends),
+        ]
+    if math.isnan(std[0]):
+        return [("in the one case that has an answer, so no spread is known", numbers.answer(mean[0], kind))]
+    if not varies(output, kind):
+        return [("the same in every case", numbers.answer(mean[0], kind))]
+    first, second = (numbers.answer(end, kind, std[0]).partition(" ± ")[0] for end in (low, high))
+    unit = numbers.unit(kind)
+    return [
+        ("mean ± standard deviation", numbers.answer(mean[0], kind, std[0])),
+        ("95 percent interval", f"{first.removesuffix(unit)} to {second.removesuffix(unit)}{unit}"),
+    ]
+
+
+def varies(output: Output, kind: str = "") -> bool:
+    """Whether an output varies between cases by more than rounding."""
+    size = max(map(abs, ends_of(output.mean)))
+    return max(ends_of(output.std)) > max(NO_SPREAD * size, NOTHING.get(kind, NO_SPREAD))
+
+
+def ends_of(figure: Any) -> tuple[float, ...]:
+    """One figure, or the ends of its range."""
+    return tuple(map(float, figure)) if isinstance(figure, tuple) else (float(figure),)
 
 
 def average(values: Any) -> float:

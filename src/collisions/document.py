@@ -1,0 +1,58 @@
+"""``Document``: a page that is a ``str``, shows itself in a notebook, and can be saved."""
+
+from __future__ import annotations
+
+from html import escape
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+
+class Document(str):
+    """The text of a page: a ``str`` that a notebook shows as the page it is, and that ``save`` writes to a file.
+
+    Attributes
+    ----------
+    form : str
+        "html", "markdown" or "text".
+    """
+
+    form: str
+
+    def __new__(cls, text: str, form: str = "text") -> Document:
+        made = super().__new__(cls, text)
+        made.form = form
+        return made
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the page to a file, in UTF-8, and give the path of the file.
+
+        Parameters
+        ----------
+        path : str or path
+            An existing file is replaced.
+
+        Returns
+        -------
+        pathlib.Path
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        target = Path(path)
+        target.write_text(self, encoding="utf-8", newline="\n")
+        return target
+
+    def _repr_html_(self) -> str | None:
+        # In a frame: the page has a style of its own, which is not that of the notebook.
+        if self.form != "html":
+            return None
+        return f'<iframe srcdoc="{escape(self)}" style="width:100%;height:48em;border:1px solid #d0d0d0"></iframe>'
+
+    def _repr_markdown_(self) -> str | None:
+        return str(self) if self.form == "markdown" else None
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(str(self))

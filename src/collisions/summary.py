@@ -1,0 +1,223 @@
+"""``Summary``: a result as a table that prints as plain text and shows itself in a notebook."""
+
+from __future__ import annotations
+
+import math
+import re
+import textwrap
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .formatting import KIND_OF, Numbers, bad_system, in_words, number_with_unit
+from .units import system_given
+
+_LARGEST = 1e9  # beyond it numbers are written with a power of ten, in SI
+_WIDEST = 66  # characters of a cell on one line of the plain table
+_NOT_KNOWN = "\u2013"
+# Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
+_SIDED = re.compile(r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)")
+_WORDS = {"delta v": "delta-V", "pdof": "PDOF", "ees": "EES"}
+
+
+class Part(NamedTuple):
+    """Rows, each of a label and its cells, under a heading and the names of the columns; a folded one is for notebooks only."""
+
+    rows: Sequence[tuple[str, ...]]
+    heading: str = ""
+    columns: tuple[str, ...] = ()
+    folded: bool = False
+
+
+class Cells(Numbers):
+    """Writes numbers for a table: rounded, with the unit; angles are in degrees in every system of units."""
+
+    typeset = True
+
+    def text(self, value: Any, unit: str | None) -> str:
+        """A number in this SI unit; the range of an array; other values as they are."""
+        if value is None:
+            return _NOT_KNOWN
+        if isinstance(value, tuple):
+            return ", ".join(self.text(part, unit) for part in value)
+        if isinstance(value, np.ndarray):
+            return self._range(value, unit)
+        if not isinstance(value, float) or unit is None:
+            return str(value)
+        kind = KIND_OF.get(unit)
+        if not math.isfinite(value):
+            return in_words(value)
+        if kind is None or not abs(value * self.scale(kind)) < _LARGEST:
+            return number_with_unit(f"{value:.4g}", unit)
+        if kind in ("angle", "yaw rate") and self.name == "si":
+            return Cells("metric").text(value, unit)
+        return self.answer(value, kind)
+
+    def _range(self, values: Any, unit: str | None) -> str:
+        """An array by its least and greatest value, and how many cases have none."""
+        if values.dtype.kind != "f" or unit is None:
+            return ", ".join(map(str, np.unique(values).tolist()))
+        known = values[~np.isnan(values)]
+        if not known.size:
+            return in_words(math.nan)
+        low, high = (self.text(float(end), unit) for end in (known.min(), known.max()))
+        unit = re.sub(r"^.*\d", "", high)
+        return low if low == high else f"{low.removesuffix(unit)} to {high}"
+
+
+def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
+    """How a table writes its numbers: in the system named or, for None, in that of the texts the inputs were given as."""
+    if units is None:
+        return Cells(system_given(text for text in texts if isinstance(text, str)))
+    problem = bad_system(units)
+    if problem is not None:
+        raise problem
+    return Cells(units)
+
+
+class Summary:
+    """A result as a table. ``print`` writes it as plain text, a notebook shows it as HTML, with all numbers folded below.
+
+    Attributes
+    ----------
+    title : str
+    parts : tuple of Part
+        Rows of texts, by part.
+    notes : tuple of str
+        Sentences below the table, such as the sign conventions.
+    """
+
+    def __init__(self, title: str, parts: Iterable[Part], notes: Iterable[str] = ()) -> None:
+        self.title, self.parts, self.notes = title, tuple(part for part in parts if part.rows), tuple(notes)
+
+    def __str__(self) -> str:
+        lines = [self.title]
+        shown = [part for part in self.parts if not part.folded]
+        wide = {id(part) for part in shown if any(len(cell) > 30 for row in part.rows for cell in row[1:])}
+        indent = {id(part): "  " if part.heading or part.columns else "" for part in shown}
+        aligned = [((indent[id(part)] + row[0], *row[1:]), part) for part in shown for row in part.rows if id(part) not in wide]
+        widths = _widths([row for row, _ in aligned] + [("", *part.columns) for part in shown if id(part) not in wide])
+        columns: tuple[str, ...] = ()
+        for part in shown:
+            rows = [(indent[id(part)] + row[0], *row[1:]) for row in part.rows]
+            own = _widths([*rows, ("", *part.columns)]) if id(part) in wide else widths
+            named = part.columns if part.columns != columns else ()
+            columns = part.columns or columns
+            if named or part.heading:
+                lines += _line((part.heading, *named), own, id(part) not in wide)
+            for row in rows:
+                lines += _line(row, own, id(part) not in wide)
+        for note in self.notes:
+            lines += textwrap.wrap(note, 88)
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        shown = [part for part in self.parts if not part.folded]
+        span = max((len(row) for part in shown for row in part.rows), default=2)
+        tables = [_html(self.title, shown, span)] if shown else []
+        for part in self.parts:
+            if part.folded:
+                inside = _html("", [part._replace(heading="")], 2)
+                tables.append(f"<details><summary>{escape(part.heading)}</summary>{inside}</details>")
+        notes = "".join(f"<p style='font-size:smaller;margin:.3em 0'>{escape(note)}</p>" for note in self.notes)
+        return "".join([*tables[:1], notes, *tables[1:]])
+
+
+class Summarized:
+    """Base of results with a summary: ``_parts`` gives its rows, ``_texts`` the texts that its inputs were given as."""
+
+    __slots__ = ()
+
+    def summary(self, units: str | None = None) -> Summary:
+        """The result as a table, which ``print`` writes as text and a notebook shows.
+
+        Parameters
+        ----------
+        units : {"si", "metric", "us"}, optional
+            By default those that the inputs were given in, where they agree; else SI. Angles are in degrees.
+
+        Returns
+        -------
+        Summary
+        """
+        return self._summary(cells(units, self._texts()))
+
+    def _summary(self, numbers: Cells) -> Summary:
+        raise NotImplementedError
+
+    def _texts(self) -> Iterable[Any]:
+        return ()
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+
+def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:
+    """The folded part with every attribute of a result."""
+    return Part(list(rows), "All numbers, in SI", folded=True)
+
+
+def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells, columns: tuple[str, str] = ("A", "B")) -> list[Part]:
+    """The rows of named values: those of the two vehicles side by side, the others below."""
+    pairs: dict[str, dict[str, str]] = {}
+    single: list[tuple[str, str]] = []
+    for name, value, unit in values:
+        found = _SIDED.fullmatch(name)
+        text = numbers.text(value, unit)
+        if found is None:
+            single.append((label_of(name), text))
+        else:
+            label = found["inner"] or found["stem"] + (found["after"] or "")
+            pairs.setdefault(label_of(label), {})[found["lead"] or found["side"]] = text
+    both = [(label, *(of.get(side, _NOT_KNOWN) for side in "ab")) for label, of in pairs.items()]
+    return [Part(both, columns=columns), Part(single)]
+
+
+def label_of(name: str) -> str:
+    """The name of an attribute in words."""
+    words = name.replace("_", " ")
+    for plain, written in _WORDS.items():
+        words = re.sub(rf"\b{plain}\b", written, words)
+    return words
+
+
+def _widths(rows: Sequence[tuple[str, ...]]) -> list[int]:
+    most = max((len(row) for row in rows), default=0)
+    return [max(min(max((len(row[i]) for row in rows if len(row) > i), default=0), _WIDEST), 1) for i in range(most)]
+
+
+def _line(row: tuple[str, ...], widths: Sequence[int], right: bool) -> list[str]:
+    """One row of a plain table, in as many lines as its longest cell needs."""
+    wrapped = [textwrap.wrap(cell, _WIDEST) or [""] if i else [cell] for i, cell in enumerate(row)]
+    lines = []
+    for at in range(max(map(len, wrapped))):
+        parts = [cell[at] if at < len(cell) else "" for cell in wrapped]
+        first, *rest = (
+            part.rjust(width) if i and right else part.ljust(width)
+            for i, (part, width) in enumerate(zip(parts, widths, strict=False))
+        )
+        lines.append("  ".join([first, *rest]).rstrip())
+    return lines
+
+
+def _html(title: str, parts: Sequence[Part], span: int) -> str:
+    """One HTML table of several parts, as wide as the widest."""
+    lines = [f"<table>{f'<caption>{escape(title)}</caption>' if title else ''}<tbody>"]
+    columns: tuple[str, ...] = ()
+    for part in parts:
+        if part.heading or part.columns != columns:
+            heads = part.columns if part.columns != columns else ()
+            columns = part.columns
+            cells = "".join(f"<th style='text-align:right'>{escape(head)}</th>" for head in heads)
+            rest = "" if heads else f" colspan='{span}'"
+            if part.heading or heads:
+                lines.append(f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>")
+        for label, *texts in part.rows:
+            side = "right" if len(texts) > 1 or part.columns else "left"
+            tds = "".join(f"<td style='text-align:{'left' if len(text) > 30 else side}'>{escape(text)}</td>" for text in texts)
+            lines.append(f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>")
+    return "".join([*lines, "</tbody></table>"])

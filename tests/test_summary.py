@@ -1,0 +1,198 @@
+"""Summaries: what people see of a result, in their units, against numbers converted here by pint or by hand."""
+
+from __future__ import annotations
+
+import re
+from html import unescape
+
+import numpy as np
+import pint
+import pytest
+
+import collisions as col
+from collisions import reconstruct, travel
+from collisions.diagnostics import diagnose
+from collisions.reporting import replay
+from collisions.uncertainty import Interval, Normal, Uniform, propagate
+
+MPH, FT, LB = 0.44704, 0.3048, 0.45359237  # exact by definition
+
+
+def camry(**changes):
+    given = {"mass": "3400 lb", "vx": "45 mph", "yaw_inertia": "2100 lbf*ft*s**2", "x": "-7 ft", "y": "0.5 ft", "heading": 0.0}
+    return col.Vehicle(**{**given, "name": "Camry", **changes})
+
+
+def civic(**changes):
+    given = {"mass": "2900 lb", "vy": "30 mph", "yaw_inertia": "1700 lbf*ft*s**2", "x": "2.5 ft", "y": "-3 ft"}
+    return col.Vehicle(**{**given, "heading": "90 deg", "name": "Civic", **changes})
+
+
+def crash(a=None, b=None, **options):
+    return col.eccentric(a or camry(), b or civic(), 0.1, **{"normal": 0.0, "point": ("0 ft", 0.0), "friction": 0.5, **options})
+
+
+def lines(summary):
+    """The cells of the plain table by their part and label."""
+    found, part = {}, ""
+    for line in str(summary).splitlines():
+        label, *cells = re.split(r" {2,}", line.strip())
+        if line.startswith(" "):
+            found[part, label] = cells
+        elif cells or len(label.split()) == 1:
+            part = label
+            found["", label] = cells
+    return found
+
+
+def test_an_impact_is_two_columns_in_the_units_of_its_inputs():
+    """Speeds to 0.1 mph, angles to 1 degree, the clock hour beside the PDOF."""
+    impact = crash()
+    found = lines(impact.summary())
+    assert found["", "Before"] == ["A (Camry)", "B (Civic)"]
+    assert found["Before", "speed"] == ["45.0 mph", "30.0 mph"]
+    assert found["Before", "course"] == ["0°", "90°"]
+    for part, name in (("total", "delta_v"), ("forward", "delta_v_forward"), ("left", "delta_v_left")):
+        wanted = [f"{getattr(side, name) / MPH:.1f} mph" for side in (impact.a, impact.b)]
+        assert found["Delta-V", part] == wanted
+    for side, cell in zip((impact.a, impact.b), found["Delta-V", "PDOF"], strict=True):
+        angle = np.degrees(side.pdof)
+        assert cell == f"{angle:.0f}° ({(round(angle / 30) - 1) % 12 + 1} o'clock)"
+    assert found["Contact", "closing speed"] == ["45.0 mph"]
+    assert found["Contact", "regime"] == ["sticking"]
+    loss = pint.Quantity(impact.energy_loss, "J").m_as("ft*lbf")
+    assert found["Contact", "energy lost"] == [f"{round(loss, -3):.0f} ft·lbf"]
+
+
+@pytest.mark.parametrize(
+    ("given", "unit"),
+    [
+        ({"mass": "3400 lb", "vx": "40 mph"}, "mph"),
+        ({"mass": "1500 kg", "vx": "60 km/h"}, "km/h"),
+        ({"mass": "1500 kg", "vx": 20.0}, "m/s"),
+        ({"mass": 1500.0, "vx": 20.0}, "m/s"),
+        ({"mass": "1500 kg", "vx": "40 mph"}, "mph"),  # by the speeds, where they differ
+        ({"mass": pint.Quantity(3400.0, "pound"), "vx": pint.Quantity(40.0, "mile/hour")}, "mph"),
+    ],
+)
+def test_units_are_those_of_the_inputs(given, unit):
+    impact = col.linear_central(col.Vehicle(**given), col.Vehicle(mass=1000.0), 0.2)
+    assert lines(impact.summary())["Contact", "closing speed"][0].endswith(f" {unit}")
+    assert lines(impact.summary("metric"))["Contact", "closing speed"][0].endswith(" km/h")
+
+
+@pytest.mark.parametrize("units", ["imperial", "US", 1, True, ["us"]])
+def test_units_that_are_none_are_refused(units):
+    with pytest.raises(col.InputError, match=r"units must be 'si', 'metric' or 'us'"):
+        crash().summary(units)
+
+
+def test_what_has_no_number_says_why():
+    """No heading, a vehicle at rest, a refused case, a batch."""
+    still = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.2)
+    found = lines(still.summary())
+    assert found["Delta-V", "PDOF"] == ["no heading", "no heading"]
+    assert found["Before", "course"] == ["0°", "at rest"]
+    assert ("Contact", "regime") not in found  # a linear impact has no tangent
+    apart = col.linear_central(col.Vehicle(mass=1500.0, vx=-1.0), col.Vehicle(mass=1000.0), 0.2, on_failure="nan")
+    assert "Refused: " in str(apart.summary())
+    assert lines(apart.summary())["Contact", "energy lost"] == ["not defined"]
+    speeds = np.array([10.0, 20.0, -1.0])
+    many = col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1000.0), 0.2, on_failure="nan")
+    assert lines(many.summary())["Contact", "closing speed"] == ["10.00 to 20.00 m/s"]
+    assert "1 of 3 cases are refused" in str(many.summary())
+
+
+def test_a_notebook_shows_the_same_cells_and_folds_the_rest():
+    impact = crash(a=camry(name="<b>&"))
+    html = impact._repr_html_()
+    assert "<b>" not in html
+    assert "&lt;b&gt;&amp;" in html
+    shown, _, folded = html.partition("<details>")
+    plain = unescape(re.sub(r"<[^>]+>", " ", shown))
+    for cells in lines(impact.summary()).values():
+        assert all(cell in plain for cell in cells)
+    assert "momentum_residual" in folded
+    assert "momentum_residual" not in shown
+
+
+def test_every_result_has_a_summary_in_its_units():
+    """One mechanism: whatever has names of A and B is put side by side."""
+    solution = reconstruct.momentum(
+        "3400 lb", "2900 lb", course_a=0.0, course_b="90 deg", course_a_after="30 deg", course_b_after="40 deg",
+        speed_a_after="20 mph", speed_b_after="25 mph",
+    )  # fmt: skip
+    text = str(solution.summary())
+    assert re.search(r"speed +33\.7 mph +27\.8 mph", text)
+    assert re.search(r"speed after +20\.0 mph +25\.0 mph", text)
+    assert re.search(r"mass +3400 lb\n", str(camry().summary()))
+    assert re.search(r"yaw inertia +67600 lb·ft²\n", str(camry().summary()))  # 2100 lbf ft s2 times 32.174 lb ft/(lbf s2)
+    assert re.search(r"Delta-V", str(crash().a.summary("us")))
+    assert re.search(r"tyre delta-V bound +1\.5 mph +1\.5 mph", str(col.left_out(crash()).summary("us")))  # 0.7 g for 0.1 s
+    run = travel.path([(0.0, 0.0), (10.0, 0.0)], [0.0, 0.0], friction=0.7, lock=1.0)
+    assert re.search(r"speed +42\.2 km/h", str(run.summary("metric")))  # sqrt(2 * 0.7 * 9.80665 * 10) = 11.72 m/s
+    choice = col.required_model(camry(), civic(), 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    assert "eccentric" in str(choice.summary())
+
+
+def test_a_fit_and_findings_are_tables():
+    fit = reconstruct.fit(
+        lambda speed: {
+            "delta_v": col.linear_central(col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0), 0.0).b.delta_v
+        },
+        {"speed": Interval("1 m/s", "40 m/s")},
+        {"delta_v": ("20 mph", "1 mph")},
+    )
+    assert re.search(r"speed +40\.0 mph +2\.0 mph +36\.1 mph to 43\.9 mph", str(fit.summary("us")))  # twice 20 +- 1, 1.96 sigma
+    assert fit._repr_html_().count("<table>") == 2
+    found = diagnose(col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.8), units="us")
+    assert found[0].code == "restitution"
+    assert re.search(r"restitution +restitution 0\.8 at a closing speed of 44\.7 mph.* 0\.80 +0\.30\n", repr(found))
+    assert "<table>" in found._repr_html_()
+    assert isinstance(found, tuple)
+    assert repr(diagnose(crash())).startswith("No findings")
+
+
+def struck(speed, restitution=0.1):
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0), restitution, on_failure="nan")
+    return {"delta_v": impact.b.q.delta_v}
+
+
+def test_a_propagation_needs_no_method_and_speaks_the_units_of_its_inputs():
+    """Linear in the speed: 0.55 times 40 and 2 mph, and 1.96 standard deviations to each side."""
+    found = propagate(struck, {"speed": Normal("40 mph", "2 mph")}, seed=1)
+    assert found.method == "quasi_random"
+    text = str(found.summary())
+    assert re.search(r"delta_v +22\.0 ± 1\.1 mph +19\.8 to 24\.2 mph", text)
+    assert re.search(r"speed +40 ± 2 mph", text)
+    low, high = found["delta_v"].to("mph").interval(0.95)
+    assert (low, high) == pytest.approx((22.0 - 1.96 * 1.1, 22.0 + 1.96 * 1.1), abs=0.02)  # of 8192 points
+    assert found["delta_v"].to("mph").mean == pytest.approx(22.0, abs=1e-3)
+    assert found["delta_v"].to("km/h").quantile(np.array([0.5]))[0] == pytest.approx(22.0 * 1.609344, abs=0.01)
+    with pytest.raises(col.UnitsError, match="cannot be taken as m/s"):
+        found["delta_v"].to("lb")
+    between = propagate(struck, {"speed": Interval("40 mph", "42 mph")})
+    assert between.method == "interval"
+    assert re.search(r"delta_v +22\.0 mph to 23\.1 mph", str(between.summary()))
+    plain = propagate(lambda speed: {"v": 2.0 * speed}, {"speed": Uniform("1 m/s", "2 m/s")}, seed=1)["v"]
+    with pytest.raises(col.InputError, match="return a Quantity"):
+        plain.to("mph")
+
+
+@pytest.mark.parametrize("form", ["html", "markdown", "text"])
+def test_a_page_is_a_text_that_shows_and_saves_itself(form, tmp_path):
+    impact = crash()
+    page = col.explain(impact, form=form) if form == "text" else col.report(impact, form=form, figures=False)
+    assert isinstance(page, str)
+    path = page.save(tmp_path / "page")
+    assert path.read_text(encoding="utf-8") == page
+    assert b"\r" not in path.read_bytes()
+    if form != "text":
+        assert replay(path.read_text(encoding="utf-8")) == impact
+    html = page._repr_html_()
+    if form == "html":
+        frame = re.fullmatch(r'<iframe srcdoc="([^"]*)"[^>]*></iframe>', html)
+        assert unescape(frame[1]) == page
+    else:
+        assert html is None
+    assert page._repr_markdown_() == (page if form == "markdown" else None)
