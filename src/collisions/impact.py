@@ -20,7 +20,7 @@ from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
-from .side import SIGNS, Side, beside
+from .side import SIGNS, Side, beside, title_of
 from .solving import solve_inputs
 from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Input, Value
@@ -458,7 +458,7 @@ class Impact(Frozen, Summarized):
         if np.any(self.refused):
             many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases are refused; their status says why."
             notes = (f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many, *notes)
-        title = f"Impact of {a.label} and {b.label}"
+        title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
         return Summary(title, [*beside((a, b), numbers), Part(contact, "Contact"), everything], notes)
 

@@ -255,16 +255,10 @@ class Side(Frozen, Summarized):
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"
 
     def _summary(self, numbers: Cells) -> Summary:
-        return Summary(self.label, [*beside((self,), numbers), all_numbers(self._rows())], SIGNS)
+        return Summary(title_of(self), [*beside((self,), numbers), all_numbers(self._rows())], SIGNS)
 
     def _texts(self) -> Iterable[Any]:
         return self._inputs.texts
-
-    @property
-    def label(self) -> str:
-        """The letter of the vehicle, and its name if that says more."""
-        letter, name = "AB"[self._index], " ".join(self.before.name.split())
-        return letter if name in ("", letter) else f"{letter} ({name})"
 
     def _rows(self) -> Any:
         for name in attributes(type(self)):
@@ -281,6 +275,12 @@ _STATE = {"speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
 _CHANGE = {"delta_v": "total", "delta_v_forward": "forward", "delta_v_left": "left", "pdof": "PDOF"}
 
 
+def title_of(side: Side) -> str:
+    """The letter of a vehicle, and its name if that says more."""
+    letter, name = "AB"[side._index], " ".join(side.before.name.split())
+    return letter if name in ("", letter) else f"{letter} ({name})"
+
+
 def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
     """The rows of a summary on one or both vehicles, each in a column of its own."""
     turning = any(not without_turning(state.yaw_rate) for side in sides for state in (side.before, side.after))
@@ -289,7 +289,7 @@ def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:
     def rows(text: Callable[[Side, str], str], labels: dict[str, str]) -> list[tuple[str, ...]]:
         return [(label, *(text(side, name) for side in sides)) for name, label in labels.items()]
 
-    columns = tuple(side.label for side in sides)
+    columns = tuple(map(title_of, sides))
     return [
         Part(rows(lambda side, name: _of_state(side.before, name, numbers), state), "Before", columns),
         Part(rows(lambda side, name: _of_state(side.after, name, numbers), state), "After", columns),

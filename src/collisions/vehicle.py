@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import FrozenInstanceError, dataclass, field, fields
 from difflib import get_close_matches
+from inspect import signature
 from typing import Any, Never
 
 import numpy as np
@@ -370,7 +371,9 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
 for _name in ("__setattr__", "__delattr__"):
     setattr(Vehicle, _name, _refuse_setting)
 
-# Python would say that mass is missing, and not that it was given as weight.
+# Without a default Python would say that mass is missing, and not that it was given as weight. The signature stays as it is.
+_signature = signature(Vehicle)
+type.__setattr__(Vehicle, "__signature__", _signature.replace(parameters=list(_signature.parameters.values())[:-1]))
 (Vehicle.__init__.__kwdefaults__ or {})["mass"] = None
 NAMES = tuple(f.name for f in fields(Vehicle))
 UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
