@@ -711,7 +711,7 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
 
 @fuzzes(
     "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare", "reconstruct.Comparison", "uncertainty.Censored",
-    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict",
+    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary", "reconstruct.Comparison.summary",
     *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".quantile_standard_error", ".may_wrap", ".turned")),
     "plot.corner", "plot.residuals",
     share=0.25,
@@ -723,6 +723,7 @@ def test_posterior(case: Case) -> None:
         found = known_posterior()
     case.look(found, POSTERIOR_OPEN, thorough=False)
     assert json.dumps(case.must("reconstruct.Posterior.to_dict", found.to_dict), allow_nan=False)
+    assert str(case.must("reconstruct.Posterior.summary", found.summary, case.choice(UNIT_SYSTEMS)))
     for name in found:
         output = found[name]
         case.look(output, POSTERIOR_OPEN, thorough=False)
@@ -744,6 +745,7 @@ def test_posterior(case: Case) -> None:
     compared = case.call("reconstruct.compare", reconstruct.compare, accounts, **case.spoil({"prior": prior}))
     if isinstance(compared, reconstruct.Comparison):
         case.look(compared)
+        assert str(case.must("reconstruct.Comparison.summary", compared.summary))
         assert json.dumps(case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False)
         assert math.isclose(sum(compared.probability.values()), 1.0, rel_tol=1e-9)
     if case.maybe(0.2):

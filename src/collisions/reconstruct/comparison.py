@@ -9,9 +9,9 @@ from itertools import permutations
 from typing import Any
 
 from ..errors import CollisionsWarning, InputError
-from ..quantities import table
 from ..reading import ArgumentReader
 from ..records import strict
+from ..summary import Cells, Part, Summarized, Summary
 from ..units import shown
 from ..warning import warn
 from .posterior_result import Posterior
@@ -21,7 +21,7 @@ _MOST = math.log(1e6)  # beyond it a factor is a matter of the tails of errors t
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Comparison:
+class Comparison(Summarized):
     """The result of ``compare``: how probable each account is given the evidence, and by which factors it speaks for them.
 
     Attributes
@@ -57,8 +57,14 @@ class Comparison:
     def __repr__(self) -> str:
         return "\n".join(["<Comparison, given the evidence and the priors", *(f"  {a}: {b}" for a, b in self._rows())]) + ">"
 
-    def _repr_html_(self) -> str:
-        return table("Accounts compared, given the evidence and the priors", self._rows())
+    def _summary(self, numbers: Cells) -> Summary:
+        rows = [
+            (name, f"{value:.3g} ± {self.probability_error[name]:.1g}", f"{self.prior[name]:.3g}")
+            for name, value in self.probability.items()
+        ]
+        stated = [(name, ", ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
+        parts = [Part(rows, "Account", ("probability", "before the evidence")), Part(stated, "Priors")]
+        return Summary("Accounts compared, given the evidence and the priors", parts, (self.sentence,))
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         yield "result", self.sentence

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError
-from ..quantities import table
 from ..records import strict
+from ..summary import Cells, Part, Summarized, Summary, all_numbers
 from ..uncertainty.censored import Censored
 from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
-from ..uncertainty.result import Sampled, Shares
+from ..uncertainty.result import Sampled, Shares, outputs_part, units_of
 from ..units import shown, to_quantity
 from .fit_result import CONTRADICTION, Note, Residual, agreement
 
@@ -64,7 +64,7 @@ class PosteriorOutput(Sampled):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Posterior:
+class Posterior(Summarized):
     """The result of ``posterior``: ``posterior["speed_a"]`` has mean, std, interval, quantile and histogram of an unknown.
 
     Attributes
@@ -215,8 +215,22 @@ class Posterior:
         lines = "\n".join(f"  {name}: {text}" for name, text in self._rows())
         return f"<Posterior of {self.samples} samples, given the evidence and the priors\n{lines}>"
 
-    def _repr_html_(self) -> str:
-        return table(f"Given the evidence and the priors ({self.samples} samples)", self._rows())
+    def _summary(self, numbers: Cells) -> Summary:
+        predicted = outputs_part(self.predicted, numbers, "Predicted")
+        observed = [(name, str(one)) for name, one in self.observed.items()]
+        stated = [(name, str(one)) for name, one in self.priors.items()]
+        parts = [
+            outputs_part(self.unknowns, numbers, "Unknown"),
+            predicted,
+            Part(observed, "Observed"),
+            Part(stated, "Priors"),
+            all_numbers(self._rows()),
+        ]
+        notes = (f"{text[0].upper()}{text[1:]}." for text in self.statements)
+        return Summary(f"Given the evidence and the priors ({self.samples} samples)", parts, notes)
+
+    def _texts(self) -> Iterator[str]:
+        return units_of(self.observed | self.priors)
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         yield from (one.row() for one in self.unknowns.values())

@@ -33,7 +33,7 @@ class Censored(Stated):
     The recorder lost power at 28 km/h of delta-V, read to 1 km/h.
 
     >>> Censored(low="28 km/h", error="1 km/h")
-    Censored(low=7.778 m/s, error=0.2778 m/s)
+    Censored(low=28 km/h, error=1 km/h)
     """
 
     __slots__ = ("error", "high", "low")
@@ -62,3 +62,7 @@ class Censored(Stated):
                 argument="error",
             )
         self._set(low=low, high=high, error=error)
+
+    def __str__(self) -> str:
+        bounds = (("at least", self.low), ("at most", self.high), ("±", self.error))
+        return ", ".join(f"{word} {show(value, self.unit)}" for word, value in bounds if value is not None)

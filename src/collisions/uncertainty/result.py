@@ -440,14 +440,11 @@ class Propagation(Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
-        rows = [(output.name, figures(output, numbers)) for output in self.outputs.values()]
-        heads = list(dict.fromkeys(what for _, row in rows for what, _ in row))
-        found = Part([(name, *(dict(row).get(head, "") for head in heads)) for name, row in rows], "", tuple(heads))
         stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
-        return Summary(title, [found, stated, all_numbers(self._rows())])
+        return Summary(title, [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())])
 
     def _texts(self) -> Iterator[str]:
-        return (f"1 {value.unit.written}" for value in self.inputs.values() if hasattr(getattr(value, "unit", ""), "written"))
+        return units_of(self.inputs)
 
     def _rows(self) -> Iterator[tuple[str, str]]:
         return (output.row() for output in self.outputs.values())
@@ -483,6 +480,18 @@ def varies(output: Output, kind: str = "") -> bool:
     """Whether an output varies between cases by more than rounding."""
     size = max(map(abs, ends_of(output.mean)))
     return max(ends_of(output.std)) > max(NO_SPREAD * size, NOTHING.get(kind, NO_SPREAD))
+
+
+def outputs_part(outputs: Mapping[str, Output], numbers: Cells, heading: str = "") -> Part:
+    """The figures of outputs as rows of a summary."""
+    rows = [(name, dict(figures(output, numbers))) for name, output in outputs.items()]
+    heads = tuple(dict.fromkeys(head for _, row in rows for head in row))
+    return Part([(name, *(row.get(head, "") for head in heads)) for name, row in rows], heading, heads)
+
+
+def units_of(stated: Mapping[str, Any]) -> Iterator[str]:
+    """The units that inputs were given in, each as a text."""
+    return (f"1 {value.unit.written}" for value in stated.values() if hasattr(getattr(value, "unit", ""), "written"))
 
 
 def ends_of(figure: Any) -> tuple[float, ...]:
