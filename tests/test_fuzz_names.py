@@ -479,6 +479,20 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     assert not isinstance(found, float) or found >= 0.0
 
 
+@fuzzes("reconstruct.recorded_pulse", "reconstruct.RecordedPulse", "reconstruct.RecordedPulse.inputs")
+def test_recorded_pulses(case: Case) -> None:
+    """A record of anything: with samples that rise it is answered, with its error, and handed on where it ended."""
+    times: Any = np.arange(case.randint(1, 30)) * case.option(0.01, 0.01, case.value("duration"))
+    shape = np.sin(np.clip(np.arange(times.size) / 11.0, 0.0, 1.0) * 1.5) if isinstance(times, np.ndarray) else 1.0
+    given = [times, case.option(-8.0 * shape, case.value("vx"))]
+    given += [case.option(2.0 * shape, case.value("vx"))] if case.maybe(0.6) else []
+    polarity = case.option("49 CFR 563", "ISO 8855")
+    pulse = case.call("reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity)
+    if not isinstance(pulse, Exception):
+        case.look(pulse, None)
+        case.call("reconstruct.RecordedPulse.inputs", pulse.inputs, case.option("a", "b"))
+
+
 @fuzzes("reconstruct.planar", "reconstruct.restitution", "reconstruct.friction")
 def test_reverse_solvers_of_motions(case: Case) -> None:
     """From the states that an impact ended with, or from any; what is answered leads to them again."""

@@ -724,8 +724,8 @@ NOT_TO_RAISE = ("linear_central", "oblique_central", "eccentric", "solve", "cent
 # Of the public functions those that take one case, or none.
 ONE_CASE = {
     col: {"diagnose", "explain", "impact_schema", "report"},
-    reconstruct: {"fit"},
-    reference: {"drag_factor"},
+    reconstruct: {"fit", "recorded_pulse"},
+    reference: {"drag_factor", "restitution_by_overlap"},
     travel: set(),
 }
 

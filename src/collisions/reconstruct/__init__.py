@@ -13,6 +13,7 @@ from .momentum_solution import MomentumSolution
 from .observed import friction, restitution
 from .planar import planar
 from .posterior_result import Posterior
+from .recorded import RecordedPulse, recorded_pulse
 from .speeds import speeds
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "MomentumSolution",
     "Posterior",
     "Reconstruction",
+    "RecordedPulse",
     "central",
     "compare",
     "crush_energy",
@@ -30,6 +32,7 @@ __all__ = [
     "momentum",
     "planar",
     "posterior",
+    "recorded_pulse",
     "restitution",
     "speeds",
 ]
