@@ -9,8 +9,8 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import reference
-from collisions.reconstruct import recorded_pulse, speeds
+from collisions import reference, uncertainty
+from collisions.reconstruct import posterior, recorded_pulse, speeds
 
 KMH = 1 / 3.6
 TIME = np.arange(0.0, 0.2501, 0.01)
@@ -65,6 +65,8 @@ def test_whether_it_ended(stop, ended):
     assert (change <= 0.8) == ended
     if ended:
         pulse = recorded_pulse(time, -40 * KMH * haversine(time), polarity="49 CFR 563")
+        assert (pulse.evidence[0].mean, pulse.evidence[1]) == (pulse.delta_v_forward, None)
+        assert pulse.evidence[0].sd == pytest.approx(4 * KMH / math.sqrt(3), rel=1e-14)
         assert pulse.inputs("b")["delta_v_forward_b"].support == pytest.approx((-44 * KMH, -36 * KMH), rel=1e-12)
         return
     with pytest.warns(col.OutOfRangeWarning, match="while delta-V still changes.*is a lower bound") as caught:
@@ -76,6 +78,24 @@ def test_whether_it_ended(stop, ended):
     with pytest.raises(col.InputError, match="at least that much") as refused:
         pulse.inputs("a")
     assert refused.value.code == "pulse_cut"
+    (reading, none) = pulse.evidence
+    assert (reading.low, reading.high, none) == (None, pulse.delta_v_forward, None)
+    assert reading.error == pytest.approx(pulse.error_forward / math.sqrt(3), rel=1e-14)
+
+
+def test_a_cut_pulse_is_evidence_of_at_least_so_much():
+    """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound, to its error."""
+    time = TIME[TIME <= 0.0601]
+    with pytest.warns(col.OutOfRangeWarning):
+        pulse = recorded_pulse(time, -40 * KMH * haversine(time), 9 * KMH * haversine(time), polarity="ISO 8855")
+    forward, left = pulse.evidence
+    unknowns = {"forward": uncertainty.Uniform(-20.0, 0.0), "left": uncertainty.Uniform(-5.0, 5.0)}
+    found = posterior(
+        lambda forward, left: {"f": forward, "l": left}, unknowns, {"f": forward, "l": left}, samples=1024, seed=1
+    )
+    assert found["forward"].interval(0.99)[1] < pulse.delta_v_forward + 3 * pulse.error_forward
+    assert found["forward"].mean == pytest.approx((pulse.delta_v_forward - 20.0) / 2, abs=0.5)
+    assert found["left"].interval(0.99)[0] > pulse.delta_v_left - 3 * pulse.error_left
 
 
 def test_it_goes_into_speeds():

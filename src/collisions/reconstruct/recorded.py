@@ -14,7 +14,7 @@ from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..quantities import Shown, derived, lock
 from ..reading import ArgumentReader
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
-from ..uncertainty import Uniform
+from ..uncertainty import Censored, Normal, Uniform
 from ..units import Input, shown
 from ..warning import warn
 
@@ -67,19 +67,25 @@ class RecordedPulse(Shown):
         """Stated error of ``delta_v_left`` [m/s], to either side; None without it."""
         return None if self.delta_v_left is None else _error(self.delta_v_left)
 
+    @derived()
+    def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
+        """Forward and left component as observations of ``posterior``: with their error, of a cut pulse at least so far."""
+        return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
+
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
         """The components with their errors by the names of arguments of ``reconstruct.speeds``, as inputs of ``propagate``.
 
         Raises
         ------
         InputError
-            The pulse ended early (code ``pulse_cut``): about a lower bound there is no range.
+            The pulse ended early (code ``pulse_cut``): about a lower bound there is no range. See ``evidence``.
         """
         if label not in ("a", "b"):
             raise InputError(f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label")
         if not self.ended:
+            cut = _cut(self.time, self.delta_v)
             raise InputError(
-                f"{_cut(self.time, self.delta_v)}, about which there is no range; as evidence it is at least that much",
+                f"{cut}, about which there is no range; .evidence says to posterior that it was at least that much",
                 code="pulse_cut",
             )
         parts = {"forward": self.delta_v_forward, "left": self.delta_v_left}
@@ -183,6 +189,16 @@ def recorded_pulse(
 
 def _error(value: float) -> float:
     return max(RECORDER_ACCURACY.high * abs(value), 0.5 * RECORDER_RESOLUTION.high)
+
+
+def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
+    """The reading with the standard deviation of its range; where the record stops early it went on in its direction."""
+    if value is None:
+        return None
+    error = _error(value) / math.sqrt(3.0)
+    if ended:
+        return Normal(value, error)
+    return Censored(low=value, error=error) if value > 0.0 else Censored(high=value, error=error)
 
 
 def _cut(times: Any, size: float) -> str:
