@@ -830,6 +830,23 @@ def test_travel(case: Case) -> None:
         case.look(found, frozenset({"travel.RunOut.course_difference", *(["travel.RunOut.straight_course"] * closed)}))
 
 
+@fuzzes("travel.simulate", "travel.SimulatedPath", share=0.2)
+def test_simulated_travel(case: Case) -> None:
+    """One vehicle or many from separation to rest: at rest, or refused."""
+    body = vehicle(case)
+    ground: dict[str, Any] = {"friction": case.value("drag"), "lock": case.option(case.value("lock"), [case.value("lock")] * 4)}
+    if case.maybe(0.3):
+        ground |= {"steer": case.value("heading"), "wheelbase": case.value("distance"), "track": case.value("distance")}
+    if case.maybe(0.2):
+        corners = [case.pair("x") for _ in range(case.randint(2, 4))]
+        ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
+    ground |= {"moments": case.option(2, 9), "limit": case.option("5 s", "20 s")}
+    found = case.call("travel.simulate", travel.simulate, body, **case.spoil(ground))
+    if isinstance(found, travel.SimulatedPath):
+        assert np.all(np.diff(found.time, axis=0)[~np.isnan(np.diff(found.time, axis=0))] >= 0.0)
+        case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course"}))
+
+
 # --- uncertainty -----------------------------------------------------------------------------------------------------------
 
 KINDS = ("Normal", "LogNormal", "Uniform", "Triangular", "Interval", "Samples")

@@ -15,7 +15,8 @@ speeds are 0.14 % higher than these; those of sheets that take 32.2 ft/s2 are 0.
 """
 
 from .run_out import RunOut, path
+from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time
 from .surfaces import GRAVITY
 
-__all__ = ["GRAVITY", "RunOut", "distance", "path", "speed", "time"]
+__all__ = ["GRAVITY", "RunOut", "SimulatedPath", "distance", "path", "simulate", "speed", "time"]

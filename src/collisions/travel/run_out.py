@@ -214,7 +214,7 @@ def path(
     places = _read_points(reader, points)
     headed = _read_headings(reader, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
-    frictions = for_each(reader, friction, "friction", legs, _read_friction)
+    frictions = for_each(reader, friction, "friction", legs, read_friction)
     locks = for_each(reader, lock, "lock", legs, _read_lock)
     grades = for_each(reader, grade, "grade", legs, read_grade)
     end = read_speed(reader, end_speed, "end_speed")
@@ -444,7 +444,8 @@ def _leg(i: int) -> str:
     return f"points[{i}] to points[{i + 1}]"
 
 
-def _read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
+def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
+    """The friction of locked tyres, >= 0 and finite."""
     wrong = len(reader.problems)
     read = one_value(reader, value, "", name, UNCHECKED)
     if len(reader.problems) > wrong:
