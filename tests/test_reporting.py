@@ -269,7 +269,7 @@ def test_parts_stand_in_order(impacts):
         "Impact of A (Golf) and B (Polo)", "Inputs", "Assumptions", "Results", "Uncertainty, given the stated inputs", "Findings",
         "Notes", "Figures", "Derivation", "References", "Record",
     ]  # fmt: skip
-    assert f"Worked out by collisions {col.__version__}." in text
+    assert f"Calculated with collisions {col.__version__}." in text
     assert "Application of Impulse Momentum Theory to Vehicle Collisions" in section(text, "References")
 
 
@@ -341,7 +341,7 @@ def test_every_finding_is_told(impacts):
     assert "reference.restitution_range" in section(pins, "Findings")
     assert "Cipriani and others, SAE 2002-01-0540" in section(pins, "References")
     none = report(pinned(), form="markdown", limits={"restitution": 0.9, "normal": 1.0})
-    assert "No finding is no proof." in section(none, "Findings")
+    assert "which proves nothing by itself." in section(none, "Findings")
 
 
 def test_limits_of_every_unit_can_be_shown(impacts):
@@ -357,10 +357,10 @@ def test_assumptions_say_what_is_left_out(impacts):
     impact = impacts["eccentric"]
     text = report(impact, form="markdown", duration="50 ms", drag=0.5)
     printed = section(text, "Assumptions")
-    assert "lasts 0.05 s and the tyres have a drag of 0.5" in printed
+    assert "for a contact of 0.05 s and tyres with a drag factor of 0.5" in printed
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
     share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
-    assert ("A (Golf)", "delta-V by its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
+    assert ("A (Golf)", "delta-V from its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
     assert "**Law:** brach" in printed
     assert f"**Tangential impulse:** {impact.regime}" in printed
     assert "**Law:** kudlich" in report(impacts["other law"], form="markdown")
@@ -405,7 +405,7 @@ def test_no_text_prints_a_bare_nan():
             *(f.sentence for f in diagnose(impact)),
         ]
         assert not [one for text in texts for one in text.split("\n") if BARE.search(one)]
-        printed = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "places and normal" in row[1]}
+        printed = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "positions and normal" in row[1]}
         for label, side in (("A", left.a), ("B", left.b)):
             lost = math.isnan(side.geometry_delta_v)
             undefined += lost
@@ -556,7 +556,7 @@ def test_the_derivation_is_that_of_explain(impacts):
         ({"derivation": 1}, "bad_option", "derivation must be True or False"),
         ({"title": 7}, "not_a_text", "title must be a text that says something, got 7"),
         ({"title": "  "}, "not_a_text", "title must be"),
-        ({"notes": 7}, "not_a_text", "notes must be a text, or a list of texts, got int"),
+        ({"notes": 7}, "not_a_text", "notes must be a text, a list of texts, or a dict of them by input, got int"),
         ({"notes": ["a", None]}, "not_a_text", "notes must be a text that says something, got None"),
         ({"uncertainty": {"energy_loss": 3.0}}, "bad_option", "explain(impact, uncertainty=...)"),
         ({"share_a": 1.5}, "bad_fraction", "share_a"),
@@ -819,7 +819,8 @@ def test_damage_that_contradicts_stands_on_the_page():
     assert ("damage of A", "PDOF that the damage shows", "0.6981 rad, given as 40°") in given
     assert ("damage of B", "PDOF that the damage shows", "-1 rad") in given
     assert any(
-        row[:2] == ("damage of A", "delta-V that the damage or the recorder shows") and "50.0 k" in row[2] for row in given
+        row[:2] == ("damage of A", "delta-V that the damage or the recorder shows") and "given as 50 km/h" in row[2]
+        for row in given
     )
     found = {finding.code for finding in diagnose(crash(), **evidence)}
     assert {"momentum_energy", "pdof_off_damage", "delta_v_off_damage"} <= found
@@ -1056,7 +1057,7 @@ def test_no_row_is_said_to_be_as_it_was_given(contact):
     """What is kept of it is a number, of a normal its direction."""
     page = report(crash(**contact), form="markdown")
     assert "Any other was given so" not in page
-    assert "Of any other only the number is kept, of a normal only its direction" in page
+    assert "Of all others only the number was kept, and of a normal only its direction" in page
 
 
 def test_shares_of_inputs_that_act_together():
@@ -1073,7 +1074,7 @@ def test_shares_of_inputs_that_act_together():
         assert int(alone) < 20
         assert int(in_all) > 80
     assert int(shown["sum of the shares by themselves"].removesuffix(" percent")) < 40
-    assert "by more than their errors, the rest comes of inputs together" in part
+    assert "by more than their errors, the rest comes from interactions" in part
     # Sums have none: by themselves and in all are the same, and the shares make up the whole.
     linear = uncertainty.propagate(lambda one, other: {"sum": one + other}, inputs, method="first_order")
     shown = rows(section(report(crash(), form="markdown", uncertainty=linear), "Uncertainty, given the stated inputs"))
@@ -1084,10 +1085,10 @@ def test_shares_of_inputs_that_act_together():
 def test_a_pivot_is_no_force_that_is_left_out(impacts):
     """And its tyres are an estimate, since where they act on its levers is not known."""
     printed = section(report(impacts["pinned"], form="markdown"), "Assumptions")
-    assert "tyres and all other forces but the pivot's are left out" in printed
-    assert "(estimates, except the bound)" in printed
-    assert ("A", "delta-V by its own tyres, bound") in {row[:2] for row in rows(printed)}
-    assert ("B", "delta-V by its own tyres, about") in {row[:2] for row in rows(printed)}
+    assert "the forces of the tyres and all others but the pivot's are left out" in printed
+    assert "(estimates, except what is marked as a bound)" in printed
+    assert ("A", "delta-V from its own tyres, bound") in {row[:2] for row in rows(printed)}
+    assert ("B", "delta-V from its own tyres, about") in {row[:2] for row in rows(printed)}
     free = section(report(impacts["eccentric"], form="markdown"), "Assumptions")
     assert "tyres and all other forces are left out" in free
 

@@ -12,7 +12,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct, travel
 from collisions.diagnostics import diagnose
-from collisions.reporting import replay
+from collisions.reporting import options, replay
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 MPH, FT, LB = 0.44704, 0.3048, 0.45359237  # exact by definition
@@ -196,3 +196,30 @@ def test_a_page_is_a_text_that_shows_and_saves_itself(form, tmp_path):
     else:
         assert html is None
     assert page._repr_markdown_() == (page if form == "markdown" else None)
+
+
+def test_a_note_stands_beside_its_input_and_comes_back_with_the_record():
+    impact = crash()
+    notes = {"restitution": "Tests of the same model, <1998>.", "a.mass": "Weighed.", "point": "From the photographs."}
+    page = col.report(impact, form="markdown", units="us", notes=notes)
+    assert "| A (Camry) | mass | 3400 lb. Weighed. |" in page
+    assert "| contact | restitution e | 0.1. Tests of the same model, \\<1998\\>. |" in page
+    assert "contact point (x, y) | x: 0 ft; y: 0 ft. From the photographs. |" in page
+    assert col.report(replay(page), **options(page)) == page
+    html = col.report(impact, notes=notes, figures=False)
+    assert "<1998>" not in html
+    with pytest.raises(col.InputError, match=r"'mass', which is no input of this page; they are a\.mass, a\.vx"):
+        col.report(impact, notes={"mass": "Weighed."})
+    with pytest.raises(col.InputError, match="notes must be a text that says something"):
+        col.report(impact, notes={"a.mass": ""})
+
+
+def test_published_values_stand_beside_restitution_and_friction():
+    """Above 15 mph no published restitution is higher than 0.3; friction by McHenry, 0.3 to 1."""
+    page = col.report(crash(), form="markdown", units="us")
+    assert "| contact | restitution published for such a closing speed | 0 to 0.3 |" in page
+    assert "| contact | friction published between vehicle bodies | 0.3 to 1, typically 0.55 |" in page
+    assert "For comparison with the friction: inter-vehicle friction; McHenry" in page
+    assert "friction published" not in col.report(crash(friction=0.0), form="markdown")
+    assert "| A (Camry) | delta-V forward | -20.0 mph |" in page
+    assert "| A (Camry) | delta-V to the left (recorders count to the right) | 8.5 mph |" in page

@@ -15,8 +15,8 @@ import numpy as np
 
 from .. import plot
 from ..contact_effects import left_out
-from ..derivation.evidence import fit
-from ..derivation.explain import NOT_EXPLAINED, explain, no_uncertainty
+from ..derivation.evidence import fit, momentum_inputs
+from ..derivation.explain import NOT_EXPLAINED, explain, impact_inputs, no_uncertainty
 from ..diagnostics import diagnose
 from ..document import Document
 from ..errors import InputError, ShapeError
@@ -69,7 +69,7 @@ def report(
     damage_delta_v_a: Input | None = None,
     damage_delta_v_b: Input | None = None,
     share_a: Input | None = None,
-    notes: str | Sequence[str] | None = None,
+    notes: str | Sequence[str] | Mapping[str, str] | None = None,
     figures: bool = True,
     derivation: bool = False,
 ) -> Document:
@@ -102,8 +102,9 @@ def report(
         What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity, optional
         A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
-    notes : str or sequence of str, optional
-        Your own words, each in a paragraph of its own.
+    notes : str, sequence of str or dict, optional
+        Your own words, each in a paragraph of its own; or by input, beside which they stand, such as where its value is from:
+        ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``.
     figures : bool
         Whether to draw. They need matplotlib; where it is missing the report says so and goes on.
     derivation : bool
@@ -141,6 +142,7 @@ def report(
     need_one_case(impact, (Impact, MomentumSolution, Fit), "report", instead=NOT_EXPLAINED)
     options = plain_options(given)
     paragraphs, outlines = _checked(impact, options, uncertainty)
+    by_input = options["notes"] if isinstance(options["notes"], Mapping) else {}
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
     spread = Spread(impact, uncertainty)
@@ -149,13 +151,13 @@ def report(
     findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
-        sections.inputs(sheet, impact, evidence)
+        sections.inputs(sheet, impact, evidence, by_input)
         found = left_out(impact, duration=options["duration"], drag=options["drag"])
         sections.assumptions(sheet, impact, found, outlines, options["limits"])
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
         sections.gain(sheet, impact, impact.translational_energy_loss)
-        sections.momentum(sheet, impact, evidence)
+        sections.momentum(sheet, impact, evidence, by_input)
     else:
         fit(sheet, impact)
     if uncertainty is not None:
@@ -178,9 +180,9 @@ def report(
         known = uncertainty if spread.ranges else spread.deviations
         text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=known or None)
         sheet.working(text)
-    if findings is not None:
-        sections.sources(sheet, findings)
-    sheet.say(f"Worked out by collisions {__version__}.")
+    if findings is not None and not isinstance(impact, Fit):
+        sections.sources(sheet, impact, findings)
+    sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
     unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
     sheet.record(record(impact, __version__, unusual, uncertainty))
@@ -209,12 +211,19 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     if problem is not None:
         reader.refuse(problem)
     paragraphs = [notes] if isinstance(notes, str) else list(notes) if isinstance(notes, (list, tuple)) else []
+    beside = notes if isinstance(notes, Mapping) else {}
+    for name in [name for name in beside if name not in _inputs_of(impact)]:
+        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(_inputs_of(impact))}")
     texts = [] if title is None else [("title", title)]
-    for name, text in [*texts, *(("notes", paragraph) for paragraph in paragraphs)]:
+    for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
             refuse(name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text")
-    if notes is not None and not isinstance(notes, (str, list, tuple)):
-        refuse("notes", f"notes must be a text, or a list of texts, got {type(notes).__name__}", "not_a_text")
+    if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
+        refuse(
+            "notes",
+            f"notes must be a text, a list of texts, or a dict of them by input, got {type(notes).__name__}",
+            "not_a_text",
+        )
     for name in ("figures", "derivation"):
         if not isinstance(options[name], bool):
             refuse(name, f"{name} must be True or False, got {shown(options[name])}")
@@ -242,6 +251,13 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
         reader.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
     reader.close()
     return [plain(paragraph) for paragraph in paragraphs], outlines
+
+
+def _inputs_of(impact: Impact | MomentumSolution | Fit) -> list[str]:
+    """The inputs that a note can stand beside, by name."""
+    if isinstance(impact, Impact):
+        return [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+    return [] if isinstance(impact, Fit) else [name.partition("[")[0] for _, _, name, _, _ in momentum_inputs(impact)]
 
 
 def _title(impact: Impact | MomentumSolution | Fit) -> str:

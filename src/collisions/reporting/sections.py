@@ -20,7 +20,7 @@ from ..directions import course
 from ..errors import Status
 from ..formatting import KIND_OF, SI_UNITS, percent, typeset
 from ..impact import Impact
-from ..kernels.contact_laws import LAWS
+from ..kernels.contact_laws import FRICTION, LAWS
 from ..models import BY_NAME
 from ..plot.canvas import who
 from ..reading import ArgumentReader
@@ -87,7 +87,7 @@ def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
         )
 
 
-def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
+def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
     """Write the inputs with the texts they were given as, and the choice of the model or how the state was found."""
     backwards = impact.reconstruction is not None
     sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
@@ -97,15 +97,18 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         vehicle = vehicles.get(of)
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
-        rows.append((name, quantity, _input(sheet, impact, vehicle, names, numbers, kind, texts)))
+        note = notes.get(key_of(of, names))
+        value = _input(sheet, impact, vehicle, names, numbers, kind, texts)
+        rows.append((name, quantity, f"{value}. {plain(note)}" if note else value))
+        rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
     if impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.say(
-        "A value that says how it was given was converted from that text. Of any other only the number is kept, of a normal "
-        "only its direction; it stands here in the units of this page. The record has all digits."
+        "Where a value says how it was given, it was converted from that text. Of all others only the number was kept, and "
+        "of a normal only its direction; they are shown in the units of this page. The record at the end has every digit."
     )
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
@@ -113,6 +116,22 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any]) -> None:
         known = _known(sheet, impact)
         if known:
             sheet.table(known)
+
+
+def key_of(of: str, names: Sequence[str]) -> str:
+    """The name of an input in ``notes``, such as "a.mass" or "restitution"; of both parts of a place one."""
+    name = names[0].partition("[")[0]
+    return name if of == "contact" else f"{of.lower()}.{name}"
+
+
+def _published(impact: Impact, name: str) -> Iterator[tuple[str, str]]:
+    """Rows of published values beside a restitution or a friction."""
+    if name == "restitution":
+        low, high = reference.restitution_range(impact.closing_speed)
+        yield "restitution published for such a closing speed", f"{low:.2g} to {high:.2g}"
+    elif name == FRICTION and 0.0 < impact.inputs.rule_value < math.inf:
+        found = reference.INTER_VEHICLE_FRICTION
+        yield "friction published between vehicle bodies", f"{found.low:g} to {found.high:g}, typically {found.typical:g}"
 
 
 def _input(
@@ -192,7 +211,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
             yield f"{name} was given as {text!r}, but the {what} is {number!r} {SI_UNITS[kind]}"
 
 
-def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any]) -> None:
+def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
@@ -200,8 +219,9 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
     sheet.heading("Inputs")
     rows = []
     for of, what, name, number, kind in momentum_inputs(solution):
-        text = given.get(name)
-        rows.append((of, what, sheet.as_given(number, kind, text if isinstance(text, str) else None)))
+        text, note = given.get(name), notes.get(name.partition("[")[0])
+        value = sheet.as_given(number, kind, text if isinstance(text, str) else None)
+        rows.append((of, what, f"{value}. {plain(note)}" if note else value))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
@@ -256,10 +276,10 @@ def assumptions(
     lines += [
         (
             "Impulse:",
-            "it acts at once, along one normal, which points from A into B. Places, masses and inertias stay as they are "
-            f"while it acts, and tyres and all other forces{pivots} are left out.",
+            "it acts in an instant, along one normal that points from A into B. Positions, masses and inertias do not change "
+            f"while it acts; the forces of the tyres and all others{pivots} are left out.",
         ),
-        ("Axes:", "x and y in the road plane; angles and yaw positive counter-clockwise, seen from above."),
+        ("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."),
     ]
     for label, corners in outlines.items():
         places = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
@@ -270,11 +290,11 @@ def assumptions(
     sheet.items(lines)
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
     bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
-    but = ", except the bound" if bounded else ""
-    sheet.say(f"What is left out, if the contact lasts {time} and the tyres have a drag of {drag} (estimates{but}):")
+    but = ", except what is marked as a bound" if bounded else ""
+    sheet.say(f"What the model leaves out, for a contact of {time} and tyres with a drag factor of {drag} (estimates{but}):")
     rows = [
-        ("contact", "mutual crush, at its most", sheet.system.answer(float(found.mutual_crush), "length")),
-        ("contact", "slide along the tangent", sheet.system.answer(float(found.contact_slide), "length")),
+        ("contact", "maximum mutual crush", sheet.system.answer(float(found.mutual_crush), "length")),
+        ("contact", "sliding along the contact", sheet.system.answer(float(found.contact_slide), "length")),
     ]
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
@@ -286,15 +306,15 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
     # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
     own = "bound" if vehicle.pivot is None else "about"
     way = (sheet.system.answer(float(part), "length") for part in (side.displacement_x, side.displacement_y))
-    yield "way during the contact (x, y)", ", ".join(way)
+    yield "travel during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
     lost = "the model has no answer with the"
     moved = f"{lost} places and the normal of later in the contact, in which the bodies part as a rule"
     for what, change, share, why in (
-        (f"delta-V by its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound, ""),
-        ("delta-V moved by the tyres of both", side.tyre_delta_v, side.tyre_share, f"{lost} speeds that the tyres leave"),
-        ("delta-V moved by places and normal that change", side.geometry_delta_v, side.geometry_share, moved),
+        (f"delta-V from its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound, ""),
+        ("delta-V changed by the tyres of both", side.tyre_delta_v, side.tyre_share, f"{lost} speeds that the tyres leave"),
+        ("delta-V changed by positions and normal that move", side.geometry_delta_v, side.geometry_share, moved),
     ):
         if change is not None and share is not None:
             part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
@@ -304,7 +324,11 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     """Write the results, with the EES for a stated share."""
-    rows = list(impact_answers(sheet, impact))
+    rows = []
+    for of, what, text in impact_answers(sheet, impact):
+        rows.append((of, what, text))
+        if what == "delta-V":
+            rows += _own_axes(sheet, impact, of)
     if share_a is not None:
         share = ArgumentReader().number(share_a, "", "share_a")
         of = f"if A took up {100.0 * share:.6g} percent of the energy"
@@ -320,16 +344,26 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     sheet.heading("Results")
     sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
     if sheet.ranges:
-        sheet.say("A range in brackets comes of an interval among the inputs, in which no value is said to be likelier.")
+        sheet.say("A range in brackets comes from an interval among the inputs: no value in it is said to be likelier.")
+
+
+def _own_axes(sheet: Sheet, impact: Impact, of: str) -> Iterator[tuple[str, str, str]]:
+    """Rows of a vehicle's delta-V forward and to its left."""
+    side = impact.a if of == "A" else impact.b
+    if side.delta_v_forward is not None and side.delta_v_left is not None:
+        yield of, "delta-V forward", sheet.system.answer(side.delta_v_forward, "speed")
+        yield of, "delta-V to the left (recorders count to the right)", sheet.system.answer(side.delta_v_left, "speed")
 
 
 def findings(sheet: Sheet, found: Findings) -> None:
     """Write the findings, each with measure and limit; also the checks that were made, and those that were not."""
     sheet.heading("Findings")
     others = ", ".join(code for code in LIMITS if code not in found.measured)
-    others = f" Not made, as they lack what they need, do not apply, or are switched off: {others}." if others else ""
+    others = f" Not made, because they lack an input, do not apply or are switched off: {others}." if others else ""
     if not found:
-        sheet.say(f"None of the {len(found.measured)} checks that were made found anything. No finding is no proof.{others}")
+        sheet.say(
+            f"None of the {len(found.measured)} checks that were made found anything, which proves nothing by itself.{others}"
+        )
         return
     lines = []
     for finding in found:
@@ -342,17 +376,21 @@ def findings(sheet: Sheet, found: Findings) -> None:
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
 
-def sources(sheet: Sheet, found: Sequence[Finding]) -> None:
+def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
     """Write the sources of equations, limits and comparable values."""
     sheet.heading("References")
     lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; its equations are cited as (5).']
+    if isinstance(impact, Impact):
+        values = [("restitution", value) for value in _RANGE]
+        values += [("friction", reference.INTER_VEHICLE_FRICTION)] * any(True for _ in _published(impact, impact.inputs.rule))
+        lines += [f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}" for what, value in values]
     for finding in found:
         for name in re.findall(r"reference\.(\w+)", finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
                 lines.append(f"{value.name}: {value.source}. {value.quality}")
     duration = reference.CONTACT_DURATION
     ends = f"{duration.low:g} to {duration.high:g} s"
-    lines.append(f"To compare the duration with, {duration.name}: {ends}; {duration.source}. {duration.quality}")
+    lines.append(f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. {duration.quality}")
     sheet.listed(list(dict.fromkeys(lines)))
 
 

@@ -50,17 +50,18 @@ class Spread:
         sheet.table(rows)
         if any(what.startswith("share of the variance") for _, what, _ in rows):
             sheet.say(
-                "By itself an input brings its share without what it does together with others; in all, with that. "
-                "Where the shares by themselves fall short of 100 percent by more than their errors, the rest comes of inputs "
-                "together."
+                "By itself: the share of an input without its interactions with others; in all: with them. Where the shares by "
+                "themselves fall short of 100 percent by more than their errors, the rest comes from interactions."
             )
         stated = [("Inputs as stated", plain(name), plain(str(value))) for name, value in uncertainty.inputs.items()]
         sheet.table(stated)
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
-        sheet.say(f"By {uncertainty.method}: {cases}{seed}. What the inputs leave out, these figures do.")
+        sheet.say(
+            f"Method: {uncertainty.method}, {cases}{seed}. Whatever the stated inputs leave out, these figures leave out too."
+        )
         if uncertainty.failed:
-            sheet.say("Cases without an answer are left out: the figures hold given that there is one.")
+            sheet.say("Cases without an answer are left out: the figures hold for those that have one.")
         if uncertainty.interrupted:
             sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
 
