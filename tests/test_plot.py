@@ -1287,6 +1287,16 @@ def test_half_a_letter_in_a_name_is_drawn_as_a_sign(name):
     axes.figure.draw_without_rendering()
 
 
+def test_a_momentum_beyond_floats_is_refused():
+    """Each component is a float, their magnitude is not, and no arrow would be drawn."""
+    impact = col.oblique_central(
+        col.Vehicle(mass=9.2e306, vx=14.0, vy=14.0), col.Vehicle(mass=0.9), 0.7, normal=0.0, friction=0.0
+    )
+    with pytest.raises(col.InputError, match=r"mass = 9\.2e\+306 cannot be drawn") as refused:
+        plot.momentum(impact)
+    assert refused.value.code == "out_of_range"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("mass", "speed", "duration", "argument"),

@@ -83,6 +83,7 @@ def answered(impact: Any, function: str) -> Impact:
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
     answer: Impact = impact
     for side in (answer.a, answer.b):
+        check_size("mass", side.before.mass if math.isfinite(side.before.mass) else 0.0)
         for state in (side.before, side.after):
             for name in ("vx", "vy", "yaw_rate", "x", "y"):
                 check_size(name, getattr(state, name) or 0.0)
