@@ -25,7 +25,7 @@ from .errors import (
     UnitsError,
 )
 from .impact import Impact
-from .solvers import eccentric, linear_central, oblique_central, required_model, solve
+from .solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ __all__ = [
     "report",
     "required_model",
     "solve",
+    "time_resolved",
     "travel",
     "uncertainty",
 ]

@@ -9,20 +9,19 @@ from typing import Any
 import numpy as np
 
 from . import pulse
+from .drag import GRAVITY, read_drag, read_duration
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
 from .impact import Impact, part_of_impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, lock, numeric
-from .reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
-from .travel.surfaces import GRAVITY, one_value, out_of_range, read_drag
+from .reading import ArgumentReader, broadcast, widened
+from .travel.surfaces import out_of_range
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly, warn_of_cases
 
-# No contact of vehicles lasts longer: beyond, a bare number is in another unit.
-_LONGEST = 1.0
 # Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
 _BLOCK = 16384
 
@@ -112,7 +111,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     Parameters
     ----------
     impact : Impact
-        Of any solver; single or a batch.
+        Of any solver but ``time_resolved``; single or a batch.
     duration : float, str, Quantity or array [s]
         Of the contact, >= 0: 0.05 to 0.15 s for cars, the longer the softer.
     drag : float, str, Quantity or array
@@ -182,7 +181,12 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     -10 deg, delta-V moves by 9%
     """
     reader = ArgumentReader()
-    if not isinstance(impact, Impact):
+    if isinstance(impact, Impact) and impact.pulse is not None:
+        text = (
+            "impact was followed in time, so an impulse left nothing out of it; its pulse and a.tyre_loss have what came about"
+        )
+        reader.refuse(InputError(text, code="takes_time", argument="impact"))
+    elif not isinstance(impact, Impact):
         reader.refuse(
             InputError(
                 f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))",
@@ -282,14 +286,6 @@ def _assembled(found: dict[str, Any]) -> LeftOut:
         for label in "ab"
     )
     return LeftOut(**{name: lock(value) for name, value in found.items() if "." not in name}, a=a, b=b)
-
-
-def read_duration(reader: ArgumentReader, duration: Any) -> Any:
-    """The duration of the contact, with a warning if a bare number is longer than any contact."""
-    read = one_value(reader, duration, "s", "duration")
-    read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
-    warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")
-    return read
 
 
 def _unusable(values: dict[str, Any], beyond: Any) -> Any:

@@ -128,6 +128,7 @@ _KINDS = {
     "energy": _Kind("J", "kJ", "ft*lbf"),
     "force": _Kind("N", "kN", "lbf"),
     "stiffness": _Kind("N/m", "N/m", "lbf/in"),
+    "crush stiffness": _Kind("N/m**2", "kN/m**2", "lbf/in**2"),
     "per mass": _Kind("1/kg", "1/kg", "1/lb"),
 }
 # The SI unit of each kind, and the kind that a number in an SI unit is taken to be of.

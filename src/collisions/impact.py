@@ -10,14 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
 from .inputs import Inputs, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import FRICTION, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
+from .kernels.time_resolved import Passed
 from .model_choice import ModelChoice, part_of_choice, solve_least, where_answered
 from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
+from .pulse import Pulse
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
 from .side import SIGNS, Side, beside, title_of
@@ -67,12 +70,12 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def model(self) -> Any:
-        """The solver used: "linear_central", "oblique_central" or "eccentric"; an array of them in a batch of ``solve``."""
+        """The solver used, by name: of ``solve`` the one it took, in a batch an array of them."""
         return self.inputs.model if self.choice is None else self.choice.model
 
     @derived()
     def law(self) -> str | None:
-        """How restitution acts and what no slip means, by name; None for the linear model, of ``solve`` as given."""
+        """How restitution acts and what no slip means, by name; None for a model without one, of ``solve`` as given."""
         return self.inputs.law
 
     @derived("")
@@ -124,8 +127,12 @@ class Impact(Frozen, Summarized):
 
     @derived("m/s")
     def separation_speed(self) -> Value:
-        """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11)."""
-        return self.restitution * self.closing_speed
+        """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11).
+
+        Of a time-resolved impact as it came about.
+        """
+        passed = self._passed
+        return self.restitution * self.closing_speed if passed is None else passed.separation_speed
 
     @derived("m/s")
     def slip_before(self) -> Value:
@@ -155,6 +162,8 @@ class Impact(Frozen, Summarized):
     @derived("N*s")
     def restitution_impulse(self) -> Value:
         """Normal impulse of the restitution period [N*s], the integral of R in eq 10."""
+        if self._passed is not None:
+            return self.normal_impulse - self.compression_impulse
         return self.restitution * self.compression_impulse
 
     @derived("")
@@ -181,6 +190,9 @@ class Impact(Frozen, Summarized):
 
         Of a central model that of the centres of mass, as for ``closing_speed``.
         """
+        if self._passed is not None:
+            common_then: Value = self._passed.common_velocity
+            return common_then
         nx, ny = self.normal
         found = []
         for side in (self.a, self.b):
@@ -214,6 +226,9 @@ class Impact(Frozen, Summarized):
     @derived("J")
     def energy_absorbed(self) -> Value:
         """Energy taken up along the normal at the end of compression [J], part of which restitution gives back."""
+        if self._passed is not None:
+            absorbed: Value = self._passed.energy_absorbed
+            return absorbed
         return 0.5 * (self.closing_speed * self.compression_impulse)
 
     @returns("m/s")
@@ -261,7 +276,10 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def momentum_residual(self) -> Value:
-        """What is left of the momentum balance, from the delta-Vs of the bodies that are free and finite [N*s]: rounding."""
+        """What is left of the momentum balance, from the delta-Vs of the bodies that are free and finite [N*s]: rounding.
+
+        The impulse of the contact and, of a time-resolved impact, that of the tyres are taken from it.
+        """
         left_x: Any = 0.0
         left_y: Any = 0.0
         for side in (self.a, self.b):
@@ -269,8 +287,8 @@ class Impact(Frozen, Summarized):
             if side.before.pivot is None:
                 free = numeric(mass).isfinite(mass)
                 weight = select(free, mass, 0.0)
-                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x, 0.0)
-                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y, 0.0)
+                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x + side.tyre_impulse_x, 0.0)
+                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y + side.tyre_impulse_y, 0.0)
         return self._answered(hypot(left_x, left_y))
 
     @derived()
@@ -283,7 +301,7 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def regime(self) -> Any:
-        """How the tangential impulse came about: "frictionless", "sliding", "sticking", or "given" with a ratio.
+        """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" with a ratio.
 
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
@@ -294,6 +312,8 @@ class Impact(Frozen, Summarized):
             else:
                 moving = np.where(np.equal(value, 0.0), "frictionless", "sliding")
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
+                if self._passed is not None:
+                    found = np.where((found == "sliding") & self._reverses, "reversing", found)
             if self.choice is not None:
                 found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
             return np.where(self.refused, "", found)
@@ -303,7 +323,19 @@ class Impact(Frozen, Summarized):
             return "frictionless"
         if rule != FRICTION:
             return "given"
-        return "sticking" if sticks else "frictionless" if value == 0.0 else "sliding"
+        if self._passed is not None and value > 0.0 and not sticks and self._reverses:
+            return "reversing"
+        return "sticking" if sticks and value > 0.0 else "frictionless" if value == 0.0 else "sliding"
+
+    @derived()
+    def pulse(self) -> Pulse | None:
+        """The contact over time as ``time_resolved`` followed it; None for an impulse, which takes none."""
+        passed = self._passed
+        if passed is None:
+            return None
+        curves = () if passed.history is None else passed.history
+        names = [f.name for f in fields(Pulse)]
+        return Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
 
     @derived()
     def status(self) -> Any:
@@ -320,6 +352,15 @@ class Impact(Frozen, Summarized):
     def refused(self) -> Any:
         """Whether the case was refused, so that its numbers are NaN."""
         return self._answer.status > Status.ENERGY_GAIN
+
+    @property
+    def _passed(self) -> Any:
+        """The kernel's answer where the contact took time, else None."""
+        return self._answer if isinstance(self._answer, Passed) else None
+
+    @property
+    def _reverses(self) -> Any:
+        return self._answer.slip_before * self._answer.slip_after < 0.0
 
     def _output(self, name: str) -> Value:
         value: Value = getattr(self._answer, name)
@@ -365,6 +406,8 @@ class Impact(Frozen, Summarized):
         takes = {"a", "b", "restitution", "normal"}
         takes |= {"law", *RULES} if inputs.model != "linear_central" else set()
         takes |= {"eccentric": {"point"}, "solve": {"point", "tolerance"}}.get(inputs.model, set())
+        if inputs.model == "time_resolved":
+            takes = takes - {"law", *RULES} | {"point", "friction", *TIME_DOMAINS, "geometry", "steps"}
         unknown = changes.keys() - takes
         if unknown:
             raise TypeError(f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got {min(unknown)!r}")
@@ -374,6 +417,9 @@ class Impact(Frozen, Summarized):
         changed |= {"rule": rules[0], "rule_value": changes[rules[0]]} if rules else {}
         same_as_before = takes - changes.keys() - (RULES.keys() if rules else set())
         given = {name: text for name, text in (inputs.given or {}).items() if name.partition("[")[0] in same_as_before}
+        kinds = {"duration", "stiffness", "crush_a", "crush_b"}
+        if inputs.model == "time_resolved" and changes.keys() & kinds:
+            changed = dict.fromkeys(kinds - changes.keys()) | changed
         return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
 
     def case(self, index: int | tuple[int, ...]) -> Impact:

@@ -23,6 +23,10 @@ Law: TypeAlias = Literal["brach", "kudlich-slibar"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 
 _ALONG_X = (1.0, 0.0)
+# Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
+CRUSH_UNITS = ("N/m", "N/m**2", "m")
+# The models that have places, and no law.
+_PLACED, _LAWLESS = ("eccentric", "time_resolved"), ("linear_central", "time_resolved")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +36,7 @@ class Inputs:
     Attributes
     ----------
     model : str
-        The solver: "linear_central", "oblique_central", "eccentric" or "solve".
+        The solver: "linear_central", "oblique_central", "eccentric", "time_resolved" or "solve".
     a, b : Vehicle
         States just before contact.
     restitution : float or array [1]
@@ -51,6 +55,8 @@ class Inputs:
         Of ``solve``: the largest error that was accepted.
     contact_velocity : tuple of float or array [m/s], optional
         Of a reverse solver: closing speed and slip before, which the rounded motions would hold to fewer digits.
+    duration, stiffness, crush_a, crush_b, drag, wheelbase, track, geometry, steps
+        Of ``time_resolved``, as there.
     """
 
     model: str
@@ -65,6 +71,15 @@ class Inputs:
     given: Mapping[str, Any] | None = None
     tolerance: Value | None = None
     contact_velocity: tuple[Value, Value] | None = None
+    duration: Value | None = field(default=None, metadata={"unit": "s"})
+    stiffness: Value | None = field(default=None, metadata={"unit": "N/m"})
+    crush_a: tuple[Value, ...] | None = field(default=None, metadata={"unit": CRUSH_UNITS})
+    crush_b: tuple[Value, ...] | None = field(default=None, metadata={"unit": CRUSH_UNITS})
+    drag: Value | None = field(default=None, metadata={"unit": ""})
+    wheelbase: Value | None = field(default=None, metadata={"unit": "m"})
+    track: Value | None = field(default=None, metadata={"unit": "m"})
+    geometry: str | None = None
+    steps: int | None = None
 
     @property
     def bare_normal(self) -> Any:
@@ -89,7 +104,7 @@ class Inputs:
 
 
 # The numbers and pairs with their units: records and their schema list each by name.
-UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
+UNITS: dict[str, Any] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
 
 
 def named_numbers(inputs: Inputs) -> dict[str, Any]:
@@ -177,7 +192,7 @@ def read_inputs(
     normal shares its precision.
     """
     friction = tangential[0]
-    law_used = None if model == "linear_central" else law
+    law_used = None if model in _LAWLESS else law
     if (
         type(a) is type(b) is Vehicle
         and a.given is b.given is None
@@ -189,7 +204,8 @@ def read_inputs(
         and type(law) is str
         and law in LAWS
         and not problems
-        and (a.pivot is b.pivot is None or model == "solve" if model != "eccentric" else not missing_numbers(a, b, point))
+        and (a.pivot is b.pivot is None or model in ("solve", "eccentric"))
+        and (model not in _PLACED or not missing_numbers(a, b, point))
         and (
             point is None
             or (
@@ -214,8 +230,11 @@ def read_inputs(
         found["point"] = point
         return inputs, True
     reader = ArgumentReader()
-    lacks = missing_numbers(a, b, point) if model == "eccentric" else _pinned(model, a, b) if model != "solve" else ()
-    reader.problems.extend((*problems, *lacks))
+    reader.problems.extend(problems)
+    if model in _PLACED:
+        reader.problems.extend(missing_numbers(a, b, point, model))
+    if model not in ("solve", "eccentric"):
+        reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             reader.refuse(not_a_vehicle(label, vehicle))
@@ -248,21 +267,21 @@ def lacking(a: Any, b: Any) -> list[tuple[str, str]]:
     return found
 
 
-def missing_numbers(a: Any, b: Any, point: Any) -> Sequence[InputError]:
-    """One error for each input that the eccentric model needs and that was not given."""
+def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Sequence[InputError]:
+    """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
     found: list[InputError] = []
     if point is None:
         found.append(
             MissingInputError(
-                "point is None, and eccentric needs it; give the scene point (x, y) at which the impulse acts",
+                f"point is None, and {model} needs it; give the scene point (x, y) at which the impulse acts",
                 code="missing_point",
                 argument="point",
             )
         )
     bodies = {"a": a, "b": b}
-    return found + [missing(bodies[label], name, "eccentric", label) for label, name in lacking(a, b)]
+    return found + [missing(bodies[label], name, model, label) for label, name in lacking(a, b)]
 
 
 def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:

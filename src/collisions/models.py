@@ -1,4 +1,4 @@
-"""The table of the three impact models (``MODELS``): the kernel of each, its inputs and settings, and its assumptions."""
+"""The table of the impact models (``MODELS``): the kernel of each, its inputs and settings, and its assumptions."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .contact_time import DOMAINS, read_contact_time
 from .errors import InputError
 from .inputs import Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
@@ -17,6 +18,7 @@ from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity
 from .kernels.floats import compile_for_floats
 from .kernels.status import Answer
+from .kernels.time_resolved import time_resolved
 from .reading import ArgumentReader, amount
 from .vehicle import Vehicle
 
@@ -41,7 +43,7 @@ class Model:
     """
 
     name: str
-    kernel: Callable[..., Answer]
+    kernel: Callable[..., Any]
     takes: tuple[str, ...]
     settings: Callable[[Inputs, bool], tuple[Any, ...]]
     assumptions: str
@@ -99,7 +101,16 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         "tangent at one contact point; free, pinned and fixed bodies.",
     ),
 )
-BY_NAME = {model.name: model for model in MODELS}
+TIME_RESOLVED = Model(
+    "time_resolved",
+    time_resolved,
+    (),
+    lambda inputs, carrying: (),
+    "Time-resolved: the contact is followed in small steps. A spring along the normal takes up the approach and gives back the "
+    "share of its work that the restitution squared says; Coulomb friction acts along the tangent, tyres slide on the ground, "
+    "and places and normal move with the vehicles.",
+)
+BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
 # For reverse solvers, which find the closing speed and the slip to more digits than the rounded motions hold.
 _FROM_CONTACT_VELOCITY = BY_NAME | {
     LINEAR.name: replace(LINEAR, kernel=from_closing_speed, takes=("contact_velocity[0]", *LINEAR.takes)),
@@ -154,6 +165,10 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
+    if inputs.model == TIME_RESOLVED.name:
+        extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
+        again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
+        return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
     again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
     return replace(
         again,

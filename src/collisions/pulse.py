@@ -1,4 +1,4 @@
-"""The spring pulse: an assumed shape of the contact force over time, where one is needed.
+"""The force of a contact over time: assumed, as a spring pulse, where one is needed; or as it passed, a ``Pulse``.
 
 The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
 rises as that of a linear spring, a quarter of a sine, and falls as that of a stiffer one, another quarter, which takes
@@ -8,12 +8,52 @@ restitution times as long. Whatever the restitution, its peak is pi/2 times its 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 from typing import Any
 
 from .kernels.elementwise import safe_divisor, select
-from .quantities import numeric
+from .quantities import Shown, numeric
+from .units import Value
 
 _QUARTER = 0.5 * math.pi
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Pulse(Shown):
+    """A contact as ``time_resolved`` followed it.
+
+    Attributes
+    ----------
+    duration : float or array [s]
+        From touching to parting.
+    peak_force : float or array [N]
+        The largest force along the normal.
+    max_crush : float or array [m]
+        How far the contact points passed into each other along the normal, both vehicles together, at the most.
+    peak_acceleration_a, peak_acceleration_b : float or array [m/s**2]
+        Of the centre of mass, by contact and tyres, at the most.
+    time, force, crush : array [s], [N], [m]
+        At the start and after every step; None for a batch, of which ``impact.case(i).pulse`` has them.
+    delta_v_a, delta_v_b : array [m/s]
+        Magnitude of the change of velocity until then.
+    yaw_rate_a, yaw_rate_b : array [rad/s]
+        Yaw rate then.
+    """
+
+    _title = "Pulse"
+
+    duration: Value = field(metadata={"unit": "s"})
+    peak_force: Value = field(metadata={"unit": "N"})
+    max_crush: Value = field(metadata={"unit": "m"})
+    peak_acceleration_a: Value = field(metadata={"unit": "m/s**2"})
+    peak_acceleration_b: Value = field(metadata={"unit": "m/s**2"})
+    time: Any = field(default=None, metadata={"unit": "s"})
+    force: Any = field(default=None, metadata={"unit": "N"})
+    crush: Any = field(default=None, metadata={"unit": "m"})
+    delta_v_a: Any = field(default=None, metadata={"unit": "m/s"})
+    delta_v_b: Any = field(default=None, metadata={"unit": "m/s"})
+    yaw_rate_a: Any = field(default=None, metadata={"unit": "rad/s"})
+    yaw_rate_b: Any = field(default=None, metadata={"unit": "rad/s"})
 
 
 def rise(share: Any) -> Any:

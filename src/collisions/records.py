@@ -15,8 +15,9 @@ from .inputs import UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
-from .models import MODELS, read_again
+from .models import BY_NAME, read_again
 from .provenance import Reconstruction
+from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
@@ -25,7 +26,8 @@ from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
 FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
-_SOLVERS = (*(model.name for model in MODELS), "solve")
+_OPTIONS = ("geometry", "steps")
+_SOLVERS = (*BY_NAME, "solve")
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
 _MOTION = ("vx", "vy", "yaw_rate")
@@ -54,7 +56,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
     text = texts.pop("normal", None)
     as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
     return {
-        **{name: getattr(inputs, name) for name in _LABELS},
+        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
@@ -86,10 +88,12 @@ def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
     return moving.vx, moving.vy
 
 
-def _given_input(texts: dict[str, Any], name: str, value: Any, unit: str) -> Any:
+def _given_input(texts: dict[str, Any], name: str, value: Any, unit: Any) -> Any:
     """A number or a pair, or None, each number as the text it was given as; the texts used are taken out."""
     if isinstance(value, tuple):
-        return [_given(texts.pop(f"{name}[{i}]", None), part, unit) for i, part in enumerate(value)]
+        units = unit if isinstance(unit, tuple) else (unit,) * len(value)
+        parts = enumerate(zip(value, units, strict=True))
+        return [_given(texts.pop(f"{name}[{i}]", None), part, own) for i, (part, own) in parts]
     return None if value is None else _given(texts.pop(name, None), value, unit)
 
 
@@ -125,7 +129,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
-        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS)}
+        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])
@@ -138,7 +142,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
 
 def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:
     """Refuse a text that reads as another number here than it did where the record was written: units can be redefined."""
-    written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS)]
+    written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS) if name in results]
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
         texts = {name: text for name, text in found[label].items() if name != "name"}
         if _POLAR[0] in texts:
@@ -232,6 +236,9 @@ def _add(columns: dict[str, Any], name: str, value: Any) -> None:
     elif isinstance(value, Reconstruction):
         columns[f"{name}.condition"] = value.condition
         columns[f"{name}.answers"] = value.answers
+    elif isinstance(value, Pulse):
+        for field in fields(value)[:5]:
+            columns[f"{name}.{field.name}"] = getattr(value, field.name)
     elif isinstance(value, ModelChoice):
         columns[f"{name}.tolerance"] = value.tolerance
         columns |= {f"{name}.errors.{model}": error for model, error in value.errors.items()}
@@ -267,7 +274,7 @@ def strict(value: Any) -> Any:
         return int(value)
     if isinstance(value, ModelChoice):
         return {name: strict(getattr(value, name)) for name in _CHOICE}
-    if isinstance(value, Reconstruction):
+    if isinstance(value, (Reconstruction, Pulse)):
         return {f.name: strict(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):
         return {name: strict(part) for name, part in value.items()}

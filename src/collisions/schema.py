@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import Field, fields
 from inspect import getdoc
-from typing import Any
+from typing import Any, get_args
 
+from .contact_time import Geometry
 from .errors import Status
 from .impact import Impact
 from .inputs import UNITS, Inputs
 from .kernels.contact_laws import LAWS, RULES
-from .models import MODELS
+from .models import BY_NAME
 from .provenance import Reconstruction
+from .pulse import Pulse
 from .quantities import attributes, unit_of
 from .records import FORMAT
 from .side import Side
@@ -19,15 +21,16 @@ from .vehicle import DOMAINS, Vehicle
 
 __all__ = ["impact_schema"]
 
-_MODELS = [model.name for model in MODELS]
+_MODELS = list(BY_NAME)
 _PRECISIONS = ["float32", "float64"]
 _KINDS = ["elastic", "elastoplastic", "plastic", ""]
-_REGIMES = ["frictionless", "sliding", "sticking", "given", ""]
+_REGIMES = ["frictionless", "sliding", "sticking", "reversing", "given", ""]
 _TYPES: dict[str, dict[str, Any]] = {
     "Value": {"$ref": "#/$defs/value"},
     "tuple[Value, Value]": {"$ref": "#/$defs/pair"},
     "ModelChoice": {"$ref": "#/$defs/choice"},
     "Reconstruction": {"$ref": "#/$defs/reconstruction"},
+    "Pulse": {"$ref": "#/$defs/pulse"},
     "Vehicle": {"$ref": "#/$defs/vehicle"},
     "Side": {"$ref": "#/$defs/side"},
     "str": {"type": "string"},
@@ -81,6 +84,7 @@ def impact_schema() -> dict[str, Any]:
                     "tolerance": {"$ref": "#/$defs/value", "description": "[m/s]"},
                 }
             ),
+            "pulse": _closed({f.name: _pulse_field(f) for f in fields(Pulse)}),
             "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
         },
     }
@@ -98,6 +102,8 @@ def _inputs() -> dict[str, Any]:
             "a": vehicle,
             "b": vehicle,
             **{name: _input(name) for name in UNITS},
+            "geometry": {"enum": [*get_args(Geometry), None], "description": "Of time_resolved: what the positions are."},
+            "steps": {"type": ["integer", "null"], "description": "Of time_resolved: steps a nominal duration."},
             "normal": {"anyOf": [pair, {"type": "string"}], "description": "Unit vector from A into B, or its angle as given."},
             "bare_normal": {
                 "anyOf": [{"$ref": "#/$defs/value"}, null],
@@ -118,9 +124,9 @@ def _inputs() -> dict[str, Any]:
     )
     return question | {
         "allOf": [
-            _where("linear_central", {"law": null}, {"law": {"type": "string"}}),
-            _where("eccentric", {"point": {"type": "array"}}, {}),
-            *(_where(model, {"point": null}, {}) for model in ("linear_central", "oblique_central")),
+            _where(["linear_central", "time_resolved"], {"law": null}, {"law": {"type": "string"}}),
+            _where(["eccentric", "time_resolved"], {"point": {"type": "array"}}, {}),
+            _where(["linear_central", "oblique_central"], {"point": null}, {}),
         ]
     }
 
@@ -150,8 +156,11 @@ def _vehicle_inputs() -> dict[str, Any]:
 def _input(name: str) -> dict[str, Any]:
     """A number or a pair among the inputs, with its unit."""
     plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
-    found = {"Value": {"$ref": "#/$defs/given"}, "tuple[Value, Value]": _pair({"$ref": "#/$defs/given"})}[plain]
-    return {**({"anyOf": [found, {"type": "null"}]} if optional else found), "description": f"[{UNITS[name] or 1}]"}
+    given, units = {"$ref": "#/$defs/given"}, UNITS[name]
+    several = {"type": "array", "items": given, "minItems": 3, "maxItems": 3}
+    found = {"Value": given, "tuple[Value, Value]": _pair(given), "tuple[Value, ...]": several}[plain]
+    unit = ", ".join(units) if isinstance(units, tuple) else units or 1
+    return {**({"anyOf": [found, {"type": "null"}]} if optional else found), "description": f"[{unit}]"}
 
 
 def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
@@ -165,6 +174,11 @@ def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
 def _vehicle_field(field: Field[Any]) -> dict[str, Any]:
     found = _declared(str(field.type))
     return {**found, "description": f"[{field.metadata['unit']}]"} if "unit" in field.metadata else found
+
+
+def _pulse_field(field: Field[Any]) -> dict[str, Any]:
+    value = _declared("Value") if str(field.type) == "Value" else {"anyOf": [_declared("Value"), {"type": "null"}]}
+    return {**value, "description": f"[{field.metadata['unit']}]"}
 
 
 def _declared(declared: str) -> dict[str, Any]:
@@ -204,8 +218,8 @@ def _each(value: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [value, _batch(value, {"type": "string"})]}
 
 
-def _where(model: str, then: dict[str, Any], otherwise: dict[str, Any]) -> dict[str, Any]:
-    condition = {"properties": {"model": {"const": model}}}
+def _where(models: list[str], then: dict[str, Any], otherwise: dict[str, Any]) -> dict[str, Any]:
+    condition = {"properties": {"model": {"enum": models}}}
     return {"if": condition, "then": {"properties": then}, "else": {"properties": otherwise}}
 
 

@@ -13,6 +13,7 @@ from .directions import Angle, angle_of
 from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
+from .kernels.time_resolved import Passed
 from .model_choice import ModelChoice
 from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
@@ -65,6 +66,9 @@ class Side(Frozen, Summarized):
     def at_compression(self) -> Vehicle:
         """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
         before, (dvx, dvy, dw) = self.before, self._change()
+        if isinstance(self._answer, Passed):
+            dvx, dvy, dw = (self._passed(f"compression_{name}") for name in ("vx", "vy", "yaw_rate"))
+            return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
         whole = 1.0 + self._inputs.restitution
         return moved(before, before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
 
@@ -170,9 +174,26 @@ class Side(Frozen, Summarized):
             found: Value = select(central, 1.0, 1.0 / (1.0 + (h * h) * (self.before.mass / inertia)))
         return found
 
+    @derived("N*s")
+    def tyre_impulse_x(self) -> Value:
+        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene x [N*s]; else 0."""
+        return self._passed("tyre_impulse_x")
+
+    @derived("N*s")
+    def tyre_impulse_y(self) -> Value:
+        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene y [N*s]; else 0."""
+        return self._passed("tyre_impulse_y")
+
+    @derived("J")
+    def tyre_loss(self) -> Value:
+        """Energy that the tyres of this vehicle dissipated during the contact [J]; not part of ``energy_loss``."""
+        return self._passed("tyre_loss")
+
     @derived("J")
     def kinetic_energy_change(self) -> Value:
         """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
+        if isinstance(self._answer, Passed):
+            return self._work()
         ux, uy, dux, duy = self._at_contact()
         return self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
 
@@ -200,6 +221,22 @@ class Side(Frozen, Summarized):
         with np.errstate(all="ignore"):
             turn_x, turn_y = turn_at(self.before, self.delta_yaw_rate, px, py, "delta_v_at", x, y)
             return self.delta_vx + turn_x, self.delta_vy + turn_y
+
+    def _passed(self, name: str) -> Value:
+        """What a time-resolved impact answers for this vehicle; 0 for an impulse."""
+        value: Value = getattr(self._answer, f"{name}_{'ab'[self._index]}", 0.0 * self._answer.normal_impulse)
+        return value
+
+    def _work(self) -> Value:
+        """Change of kinetic energy by the contact: that of the motion and what the tyres took of it."""
+        (dvx, dvy, dw), before = self._change(), self.before
+        vx, vy, spin = widened((before.vx, before.vy, before.yaw_rate), (self.delta_vx,))
+        mass = select(numeric(before.mass).isfinite(before.mass), before.mass, 0.0)
+        inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
+        inertia = select(numeric(inertia).isfinite(inertia), inertia, 0.0)
+        gain: Value = mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy)) + inertia * dw * (spin + 0.5 * dw)
+        gain = gain + self.tyre_loss
+        return gain
 
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._answer.impulse_x, self._answer.impulse_y

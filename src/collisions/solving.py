@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from .contact_time import DOMAINS as TIME_DOMAINS
+from .contact_time import solve_case_in_time, solve_cases_in_time
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
 from .inputs import Inputs, named_numbers, part_of_inputs
 from .kernels.contact_laws import RULES
@@ -24,7 +26,8 @@ from .kernels.elementwise import (
     without_length,
 )
 from .kernels.status import Answer, Status
-from .models import Model, float_function, model_of, read_again
+from .kernels.time_resolved import Passed
+from .models import TIME_RESOLVED, Model, float_function, model_of, read_again
 from .progress import reporter
 from .reading import broadcast
 from .units import shown
@@ -48,6 +51,8 @@ def solve_inputs(
     ``plain`` says that the inputs are plain floats. With ``carrying``, motion that the model
     cannot represent is passed on unchanged, not refused.
     """
+    if model is TIME_RESOLVED:
+        return _solve_in_time(inputs, on_failure, threads, progress)
     if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
         raw = float_function(model, model.settings(inputs, carrying))(inputs)
         if raw is not None:
@@ -62,8 +67,24 @@ def solve_inputs(
     return _solve_case(inputs, model, carrying, on_failure)
 
 
+def _solve_in_time(inputs: Inputs, on_failure: Any, threads: Any, progress: Any) -> Any:
+    """Step through one case or a batch."""
+    check_options(on_failure, threads, progress)
+    shape = broadcast(named_numbers(inputs))
+    if shape is not None:
+        found = solve_cases_in_time(inputs, cases_of(inputs, shape, threads)[0], reporter(progress))
+        say_of_cases(inputs, found, on_failure)
+        return found
+    found = solve_case_in_time(inputs)
+    if found.status == Status.OK:
+        return found
+    if on_failure == "nan":
+        return Passed(found.status)
+    raise refusal(inputs, found)
+
+
 def _solve_case(inputs: Inputs, model: Model, carrying: bool, on_failure: Any) -> Answer:
-    raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
+    raw: Answer = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
     if raw.status == Status.OK:
         return raw
     if raw.status == Status.ENERGY_GAIN:
@@ -117,7 +138,7 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
         )
 
 
-def refusal(inputs: Inputs, raw: Answer) -> CollisionsError:
+def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
     """The error for a refused single case."""
     for side, body in (("a", inputs.a), ("b", inputs.b)):
         for name in DOMAINS:
@@ -224,6 +245,10 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
     for part in inputs.point or ():
         add_array(part, FINITE)
     add_array(inputs.rule_value, RULES[inputs.rule].domain)
+    for name, domains in TIME_DOMAINS.items():
+        given = getattr(inputs, name)
+        for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
+            add_array(part, domain)
     return found
 
 

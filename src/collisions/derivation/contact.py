@@ -153,7 +153,7 @@ def energy(page: Page, s: Symbols) -> None:
     kinetic_energies(page, s)
 
 
-def kinetic_energies(page: Page, s: Symbols) -> None:
+def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None:
     """The loss as the difference of the kinetic energies, where those are finite."""
     states = [(body, when, *_kinetic_energy(body, when)) for body in s.bodies for when in (BEFORE, AFTER)]
     if any(math.isnan(value) for _, _, value, _ in states):
@@ -176,7 +176,7 @@ def kinetic_energies(page: Page, s: Symbols) -> None:
             turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
             page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
     before_first = sorted(terms, key=lambda term: -term[0])
-    page.equation("Check: kinetic energies before less those after (7)", s.loss, signed_total(before_first))
+    page.equation("Check: kinetic energies before less those after (7)", lost or s.loss, signed_total(before_first))
 
 
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
@@ -188,7 +188,7 @@ def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
         formula = HALF * body.mass * total(*squares)
     if state.yaw_rate:
         # A central model leaves the yaw rate as it was.
-        spin = body.spin(when if body.impact.model == "eccentric" else BEFORE)
+        spin = body.spin(when if body.impact.model in ("eccentric", "time_resolved") else BEFORE)
         formula = formula + HALF * body.inertia * spin.squared()
     known = state.yaw_inertia is not None or not state.yaw_rate
     return float(state.kinetic_energy) if known else math.nan, formula
@@ -227,12 +227,13 @@ def _pdof(page: Page, s: Symbols, body: Body) -> None:
     if body.start.heading is None or side.pdof is None or math.isnan(side.pdof):
         return
     other = s.b if label == "A" else s.a
-    if not body.fixed and not body.pinned:
+    tyres = s.impact.pulse is not None
+    if not body.fixed and not body.pinned and not tyres:
         caption = f"Direction of the impulse on {label}, which is that of its delta-V (definition)"
         pushed = Direction(body.delta_v("x"), body.delta_v("y"))
     else:
         caption = f"Direction of the impulse on {label}, opposite to that on {other.label} (1)"
-        by_delta_v = not (other.fixed or other.pinned or body.pinned)
+        by_delta_v = not (other.fixed or other.pinned or body.pinned or tyres)
         x, y = (other.delta_v(axis) if by_delta_v else s.impulse(axis) for axis in "xy")
         pushed = Direction(x, y) if label == "B" and not by_delta_v else Direction(-x, -y)
     pdof(page, label, caption, side.impulse_direction, pushed, body.start.heading, side.pdof)

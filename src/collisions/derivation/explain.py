@@ -20,7 +20,7 @@ from ..units import shown
 from .contact import motions
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import Function, System
-from .models import eccentric, linear, oblique
+from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
 from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
@@ -31,8 +31,20 @@ NOT_EXPLAINED = (
     ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
     "help(collisions.reconstruct.crush_energy), help(collisions.travel.speed), help(collisions.travel.path)"
 )
-_MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric}
+_MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric, "time_resolved": time_resolved}
 
+# The models that have places and yaw rates.
+_PLACED = ("eccentric", "time_resolved")
+_CRUSH = "crush stiffness A of {0}; crush stiffness B of {0}; width of the crush of {0}"
+_IN_TIME = {
+    "duration": ("nominal duration", ("duration",)),
+    "stiffness": ("stiffness of both vehicles together", ("stiffness",)),
+    "crush_a": (_CRUSH.format("A"), ("stiffness", "crush stiffness", "length")),
+    "crush_b": (_CRUSH.format("B"), ("stiffness", "crush stiffness", "length")),
+    "drag": ("drag of the tyres", ("number",)),
+    "wheelbase": ("wheelbase of both vehicles", ("length",)),
+    "track": ("track of both vehicles", ("length",)),
+}
 _VEHICLE = {
     "mass": ("mass", "mass"),
     "vx": ("velocity along x", "speed"),
@@ -209,12 +221,18 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
         if vehicle.pivot is not None:
             yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
-    if impact.point is not None and impact.model == "eccentric":
+    if impact.point is not None and impact.model in _PLACED:
         yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     if impact.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
+    if impact.model == "time_resolved":
+        for name, (what, kinds) in _IN_TIME.items():
+            given = getattr(impact.inputs, name)
+            for at, part in enumerate(given if isinstance(given, tuple) else () if given is None else (given,)):
+                names = (f"{name}[{at}]" if isinstance(given, tuple) else name,)
+                yield "contact", what.split("; ")[at], names, (part,), kinds[at]
 
 
 def _inputs(page: Page, impact: Impact) -> None:
@@ -228,7 +246,7 @@ def _inputs(page: Page, impact: Impact) -> None:
             text += f", given as {bare:.6g} without a unit"
         name = vehicles.get(of, "")
         rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
-    if impact.model != "linear_central":
+    if impact.law is not None and impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     page.table(rows)
 
@@ -249,7 +267,7 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
     """The rows of results, rounded."""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
-            if impact.model != "eccentric" and name.endswith("yaw_rate"):
+            if impact.model not in _PLACED and name.endswith("yaw_rate"):
                 continue
             if side.before.pivot is None and name.startswith("pivot"):
                 continue

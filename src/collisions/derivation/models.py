@@ -198,6 +198,43 @@ def eccentric(page: Page, s: Symbols) -> None:
     energy(page, s)
 
 
+def time_resolved(page: Page, s: Symbols) -> None:
+    """A contact in steps: its sums are on no page, but what they balance is."""
+    impact, steps = s.impact, s.impact.inputs.steps or 100
+    geometry = (s.impact.inputs.geometry or "maximum_engagement").replace("_", " ")
+    page.heading("Time-resolved impact")
+    page.say(
+        "The contact was followed in steps, which are too many for a page. Along the normal a force grows with the penetration "
+        "and gives back the share e squared of the work it took; along the tangent friction acts as Coulomb's; each wheel "
+        f"slides with the drag given. Geometry: {geometry}; {steps} steps in a nominal duration. "
+        f"The impulse on B is the sum over all steps: {page.shown(s.normal)} along the normal, {page.shown(s.tangential)} "
+        "along the tangent. What follows are its balances."
+    )
+    impulse_in_scene_axes(page, s)
+    page.heading("Momentum")
+    for body in s.bodies:
+        for axis in () if body.fixed else "xy":
+            push = body.along(axis).plus(body.sign, s.impulse(axis) / body.mass)
+            held = Symbol(rf"J_{{{body.label}{axis}}}", getattr(body.side, f"tyre_impulse_{axis}"), "impulse")
+            if held.value:
+                page.say(f"Impulse of the tyres on {body.label} along {axis}, the sum over all steps: {page.shown(held)}.")
+                push = push + held / body.mass
+            page.equation(f"Velocity of {body.label} after, along {axis}", body.along(axis, AFTER), push)
+    page.heading("Energy")
+    along_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
+    along_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
+    page.say(
+        f"Lost along the normal and along the tangent, the sums over all steps: {page.shown(along_n)}, {page.shown(along_t)}."
+    )
+    page.equation("Energy lost in the contact", s.loss, along_n + along_t)
+    tyres = [Symbol(rf"W_{body.label}", body.side.tyre_loss, "energy") for body in s.bodies]
+    whole = Symbol(r"\Delta T", s.loss.value + tyres[0].value + tyres[1].value, "energy")
+    if tyres[0].value or tyres[1].value:
+        page.say(f"Lost by the tyres of A and of B: {page.shown(tyres[0])}, {page.shown(tyres[1])}.")
+        page.equation("Energy lost in all", whole, s.loss + tyres[0] + tyres[1])
+    kinetic_energies(page, s, whole)
+
+
 def impulse_in_scene_axes(page: Page, s: Symbols) -> None:
     """The impulse on B along x and y."""
     for axis in "xy":

@@ -102,7 +102,7 @@ class Body:
         if contact:
             return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed")
         base = "u" if when == COMPRESSED else "v"
-        bar = rf"\bar{{{base}}}" if self.impact.model == "eccentric" else base
+        bar = rf"\bar{{{base}}}" if self.impact.model in ("eccentric", "time_resolved") else base
         return Symbol(f"{bar}_{{{index}}}{_PRIME[when]}", value, "speed")
 
     def straight(self, when: str = BEFORE) -> Symbol:

@@ -97,11 +97,11 @@ class MomentumCase(_Case):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ImpactCase(_Case):
-    """An impact with outlines by vehicle label, what the impulse leaves out, and the results it is compared with."""
+    """An impact with outlines by vehicle label, what an impulse leaves out, and the results it is compared with."""
 
     answer: Impact
     outlines: dict[str, Any]
-    left_out: LeftOut
+    left_out: LeftOut | None
 
     @cached_property
     def vehicles(self) -> dict[str, VehicleResult]:

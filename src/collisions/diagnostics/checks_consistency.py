@@ -63,7 +63,7 @@ def rounding(case: ImpactCase) -> Iterator[Measured]:
     sides = (impact.a, impact.b)
     if not any(_has_infinite_energy(side) for side in sides):
         before, after = (sum(_energy(side, after) for side in sides) for after in (False, True))
-        lost = impact.energy_loss
+        lost = impact.energy_loss + sum(side.tyre_loss for side in sides)
         by_speeds = share(abs((before - after) - lost), max(abs(lost), impact.energy_absorbed))
         if by_speeds > off:
             off = by_speeds
@@ -164,7 +164,12 @@ def friction_gain(case: ImpactCase) -> Iterator[Measured]:
 def jamming(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
     frictionless = impact.effective_mass * impact.closing_speed
-    if impact.regime in ("given", "sliding") and frictionless > 0.0 and impact.compression_impulse != 0.0:
+    if (
+        impact.regime in ("given", "sliding")
+        and impact.pulse is None
+        and frictionless > 0.0
+        and impact.compression_impulse != 0.0
+    ):
         part = 1.0 - frictionless / impact.compression_impulse
         sentence = (
             f"the tangential impulse makes the normal one {impact.compression_impulse / frictionless:.2f} times as large: the "
@@ -181,7 +186,12 @@ def jamming(case: ImpactCase) -> Iterator[Measured]:
 def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
     point, (nx, ny) = impact.point, impact.normal
-    if point is None or any(side.after.yaw_rate != 0.0 and side.after.x is None for _, _, side in case.sides):
+    # Where places and normal move on, those given tell nothing of the end.
+    if (
+        point is None
+        or impact.pulse is not None
+        or any(side.after.yaw_rate != 0.0 and side.after.x is None for _, _, side in case.sides)
+    ):
         return
     (ax, ay), (bx, by) = (side.after.velocity_at(point) for _, _, side in case.sides)
     approach = nx * (ax - bx) + ny * (ay - by)
@@ -214,7 +224,8 @@ def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
 def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None:
         now, _, rounding = case.overlaps
-        depth, crush = max(now, 0.0), case.left_out.mutual_crush
+        pulse, left = case.answer.pulse, case.left_out
+        depth, crush = max(now, 0.0), pulse.max_crush if pulse is not None else left.mutual_crush if left is not None else 0.0
         sentence = (
             f"at the impact the outlines overlap by {case.text(depth, 'length')}, and the impact crushes both together by "
             f"{case.text(crush, 'length')} in {case.duration:.3g} s; check positions and headings"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..drag import HIGHEST_DRAG
 from ..reference import CONTACT_DURATION
-from ..travel.surfaces import HIGHEST_DRAG
 from ..vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
 from .finding import Measured, above, below, finding
@@ -182,7 +182,7 @@ def suspect_duration(case: Case) -> Iterator[Measured]:
 @finding("number of inputs that are missing to estimate the error of a central model", above(0.0), "set here: a note")
 def model_unknown(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
-    if name != "eccentric":
+    if name not in ("eccentric", "time_resolved"):
         choice, _ = case.model_choice
         missing = choice.missing["eccentric"]
         if missing and math.isnan(choice.errors[name]):

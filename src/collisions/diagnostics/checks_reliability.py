@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ..drag import GRAVITY
 from ..impact import Impact
 from ..provenance import how_many
 from ..reference import INTER_VEHICLE_FRICTION
 from ..side import Side
-from ..travel.surfaces import GRAVITY
 from .case import Case, ImpactCase, MomentumCase, off_by, percent, plain, share
 from .finding import MESSAGES, METHOD, Measured, above, at_or_below, below, finding
 
@@ -83,7 +83,9 @@ def speed_backwards(case: MomentumCase) -> Iterator[Measured]:
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        if isinstance(case, ImpactCase):
+        if isinstance(case, ImpactCase) and case.answer.inputs.drag and case.left_out is None:
+            continue
+        if isinstance(case, ImpactCase) and case.left_out is not None:
             left = getattr(case.left_out, label)
             most, part = left.tyre_delta_v_bound, left.tyre_share_bound
             # Of a body that turns about a pivot it is an estimate.
@@ -105,7 +107,7 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
 )
 def model(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
-    if name == "eccentric":
+    if name in ("eccentric", "time_resolved"):
         return
     choice, how = case.model_choice
     error = choice.errors[name]

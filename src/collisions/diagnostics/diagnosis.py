@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..contact_effects import left_out, read_duration
+from ..contact_effects import left_out
+from ..drag import read_drag, read_duration
 from ..errors import InputError, MissingInputError, ShapeError
 from ..formatting import UnitSystem, bad_system
 from ..impact import Impact
@@ -15,7 +16,6 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
-from ..travel.surfaces import read_drag
 from ..units import Input, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
@@ -140,8 +140,12 @@ def diagnose(
     case: Case
     if isinstance(impact, Impact):
         reader.close()
-        left = left_out(impact, duration=duration, drag=drag)
-        time, pull = _single(reader, left.duration, "duration"), _single(reader, left.drag, "drag")
+        # What an impulse leaves out comes with the duration and drag that it was asked for.
+        left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
+        given = (
+            (read_duration(reader, duration), read_drag(reader, drag, "drag")) if left is None else (left.duration, left.drag)
+        )
+        time, pull = _single(reader, given[0], "duration"), _single(reader, given[1], "drag")
         reader.close()
         case = ImpactCase(answer=impact, duration=time, drag=pull, outlines=outlines, left_out=left, **known)
     else:

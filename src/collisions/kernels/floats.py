@@ -1,4 +1,4 @@
-"""Prints a tape as one plain Python function of floats, which answers a single case."""
+"""Prints a tape as one plain Python function of floats, which answers a single case, or repeats a step of one."""
 
 from __future__ import annotations
 
@@ -60,10 +60,44 @@ def compile_for_floats(
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
     )
+    return _made(source, kernel.__name__)
+
+
+def compile_loop(
+    step: Callable[..., tuple[Any, ...]], fixed: tuple[Any, ...], moving: tuple[Any, ...], settings: tuple[Any, ...]
+) -> Callable[..., Any]:
+    """A step compiled to a function of floats (fixed, moving, most, note) that repeats it, and gives what moves at the end.
+
+    ``fixed`` and ``moving`` are the NamedTuple types of what the step is given and of what it gives again; their numbers go in
+    and out as flat tuples, of which the fields "sticks" and "active" are truths. It ends where the last one is false, or after
+    ``most`` steps; ``note`` gets the numbers after each.
+    """
+    tape, kinds = TextTape(), (*fixed, *moving)
+    fields = [field for kind in kinds for field in kind._fields]
+    numbers = iter(
+        [tape.input(at, np.bool_ if field in ("sticks", "active") else np.float64) for at, field in enumerate(fields)]
+    )
+    with np.errstate(all="ignore"):
+        given = [kind(*(next(numbers) for _ in kind._fields)) for kind in kinds]
+        wanted = [tape.operand(value).index for part in step(*given, *settings) for value in part]
+    held = [f"f{at}" for at in range(len(fields) - len(wanted))]
+    state = [f"s{at}" for at in range(len(wanted))]
+    lines, found = statements(tape, wanted, held + state, WRITTEN, _constant, step.__name__)
+    whole = f"({', '.join(state)},)"
+    ends = ["if note is not None:", f"    note({whole})", f"if not {state[-1]}:", "    break"]
+    body = "\n        ".join([*lines, f"{whole} = ({', '.join(found)},)", *ends])
+    source = (
+        f"def function(fixed, moving, most, note=None):\n    ({', '.join(held)},) = fixed\n    {whole} = moving\n"
+        f"    for _ in range(most):\n        {body}\n    return {whole}\n"
+    )
+    return _made(source, step.__name__)
+
+
+def _made(source: str, name: str) -> Callable[..., Any]:
     names: dict[str, Any] = {"larger": larger, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
-    exec(compile(source, f"<{kernel.__name__} of floats>", "exec"), names)
-    compiled: Callable[[Any], Any] = names["function"]
-    return compiled
+    exec(compile(source, f"<{name} of floats>", "exec"), names)
+    made: Callable[..., Any] = names["function"]
+    return made
 
 
 def _constant(value: Any) -> str:

@@ -93,7 +93,7 @@ class Status(IntEnum):
         "masses, lengths and speeds whose products stay between 1e-150 and 1e150",
     )
     NOT_FINITE = _Outcome(9, "input", "an input is NaN, or infinite where it may not be")
-    NOT_POSITIVE = _Outcome(10, "input", "a mass or a yaw inertia is not greater than 0")
+    NOT_POSITIVE = _Outcome(10, "input", "a mass, a yaw inertia, a duration, a stiffness or a length is not greater than 0")
     BAD_RESTITUTION = _Outcome(11, "input", "the restitution is outside 0 to 1")
     BAD_FRICTION = _Outcome(12, "input", "the friction is below 0")
     BAD_FRACTION = _Outcome(13, "input", "the critical fraction is outside 0 to 1")
@@ -123,6 +123,21 @@ class Status(IntEnum):
     INVERSE_E0 = _Outcome(26, "solution", "after a plastic impact nothing is left of the closing speed")
     INFINITE_MASS = _Outcome(27, "solution", "the motion of an infinite mass tells nothing of the impact")
     PARALLEL_HEADINGS = _Outcome(28, "solution", "the courses are parallel, so momentum across them tells nothing")
+    NO_START = _Outcome(
+        29,
+        "solution",
+        "no start of the contact leads to the positions given at its maximum engagement",
+        "no start of the contact was found from which it comes to the positions given at its maximum engagement; check "
+        "duration or stiffness and the motions, or write geometry='first_contact' if the positions are those",
+    )
+    ENDLESS_CONTACT = _Outcome(
+        30,
+        "solution",
+        "the contact does not end within three times its nominal duration",
+        "the contact does not end within three times its nominal duration: the bodies stay together, pushed or held by tyres; "
+        "give a shorter duration, less drag, or a higher restitution",
+    )
+    NEGATIVE_SIZE = _Outcome(31, "input", "a drag or a stiffness is below 0")
 
     @property
     def label(self) -> str:

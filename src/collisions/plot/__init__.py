@@ -10,6 +10,7 @@ from .evidence import corner, residuals
 from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
+from .pulse import pulse
 from .scene import scene
 from .uncertainty import contributions, distribution
 
@@ -21,6 +22,7 @@ __all__ = [
     "force_time",
     "impulse_plane",
     "momentum",
+    "pulse",
     "residuals",
     "scene",
 ]

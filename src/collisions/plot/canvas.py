@@ -93,6 +93,16 @@ def answered(impact: Any, function: str) -> Impact:
     return answer
 
 
+def only_of_an_impulse(impact: Impact, function: str) -> None:
+    """Raise for an impact that was followed in time."""
+    if impact.pulse is not None:
+        raise InputError(
+            f"impact was followed in time, and {function} draws an impulse; write plot.pulse(impact)",
+            code="takes_time",
+            argument="impact",
+        )
+
+
 def check_size(name: str, value: float, least: float = 0.0) -> None:
     """Raise if a number is too large, or smaller than ``least``, for axes to be laid out."""
     if not least <= abs(value) <= LARGEST:

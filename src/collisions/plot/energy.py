@@ -33,7 +33,8 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "a.after", "b.after".
+        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" of a time-resolved impact with
+        tyres, "a.after", "b.after".
 
     Raises
     ------
@@ -62,6 +63,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
         ("b.before", f"{names[1]} before", _kinetic(b.before, "b"), COLOURS[1], ""),
         ("lost.normal", "lost along\nthe normal", -impact.energy_loss_normal, FORCE, "xxx"),
         ("lost.tangential", "lost along\nthe tangent", -impact.energy_loss_tangential, FORCE, "..."),
+        *_tyres(impact),
         ("a.after", f"{names[0]} after", -_kinetic(a.after, "a"), COLOURS[0], "///"),
         ("b.after", f"{names[1]} after", -_kinetic(b.after, "b"), COLOURS[1], "///"),
     ]
@@ -96,6 +98,12 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
     axes.locator_params(axis="x", nbins=5)
     tidy(axes)
     return axes
+
+
+def _tyres(impact: Impact) -> list[tuple[str, str, float, str, str]]:
+    """The row of what tyres took, of an impact that has them."""
+    taken = impact.a.tyre_loss + impact.b.tyre_loss
+    return [("lost.tyres", "lost by\nthe tyres", -float(taken), FORCE, "|||")] if taken else []
 
 
 def _tint(colour: str) -> str:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import pulse
+from ..drag import one_value
 from ..errors import InputError
 from ..formatting import UnitSystem
 from ..impact import Impact
 from ..reading import ArgumentReader, warn_if_large
-from ..travel.surfaces import one_value
 from ..units import Input, shown
-from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, tidy
+from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, only_of_an_impulse, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,6 +68,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     """
     labels = Units(units)
     impact = answered(impact, "force_time")
+    only_of_an_impulse(impact, "force_time")
     reader = ArgumentReader()
     time = one_value(reader, duration, "s", "duration")
     reader.close()

@@ -13,7 +13,7 @@ from ..impact import Impact, answer_of, solved
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..warning import quietly
-from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, tidy
+from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, only_of_an_impulse, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,6 +67,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     """
     labels = Units(units)
     impact = answered(impact, "impulse_plane")
+    only_of_an_impulse(impact, "impulse_plane")
     axes = begin(axes, (7.5, 6.0))
     factor = labels.factor("N*s")
     normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor

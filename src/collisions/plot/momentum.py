@@ -23,10 +23,10 @@ _TRIED = 12
 def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
 
-    Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes from
-    outside, by a body of infinite mass or by a pivot, follows A and B before as an arrow of its own, and so ends where A and B
-    after end; then no total is drawn. If A or B after would hide one of those, both are drawn beside, and thin lines join
-    what is one place. A body of infinite mass has no momentum to draw.
+    Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes
+    from outside, by a body of infinite mass, by a pivot or by tyres, follows A and B before as an arrow of its own, and so
+    ends where A and B after end; then no total is drawn. If A or B after would hide one of those, both are drawn beside,
+    and thin lines join what is one place. A body of infinite mass has no momentum to draw.
 
     Parameters
     ----------
@@ -74,7 +74,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
     totals = {when: _sum(chain) for when, chain in chains.items()}
     outside = totals["after"][0] - totals["before"][0], totals["after"][1] - totals["before"][1]
     longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
-    open_ended = not all(takes_part) or any(side.before.pivot is not None for side in (impact.a, impact.b))
+    braked = any(side.tyre_loss for side in (impact.a, impact.b))
+    open_ended = braked or not all(takes_part) or any(side.before.pivot is not None for side in (impact.a, impact.b))
 
     drawing = Drawing(axes)
     across = _common_normal([*chains["before"], *chains["after"]], longest)
@@ -180,11 +181,13 @@ def _chain(start: Place, vectors: list[Place]) -> list[tuple[Place, Place]]:
 
 
 def _by_whom(impact: Impact) -> str:
-    """A phrase naming the infinite masses and pivots that give momentum to the bodies drawn."""
+    """A phrase naming the infinite masses, pivots and tyres that give momentum to the bodies drawn."""
     parts = []
     for index, side in enumerate((impact.a, impact.b)):
         if math.isinf(side.before.mass):
             parts.append(f"{'AB'[index]}, of infinite mass,")
         elif side.before.pivot is not None:
             parts.append(f"the pivot of {'AB'[index]}")
+    if any(side.tyre_loss for side in (impact.a, impact.b)):
+        parts.append("the tyres")
     return f"given by {' and '.join(parts)}"

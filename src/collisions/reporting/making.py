@@ -42,7 +42,7 @@ _OTHER_PARTS: dict[type, tuple[str, ...]] = {
     MomentumSolution: ("outline_a", "outline_b", "share_a"),
     Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
 }
-_SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2)}
+_SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2), "pulse": (7.0, 7.0)}
 _SIZE = (6.5, 4.6)
 # Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names are no formulas.
 _SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
@@ -152,7 +152,7 @@ def report(
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, evidence, by_input)
-        found = left_out(impact, duration=options["duration"], drag=options["drag"])
+        found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
         sections.assumptions(sheet, impact, found, outlines, options["limits"])
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
@@ -289,6 +289,10 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
         _draw(sheet, "scene", "The scene from above at the moment of impact.", plot.scene, impact, units=units, **outlines)
         if impact.model != "linear_central":
             _draw(sheet, "momentum", "Momentum before and after, head to tail.", plot.momentum, impact, units=units)
+        if impact.pulse is not None:
+            caption = "Force, crush and delta-V over the time of the contact."
+            _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
+        elif impact.model != "linear_central":
             caption = "Normal and tangential impulse, with the lines that decide them."
             _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
         _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)

@@ -67,7 +67,13 @@ _REGIMES = {
     "frictionless": "none: the contact is frictionless",
     "sliding": "the contact slips to the end, and the impulse ratio has the size of the friction given",
     "sticking": "slip ends during the contact, with less than the friction given",
+    "reversing": "slip ends during the contact and comes back the other way",
     "given": "by the ratio that was given, not by a law of friction",
+}
+_GEOMETRIES = {
+    "maximum_engagement": "those given are of maximum engagement; the start of the contact was found from them.",
+    "first_contact": "those given are of first contact.",
+    "fixed": "they stay where they are during the contact.",
 }
 _RANGE = (
     reference.RESTITUTION_FIT,
@@ -103,7 +109,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
-    if impact.model != "linear_central":
+    if impact.law is not None and impact.model != "linear_central":
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.say(
@@ -261,26 +267,30 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
 
 
 def assumptions(
-    sheet: Sheet, impact: Impact, found: LeftOut, outlines: Mapping[str, Any], limits: Mapping[str, Any] | None
+    sheet: Sheet, impact: Impact, found: LeftOut | None, outlines: Mapping[str, Any], limits: Mapping[str, Any] | None
 ) -> None:
-    """Write the model and its law, the conventions, and numbers for what an impulse neglects."""
+    """Write the model and its law, the conventions, and numbers for what an impulse neglects, or how the contact passed."""
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
-        lines.append(("Law:", f"{impact.law}: {LAWS[str(impact.law)].assumption}."))
+        if impact.pulse is None:
+            lines.append(("Law:", f"{impact.law}: {LAWS[str(impact.law)].assumption}."))
         back = impact.regime == "sticking" and sheet.system.working(abs(impact.slip_after), "speed") != "0"
         ends = ", and comes back" if back else ""
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))
     vehicles = (impact.a.before, impact.b.before)
     pivots = " but the pivot's" if any(vehicle.pivot is not None for vehicle in vehicles) else ""
-    lines += [
-        (
-            "Impulse:",
+    if found is None:
+        lines.append(("Places:", _GEOMETRIES[impact.inputs.geometry or "maximum_engagement"]))
+        if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
+            lines.append(("Tyres:", "a vehicle without a heading is held at its centre of mass, where tyres cannot turn it."))
+    else:
+        instant = (
             "it acts in an instant, along one normal that points from A into B. Positions, masses and inertias do not change "
-            f"while it acts; the forces of the tyres and all others{pivots} are left out.",
-        ),
-        ("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."),
-    ]
+            f"while it acts; the forces of the tyres and all others{pivots} are left out."
+        )
+        lines.append(("Impulse:", instant))
+    lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
     for label, corners in outlines.items():
         places = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
         lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {places}."))
@@ -288,6 +298,9 @@ def assumptions(
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
     sheet.items(lines)
+    if found is None:
+        _pulse(sheet, impact)
+        return
     time, drag = f"{float(found.duration):g} s", f"{float(found.drag):g}"
     bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
     but = ", except what is marked as a bound" if bounded else ""
@@ -299,6 +312,28 @@ def assumptions(
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
         if math.isfinite(float(vehicle.mass)):
             rows += [(plain(who(index, vehicle)), what, text) for what, text in _left_out(sheet, side, impact.model, vehicle)]
+    sheet.table(rows)
+
+
+def _pulse(sheet: Sheet, impact: Impact) -> None:
+    """Write how a time-resolved contact passed."""
+    found, answer = impact.pulse, sheet.system.answer
+    if found is None:
+        return
+    rows = [
+        ("contact", "duration", answer(float(found.duration), "duration")),
+        ("contact", "largest force along the normal", answer(float(found.peak_force), "force")),
+        ("contact", "mutual crush, at its most", answer(float(found.max_crush), "length")),
+    ]
+    for index, (side, most) in enumerate(((impact.a, found.peak_acceleration_a), (impact.b, found.peak_acceleration_b))):
+        if math.isfinite(float(side.before.mass)):
+            name = plain(who(index, side.before))
+            rows.append((name, "largest acceleration of the centre of mass", answer(float(most), "acceleration")))
+            if impact.inputs.drag:
+                held = (answer(float(part), "impulse") for part in (side.tyre_impulse_x, side.tyre_impulse_y))
+                rows.append((name, "impulse of the tyres (x, y)", ", ".join(held)))
+                rows.append((name, "energy lost by the tyres", answer(float(side.tyre_loss), "energy")))
+    sheet.say("How the contact passed:")
     sheet.table(rows)
 
 

@@ -14,9 +14,9 @@ Sheets in US units write the speed in mph as sqrt(30 f d) with d in feet. The co
 speeds are 0.14 % higher than these; those of sheets that take 32.2 ft/s2 are 0.04 % higher.
 """
 
+from ..drag import GRAVITY
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time
-from .surfaces import GRAVITY
 
 __all__ = ["GRAVITY", "RunOut", "SimulatedPath", "distance", "path", "simulate", "speed", "time"]

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..directions import Angle, angle_of
+from ..drag import HIGHEST_DRAG, one_value
 from ..errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, numeric
@@ -20,12 +21,10 @@ from ..units import Input, Pair, Value, is_quantity, shown
 from ..warning import warn
 from .smoothing import slopes, smooth
 from .surfaces import (
-    HIGHEST_DRAG,
     Segments,
     durations_along,
     for_each,
     in_one_precision,
-    one_value,
     out_of_range,
     read_grade,
     read_length,

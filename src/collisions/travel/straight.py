@@ -7,18 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from ..drag import GRAVITY, read_drag
 from ..errors import NoSolutionError, ShapeError
 from ..kernels.elementwise import select
 from ..reading import ArgumentReader
 from ..units import Input, Value
 from .surfaces import (
-    GRAVITY,
     Segments,
     durations_along,
     for_each,
     in_one_precision,
     out_of_range,
-    read_drag,
     read_grade,
     read_length,
     read_speed,

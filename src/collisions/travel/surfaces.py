@@ -8,21 +8,18 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError, UnitsError
-from ..kernels.elementwise import FINITE, Domain, select
+from ..drag import GRAVITY, one_value
+from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError
+from ..kernels.elementwise import select
 from ..quantities import hypot, numeric
 from ..reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
-from ..units import Input, is_quantity, shown
+from ..units import Input
 from ..warning import warn_of_cases
 
 Segments: TypeAlias = Input | Sequence[Input]
 _Reader: TypeAlias = Callable[[ArgumentReader, Any, str], Any]
 
-GRAVITY = 9.80665
-"""Standard gravity [m/s**2]. It varies by 0.5 % between the equator and the poles, speeds by half of that."""
-
-# No road tyre holds more than this on any road, and no road is steeper: beyond, a bare number is in another unit.
-HIGHEST_DRAG = 1.5
+# No road is steeper: beyond, a bare number is in another unit.
 _STEEPEST_GRADE = 0.5
 # Refusal codes of negative single numbers by argument; the elements of arrays are checked here.
 _BELOW_ZERO = {
@@ -60,19 +57,6 @@ def for_each(reader: ArgumentReader, value: Any, name: str, count: int | None, r
     return [math.nan] * (count or 1)
 
 
-def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: Domain = FINITE) -> Any:
-    """A float or an array; a list is refused, as it would be neither segments nor cases."""
-    if isinstance(value, (list, tuple)):
-        return reader.refuse(
-            ShapeError(
-                f"{name} is a {type(value).__name__}, and takes one value; many cases go in a numpy array",
-                code="bad_shape",
-                argument=name,
-            )
-        )
-    return reader.number(value, unit, name, domain)
-
-
 def read_length(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A length along the path [m], >= 0."""
     read = one_value(reader, value, "m", name)
@@ -83,33 +67,6 @@ def read_speed(reader: ArgumentReader, value: Any, name: str) -> Any:
     """A speed along the path [m/s], >= 0."""
     read = one_value(reader, value, "m/s", name)
     return at_least_zero(reader, read, value, name, "negative_speed", "it is counted along the way travelled")
-
-
-def read_drag(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """The drag factor, also from a deceleration."""
-    either = isinstance(value, str) or is_quantity(value)
-    read = _factor_or_deceleration(reader, value, name) if either else one_value(reader, value, "", name)
-    why = "it says how much the ground slows the vehicle, whatever way it goes"
-    read = at_least_zero(reader, read, value, name, "negative_drag", why)
-    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of gravity", "m/s**2", "%")
-    return read
-
-
-def _factor_or_deceleration(reader: ArgumentReader, value: Any, name: str) -> Any:
-    factor, deceleration = ArgumentReader(), ArgumentReader()
-    read = factor.number(value, "", name)
-    if not factor.problems:
-        return read
-    read = deceleration.number(value, "m/s**2", name)
-    if not deceleration.problems:
-        return read / GRAVITY
-    if isinstance(factor.problems[0], UnitsError) and isinstance(deceleration.problems[0], UnitsError):
-        text = (
-            f"{name}: cannot read {shown(value)} as a drag factor or a deceleration; write 0.7, '70 %', '6.9 m/s**2' or "
-            f"'22.5 ft/s**2'"
-        )
-        return reader.refuse(UnitsError(text, code="bad_units", argument=name))
-    return reader.refuse(next(p for p in (*factor.problems, *deceleration.problems) if not isinstance(p, UnitsError)))
 
 
 def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:

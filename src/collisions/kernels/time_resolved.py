@@ -1,0 +1,426 @@
+"""The time-resolved impact: the contact set up in its own units, its start found, stepped through, and answered in SI."""
+
+from collections.abc import Callable
+from functools import lru_cache
+from math import inf, nan, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .contact_step import (
+    LONGEST,
+    Body,
+    Contact,
+    Motion,
+    Passing,
+    Place,
+    Spring,
+    Wheels,
+    advance,
+    approach,
+    braked,
+    compliance,
+    force_back,
+    place_of,
+)
+from .elementwise import first_status, select
+from .floats import compile_loop
+from .status import EPS, Status
+
+# How often the start is corrected, and how near the last correction has to be, in closing speed times duration and in radians.
+_CORRECTIONS, _NEAR = 20, 1e-6
+# The start is first looked for roughly, with few steps.
+_COARSE, _ROUGHLY = 0.08, 3e-3
+# A friction whose product with a force of 0 is 0.
+_MOST_FRICTION = 1e150
+_FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
+_ONE: Wheels = ((0.0, 0.0),)
+_FIXED = (Spring, Contact, Body, Body)
+_MOVING = (Motion, Motion, Passing)
+
+Moving = tuple[Motion, Motion, Passing]
+Fixed = tuple[Spring, Contact, Body, Body]
+Run = Callable[[Fixed, Moving, bool, Any], Moving]
+
+
+class Settings(NamedTuple):
+    """What is the same of all cases: geometry, steps a nominal duration, kind of stiffness, and the wheels of A and B."""
+
+    geometry: str
+    steps: int
+    stiffness: str
+    wheels_a: Wheels
+    wheels_b: Wheels
+
+
+class Passed(NamedTuple):
+    """The answer of a contact that took time: that of an ``Answer``, what tyres did, and the state at maximum engagement."""
+
+    status: Any
+    closing_speed: Any = nan
+    slip_before: Any = nan
+    slip_after: Any = nan
+    normal_impulse: Any = nan
+    tangential_impulse: Any = nan
+    compression_impulse: Any = nan
+    no_slip_normal: Any = nan
+    no_slip_tangential: Any = nan
+    sticks: Any = False
+    effective_mass: Any = nan
+    coupling: Any = nan
+    energy_loss_normal: Any = nan
+    energy_loss_tangential: Any = nan
+    energy_loss: Any = nan
+    impulse_x: Any = nan
+    impulse_y: Any = nan
+    delta_vx_a: Any = nan
+    delta_vy_a: Any = nan
+    delta_yaw_rate_a: Any = nan
+    delta_vx_b: Any = nan
+    delta_vy_b: Any = nan
+    delta_yaw_rate_b: Any = nan
+    separation_speed: Any = nan
+    energy_absorbed: Any = nan
+    common_velocity: Any = nan
+    compression_vx_a: Any = nan
+    compression_vy_a: Any = nan
+    compression_yaw_rate_a: Any = nan
+    compression_vx_b: Any = nan
+    compression_vy_b: Any = nan
+    compression_yaw_rate_b: Any = nan
+    tyre_impulse_x_a: Any = nan
+    tyre_impulse_y_a: Any = nan
+    tyre_moment_a: Any = nan
+    tyre_loss_a: Any = nan
+    tyre_impulse_x_b: Any = nan
+    tyre_impulse_y_b: Any = nan
+    tyre_moment_b: Any = nan
+    tyre_loss_b: Any = nan
+    duration: Any = nan
+    peak_force: Any = nan
+    peak_acceleration_a: Any = nan
+    peak_acceleration_b: Any = nan
+    max_crush: Any = nan
+    history: Any = None
+
+
+def wheels_of(heading: Any, drag: Any) -> Wheels:
+    """The wheels of a vehicle: none without drag; all of its weight at the centre of mass without a heading."""
+    return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
+
+
+def time_resolved(
+    restitution: Any,
+    normal: tuple[Any, Any],
+    friction: Any,
+    point: tuple[Any, Any],
+    deceleration: Any,
+    wheelbase: Any,
+    track: Any,
+    stiffness: tuple[Any, ...],
+    bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
+    settings: Settings,
+    run: Callable[[Settings], Run],
+    note: list[tuple[float, ...]] | None = None,
+) -> Passed:
+    """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
+
+    ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force at no crush and stiffness of
+    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, cosine and sine of the heading.
+    """
+    e, (nx, ny), steps = restitution, normal, run(settings)
+    own = [_own(body, *point) for body in bodies]
+    (a, on_a), (b, on_b) = own
+    place = Place(nx, ny, a.rx, a.ry, b.rx, b.ry)
+    closing_speed, _ = approach(place, on_a, on_b)
+    k_nn, k_nt, k_tt = compliance(place, a, b)
+    yields = k_nn > (64.0 * EPS) ** 2 * (k_nn + k_tt)
+    mass, closing = 1.0 / select(yields, k_nn, 1.0), select(closing_speed > 0.0, closing_speed, 1.0)
+    duration, spring = _spring(settings.stiffness, stiffness, e, mass, closing)
+    length = closing * duration
+    force = deceleration * (duration / closing)
+    (a, on_a), (b, on_b) = (
+        (
+            _scaled(body, numbers[7:], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
+            Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
+        )
+        for body, motion, numbers in ((a, on_a, bodies[0]), (b, on_b, bodies[1]))
+    )
+    step = 1.0 / settings.steps
+    back = e**0.5 * step
+    soonest = 0.6 * e / (1.0 + e)
+    fixed_a, fixed_b = ((body.per_mass == 0.0) & (body.per_inertia == 0.0) for body in (a, b))
+    contact = Contact(
+        e,
+        select(friction < _MOST_FRICTION, friction, _MOST_FRICTION),
+        nx,
+        ny,
+        on_a=select(fixed_b, 1.0, select(fixed_a, 0.0, 0.5)),
+        turn_a=select(fixed_b, 0.0, select(fixed_a, 1.0, 0.5)),
+        step=step,
+        step_back=select(back < soonest, back, soonest),
+    )
+    # Broadcast, so that all that moves has the shape of the cases.
+    zero = 0.0 * (
+        closing + contact.step_back + a.per_mass + b.per_mass + contact.friction + on_a.vx + on_b.vx + a.grip + b.grip
+    )
+    start = [motion._replace(**{name: value + zero for name, value in motion._asdict().items()}) for motion in (on_a, on_b)]
+    none = zero != zero
+    passing = Passing(*(none if name == "sticks" else none ^ True if name == "active" else zero for name in Passing._fields))
+    moving: Moving = start[0], start[1], passing._replace(c=1.0 + zero)
+    converged: Any = True
+    if settings.geometry == "maximum_engagement":
+        (contact, a, b), converged = _start(spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
+    fixed = spring, contact, a, b
+    first = place_of(contact, a, b, *moving)
+    closing_before, slip_before = approach(first, *moving[:2])
+    moving = *moving[:2], moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged)
+    engaged = steps(fixed, moving, True, None if note is None else note.append)
+    _, parting = force_back(spring, e, engaged[2].crush, engaged[2].deepest)
+    more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
+    moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
+    passing = moving[2]
+    owed = select(passing.owed > 0.0, passing.owed, 0.0)
+    on_a, on_b = after = (
+        braked(a, moving[0], owed, settings.wheels_a),
+        braked(b, moving[1], owed, settings.wheels_b),
+    )
+    separating, slip_after = approach(place_of(contact, a, b, on_a, on_b, passing), on_a, on_b)
+    if note:
+        note[-1] = (*on_a, *on_b, *passing)
+    most, absorbed = spring.at(passing.deepest)
+    impulse, energy = mass * closing, mass * closing * closing
+    x, y = passing.impulse_x * impulse, passing.impulse_y * impulse
+    found: dict[str, Any] = {
+        "closing_speed": closing_before * closing,
+        "slip_before": slip_before * closing,
+        "slip_after": slip_after * closing,
+        "normal_impulse": nx * x + ny * y,
+        "tangential_impulse": nx * y - ny * x,
+        "compression_impulse": (nx * engaged[2].impulse_x + ny * engaged[2].impulse_y) * impulse,
+        "sticks": passing.sticks,
+        "effective_mass": mass + 0.0 * zero,
+        "coupling": k_nt + 0.0 * zero,
+        "energy_loss_normal": passing.work_n * energy,
+        "energy_loss_tangential": passing.work_t * energy,
+        "energy_loss": (passing.work_n + passing.work_t) * energy,
+        "impulse_x": x,
+        "impulse_y": y,
+        "separation_speed": -separating * closing,
+        "energy_absorbed": absorbed * energy,
+        "duration": passing.time * duration,
+        "peak_force": most * (impulse / duration),
+        "max_crush": passing.deepest * length,
+    }
+    there = place_of(contact, a, b, *engaged)
+    found["common_velocity"] = closing * (
+        there.nx * (engaged[0].vx - engaged[0].spin * there.ay) + there.ny * (engaged[0].vy + engaged[0].spin * there.ax)
+    )
+    for label, sign, body, before, most_engaged, end in zip("ab", (-1.0, 1.0), (a, b), start, engaged, after, strict=False):
+        for prefix, motion, at in (("compression", most_engaged, engaged[2]), ("delta", end, passing)):
+            found[f"{prefix}_vx_{label}"] = body.per_mass * (sign * at.impulse_x + motion.tyre_x) * closing
+            found[f"{prefix}_vy_{label}"] = body.per_mass * (sign * at.impulse_y + motion.tyre_y) * closing
+            found[f"{prefix}_yaw_rate_{label}"] = (motion.spin - before.spin) / duration
+        found[f"tyre_impulse_x_{label}"] = end.tyre_x * impulse
+        found[f"tyre_impulse_y_{label}"] = end.tyre_y * impulse
+        found[f"tyre_moment_{label}"] = end.tyre_yaw * (impulse * length)
+        found[f"tyre_loss_{label}"] = -end.tyre_work * energy
+        found[f"peak_acceleration_{label}"] = end.acceleration**0.5 * (closing / duration)
+    total = sum((0.0 * value for value in found.values()), start=0.0 * length)
+    finite = total - total == 0.0
+    status = first_status(
+        (yields ^ True, Status.IMMOVABLE),
+        (closing_speed < 0.0, Status.SEPARATING),
+        (closing_speed == 0.0, Status.GRAZING),
+        (converged ^ True if converged is not True else False, Status.NO_START),
+        (closing_before <= 0.0, Status.SEPARATING),
+        (finite ^ True, Status.OUT_OF_RANGE),
+        (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
+        (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
+    )
+    if note:
+        found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
+    return Passed(status=status, **found)
+
+
+def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
+    """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
+    closing, duration, length, newton = units
+    before = (*start[0], *start[1], *Passing())
+    count = len(Motion._fields)
+    place = {name: 2 * count + at for at, name in enumerate(Passing._fields)}
+    columns = (0, 1, 2, count, count + 1, count + 2, place["time"], place["crush"], place["deepest"])
+    vx_a, vy_a, spin_a, vx_b, vy_b, spin_b, time, crush, deepest = np.array(
+        [[state[column] for column in columns] for state in (before, *note)]
+    ).T
+    with np.errstate(all="ignore"):
+        force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
+    if e == 0.0 or crush[-1] < deepest[-1]:
+        force[-1] = 0.0
+    return (
+        time * duration,
+        force * newton,
+        crush * length,
+        np.hypot(vx_a - vx_a[0], vy_a - vy_a[0]) * closing,
+        np.hypot(vx_b - vx_b[0], vy_b - vy_b[0]) * closing,
+        spin_a / duration,
+        spin_b / duration,
+    )
+
+
+def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
+    """A body and its motion in SI, without what only tyres need."""
+    mass, inertia, vx, vy, spin, x, y, *_ = body
+    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(vx, vy, spin)
+
+
+def _scaled(body: Body, heading: tuple[Any, Any], mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
+    """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its weight, over its mass."""
+    cos, sin = heading
+    per_mass, per_inertia = body.per_mass * mass, body.per_inertia * ((mass * length) * length)
+    moves = per_mass > 0.0
+    turning = 0.0 if cos is None else (ahead * ahead + left * left) * per_inertia
+    cos, sin = (0.0, 0.0) if cos is None else (cos, sin)
+    return Body(
+        per_mass,
+        per_inertia,
+        body.rx / length,
+        body.ry / length,
+        ahead_x=ahead * cos,
+        ahead_y=ahead * sin,
+        left_x=-left * sin,
+        left_y=left * cos,
+        grip=select(moves, 0.25 * force / select(moves, per_mass, 1.0), 0.0),
+        cap=select(moves, 0.25 / select(moves, per_mass + turning, 1.0), 0.0),
+    )
+
+
+def _spring(kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any) -> tuple[Any, Spring]:
+    """The nominal duration, which is that of a linear spring with the same largest force, and the spring in its units."""
+    swing = 0.5 * pi * (1.0 + e)
+    linear = Spring(0.0, swing * swing, inf, 0.0)
+    if kind == "duration":
+        return given[0], linear
+    if kind == "stiffness":
+        return swing * (mass / given[0]) ** 0.5, linear
+    force_a, stiff_a, force_b, stiff_b = given
+    swap = force_b < force_a
+    low, high = select(swap, force_b, force_a), select(swap, force_a, force_b)
+    first, second = select(swap, stiff_b, stiff_a), select(swap, stiff_a, stiff_b)
+    # Both in series, each giving way only above its own force; a rigid one never does.
+    alone = second == inf
+    both = select(alone, first, first / (1.0 + first / select(alone, 1.0, second)))
+    energy = mass * closing * closing
+    squared = low * low + first * energy
+    at_high = high * high
+    squared = select(squared <= at_high, squared, at_high + both * (energy - (at_high - low * low) / first))
+    most = squared**0.5
+    duration = swing * (mass * closing / most)
+    unit, length = duration / (mass * closing), closing * duration
+    return duration, Spring(low * unit, first * (length * unit), (high - low) / first / length, both * (length * unit))
+
+
+def _start(
+    spring: Spring, contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any
+) -> tuple[tuple[Contact, Body, Body], Any]:
+    """Levers, headings and normal at first contact for which those given are reached at maximum engagement.
+
+    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant.
+    """
+    on_a, on_b, passing = moving
+    names = ("dx", "dy", "c", "s")
+    guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
+    coarse = select(contact.step < _COARSE, _COARSE, contact.step)
+    for step, enough in ((coarse, _ROUGHLY), (contact.step, _NEAR)):
+        older: Any = None
+        for _ in range(_CORRECTIONS):
+            start = _moved_back(contact._replace(step=step), a, b, guess)
+            closing, _ = approach(place_of(*start, *moving), on_a, on_b)
+            end = run((spring, *start), (on_a, on_b, passing._replace(closing=closing, active=closing > 0.0)), True, None)
+            reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
+            off = [new - old for new, old in zip(reached, guess, strict=True)]
+            far: Any = sum(abs(part) for part in off)
+            near = (far <= enough) & (closing > 0.0)
+            if np.all(near | (usable ^ True)):
+                break
+            newer = reached if older is None else _secant(reached, off, *older)
+            older = off, reached
+            # A case that has arrived stays where it is, however many others go on.
+            guess = [select(near, old, new) for old, new in zip(guess, newer, strict=True)]
+    return start, near
+
+
+def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]) -> list[Any]:
+    """The next guess, from where the last two led and by how much they missed."""
+    change = [now - then for now, then in zip(off, off_before, strict=True)]
+    square: Any = sum(part * part for part in change)
+    along: Any = sum(part * now for part, now in zip(change, off, strict=True))
+    share = along / select(square > 0.0, square, 1.0)
+    share = select(abs(share) < 1.0, share, 0.0)
+    return [now - share * (now - then) for now, then in zip(reached, reached_before, strict=True)]
+
+
+def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[Contact, Body, Body]:
+    """Geometry at first contact from that at maximum engagement, by what moves and turns between them."""
+    turned = []
+    for body, (dx, dy, c, s) in ((a, moved[:4]), (b, moved[4:8])):
+        size = (c * c + s * s) ** 0.5
+        turned.append((body, body.rx + dx, body.ry + dy, c / size, s / size))
+    # Where the point was, seen from where it is: both bodies carry it there.
+    cos = sin = x = y = 0.0
+    for (body, rx, ry, c, s), share in zip(turned, (contact.on_a, 1.0 - contact.on_a), strict=True):
+        cos, sin = cos + share * c, sin + share * s
+        x, y = x + share * (body.rx - (c * rx - s * ry)), y + share * (body.ry - (s * rx + c * ry))
+    square = cos * cos + sin * sin
+    point_x, point_y = (cos * x + sin * y) / square, (cos * y - sin * x) / square
+    bodies = [
+        body._replace(
+            rx=point_x + rx,
+            ry=point_y + ry,
+            ahead_x=c * body.ahead_x + s * body.ahead_y,
+            ahead_y=c * body.ahead_y - s * body.ahead_x,
+            left_x=c * body.left_x + s * body.left_y,
+            left_y=c * body.left_y - s * body.left_x,
+        )
+        for body, rx, ry, c, s in turned
+    ]
+    c, s = moved[8:]
+    size = (c * c + s * s) ** 0.5
+    nx, ny = (c * contact.nx + s * contact.ny) / size, (c * contact.ny - s * contact.nx) / size
+    return contact._replace(nx=nx, ny=ny), bodies[0], bodies[1]
+
+
+@lru_cache(maxsize=64)
+def _loop(settings: tuple[Any, ...]) -> Callable[..., tuple[float, ...]]:
+    return compile_loop(advance, _FIXED, _MOVING, settings)
+
+
+def float_run(settings: Settings) -> Run:
+    """Step through one case of floats."""
+    moves, wheels = settings.geometry != "fixed", (settings.wheels_a, settings.wheels_b)
+    sizes = [len(kind._fields) for kind in _MOVING]
+    most = 40 * settings.steps
+
+    def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
+        if not moving[2].active:
+            return moving
+        step = _loop((engaging, moves, *wheels))
+        end = step([v for part in fixed for v in part], [v for part in moving for v in part], most, note)
+        one, two = sizes[0], sizes[0] + sizes[1]
+        return Motion(*end[:one]), Motion(*end[one:two]), Passing(*end[two:])
+
+    return run
+
+
+def block_run(settings: Settings) -> Run:
+    """Step through a block of arrays, until the last case ends."""
+    moves = settings.geometry != "fixed"
+
+    def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
+        for _ in range(40 * settings.steps):
+            if not np.any(moving[2].active):
+                break
+            moving = advance(*fixed, *moving, engaging, moves, settings.wheels_a, settings.wheels_b)
+        return moving
+
+    return run
