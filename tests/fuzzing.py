@@ -36,6 +36,7 @@ from collisions.derivation import explain
 from collisions.diagnostics.finding import Findings
 from collisions.inputs import Inputs
 from collisions.model_choice import ByModel
+from collisions.pulse import Pulse
 from collisions.quantities import Quantities
 from collisions.reconstruct.fit_result import Direction, Estimate, Residual, Values
 from collisions.reconstruct.momentum_solution import Sensitivity
@@ -64,7 +65,7 @@ def seeds() -> range:
 MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of collisions.__all__
 # What is given back without being in any __all__.
 GIVEN_BACK = (
-    Side, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs, PosteriorOutput,
+    Side, Pulse, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs, PosteriorOutput,
 )  # fmt: skip
 
 

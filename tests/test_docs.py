@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from collisions import Impact, Vehicle
+from collisions.pulse import Pulse
 from collisions.quantities import unit_of
 from collisions.side import Side
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
-KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle}
+KINDS = {"Impact": Impact, "Side": Side, "Vehicle": Vehicle, "Pulse": Pulse}
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not DOCS.is_dir(), reason="only where the docs are")]
 

@@ -42,7 +42,8 @@ def test_every_public_name_is_fuzzed() -> None:
 
 BODY = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading")
 NAMES = ("", "", "A", "Golf", "<b>&amp;|$x_1$", "a\nb", "\ud800half", "中文 " * 12, "`~~~ ```")
-SOLVERS = ("linear_central", "oblique_central", "eccentric", "solve")
+SOLVERS = ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
+PLACED = ("eccentric", "solve", "time_resolved")
 # In a plain answered case these may be no finite number: what each says of it.
 OPEN = frozenset(
     {
@@ -84,12 +85,31 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
     found: dict[str, Any] = {"normal": case.value("normal")}
     if case.maybe(0.2):
         found["normal"] = (case.value("vx"), case.value("vy"))
-    if model != "linear_central":
+    if model == "time_resolved":
+        found |= contact_time(case)
+    elif model != "linear_central":
         rule = case.choice(("friction", "friction", "impulse_ratio", "critical_fraction"))
         found[rule] = math.inf if rule == "friction" and case.maybe(0.1) else case.value(rule)
         found["law"] = case.option("brach", "brach", "kudlich-slibar")
-    if model in ("eccentric", "solve"):
+    if model in PLACED:
         found["point"] = case.pair("point")
+    return found
+
+
+def contact_time(case: Case) -> dict[str, Any]:
+    """How a contact passes."""
+    found: dict[str, Any] = {"friction": math.inf if case.maybe(0.1) else case.value("friction"), "steps": case.option(10, 12)}
+    found["geometry"] = case.option("maximum_engagement", "first_contact", "fixed")
+    kind = case.choice(("duration", "stiffness", "crush_a", "crush_b", "both"))
+    if kind == "duration":
+        found["duration"] = case.value("duration")
+    elif kind == "stiffness":
+        found["stiffness"] = case.value("stiffness")
+    for name in {"both": ("crush_a", "crush_b")}.get(kind, (kind,) if kind.startswith("crush") else ()):
+        found[name] = tuple(case.value(part) for part in ("stiffness", "energy_loss", "width"))
+    for name, value in (("drag", "drag"), ("wheelbase", "length"), ("track", "width")):
+        if case.maybe(0.5):
+            found[name] = case.value(value)
     return found
 
 
@@ -97,7 +117,7 @@ def meeting(case: Case, model: str) -> tuple[col.Vehicle, col.Vehicle, dict[str,
     """Two vehicles and a contact, in most cases such that they meet."""
     found = contact(case, model)
     normal = found["normal"]
-    spin, across = model in ("eccentric", "solve"), model != "linear_central"
+    spin, across = model in PLACED, model != "linear_central"
     if case.maybe(0.8) and type(normal) is float and math.isfinite(normal):
         c, s = math.cos(normal), math.sin(normal)
         first, second = case.uniform(2.0, 30.0), case.uniform(-20.0, 1.0)
@@ -184,7 +204,7 @@ def test_vehicles(case: Case) -> None:
 
 
 @fuzzes(
-    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
+    *SOLVERS, "required_model", "ModelChoice", "ByModel", "Impact", "Pulse", "Inputs", "Side", "Impact.again", "Impact.case", "Impact.ees", "Impact.max_crush_speeds", "Impact.to_dict", "Impact.from_dict", "Impact.to_columns", "Side.delta_v_at",
 )  # fmt: skip
 def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read back."""
@@ -1171,7 +1191,7 @@ def drawn(case: Case, name: str, *args: Any, **options: Any) -> None:
         plt.close(number)
 
 
-@fuzzes("plot.energy", "plot.force_time", "plot.impulse_plane", "plot.momentum", "plot.scene", share=0.1)
+@fuzzes("plot.energy", "plot.force_time", "plot.impulse_plane", "plot.momentum", "plot.pulse", "plot.scene", share=0.1)
 def test_pictures_of_an_impact(case: Case) -> None:
     """Every picture of an impact of any size."""
     impact = answer_of(case)
@@ -1179,6 +1199,7 @@ def test_pictures_of_an_impact(case: Case) -> None:
     drawn(case, "force_time", impact, case.value("duration"))
     drawn(case, "impulse_plane", impact)
     drawn(case, "momentum", impact)
+    drawn(case, "pulse", impact)
     options = {f"outline_{side}": outline(case) for side in "ab" if case.maybe(0.3)}
     if case.maybe(0.5):
         options["moment"] = case.option("before", "after", "both")

@@ -72,6 +72,10 @@ FORWARD = {
     "eccentric, many": lambda: col.eccentric(
         MANY, B, 0.1, law="kudlich-slibar", on_failure="nan", **SCENE | {"friction": np.array([0.0, 0.5, 9.0])}
     ),
+    "time-resolved": lambda: col.time_resolved(A, B, 0.1, duration="100 ms", drag=0.7, **SCENE | {"friction": 0.4}),
+    "time-resolved, many": lambda: col.time_resolved(
+        MANY, B, 0.1, crush_a=("60 kN/m", 7e5, 1.5), geometry="fixed", on_failure="nan", **SCENE | {"friction": 0.4}
+    ),
     "single precision": lambda: col.eccentric(A.replace(vx=np.float32([14, -3])), B, np.float32([0, 1]), on_failure="nan", **SCENE),
     "pinned": lambda: col.eccentric(A, PINNED, 0.1, normal=0.0, point=(0.0, 0.0), critical_fraction=1.0),
     "wall": lambda: col.eccentric(A, col.Vehicle.barrier(), 0.1, normal=0.0, point=(0.0, 0.0), friction=math.inf),

@@ -63,6 +63,10 @@ def forward_solvers() -> tuple[col.Impact, ...]:
     choice = col.required_model(a, b, 0.2, normal=(0.6, 0.8), point=[0.0, 1.0], friction=np.inf, tolerance=0.1)
     assert_type(choice, col.ModelChoice)
     error: float = choice.errors["linear_central"]
+    crush = ("60 kN/m", 700e3, "1.5 m")
+    passed = col.time_resolved(a, b, 0.1, normal=angles, point=corner, friction=0.5, crush_a=crush, drag=0.7, steps=50)
+    force: Any = None if passed.pulse is None else passed.pulse.force
+    print(force)
     return in_line, central, full, least, col.eccentric(full.a.after, wall, error, normal=full.normal, point=aside, friction=0)
 
 
