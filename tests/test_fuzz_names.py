@@ -210,7 +210,7 @@ def test_impacts(case: Case) -> None:
     """Any two bodies, any contact; of what is answered everything is read, written down and read back."""
     impact = case.choice([impact_of(case, model) for model in SOLVERS])
     if not isinstance(impact, col.Impact):
-        impact = known_impact(case.randrange(6))
+        impact = known_impact(case.randrange(7))
     case.look(impact, OPEN)
     case.call("Impact.ees", impact.ees, case.value("share_a"))
     case.call("Impact.max_crush_speeds", impact.max_crush_speeds, case.value("share_a"))
@@ -243,6 +243,7 @@ def known_impact(which: int) -> col.Impact:
         lambda: col.eccentric(a.replace(vx=speeds), b, 0.2, friction=0.4, on_failure="nan", **scene),
         lambda: reconstruct.central(1500.0, 1200.0, va=20.0, vb=0.0, vb_after=13.0),
         lambda: reconstruct.momentum(1500.0, 1200.0, course_a=0.0, course_b=1.5, course_a_after=0.5, course_b_after=0.8, speed_a_after=9.0, speed_b_after=8.0),
+        lambda: col.time_resolved(a, b, 0.2, friction=0.4, duration=0.1, drag=0.7, **scene),
     )[which]() if which != 5 else col.linear_central(a.replace(vy=0.0), b, 0.3)  # fmt: skip
 
 
@@ -295,7 +296,7 @@ def answer_of(case: Case) -> Any:
     if case.mood == "odd" and case.maybe(0.1):
         return case.garbage()
     if not isinstance(impact, col.Impact):
-        return known_impact(case.choice((0, 1, 2, 4, 5)))
+        return known_impact(case.choice((0, 1, 2, 4, 5, 6)))
     if isinstance(impact.status, np.ndarray) and impact.status.size and case.maybe(0.9):
         one = case.call("Impact.case", impact.case, (0,) * impact.status.ndim)
         return one if isinstance(one, col.Impact) else impact
@@ -1089,7 +1090,7 @@ def known_shares(case: Case) -> None:
 
 
 @fuzzes(
-    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary", "LeftOutSide.summary",
+    "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary", "LeftOutSide.summary", "Pulse.summary",
     "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary", "reconstruct.MomentumSolution.summary",
     "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to",
 )  # fmt: skip
@@ -1104,6 +1105,9 @@ def test_summaries(case: Case) -> None:
         findings = case.call("diagnose", col.diagnose, impact)
         results |= {"Impact": impact, "Side": impact.b, "LeftOut": left, "LeftOutSide": getattr(left, "a", None)}
         results |= {"Findings": findings}
+    timed = known_impact(6).pulse
+    assert timed is not None
+    results["Pulse"] = timed
     courses = {name: case.number("heading") for name in ("course_a", "course_b", "course_a_after", "course_b_after")}
     known = {"speed_a_after": case.number("speed"), "speed_b_after": case.number("speed"), **courses}
     results["reconstruct.MomentumSolution"] = case.call(

@@ -499,7 +499,7 @@ class Impact(Frozen, Summarized):
     def _summary(self, numbers: Cells) -> Summary:
         a, b = self.a, self.b
         contact = [(label, numbers.text(getattr(self, name), unit_of(Impact, name))) for name, label in _CONTACT.items()]
-        contact = contact if self.inputs.law else [row for row in contact if row[0] not in _TANGENTIAL]
+        contact = contact if self.inputs.model != "linear_central" else [row for row in contact if row[0] not in _TANGENTIAL]
         notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
         if np.any(self.refused):
             many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases are refused; their status says why."
@@ -514,7 +514,7 @@ class Impact(Frozen, Summarized):
     def _rows(self) -> Iterator[tuple[str, str]]:
         for name in attributes(Impact):
             value = getattr(self, name)
-            if isinstance(value, Side):
+            if isinstance(value, (Side, Pulse)):
                 yield from ((f"{name}.{inner}", text) for inner, text in value._rows())
             elif value is not None:
                 yield name, show(value, unit_of(Impact, name))
