@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..drag import one_value
 from ..errors import InputError, NoSolutionError, ShapeError
 from ..kernels.batch import precision
 from ..kernels.elementwise import UNIT_INTERVAL
@@ -19,7 +20,7 @@ from ..units import Input, Pair, shown
 from ..vehicle import NAMES, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
 from .run_out import read_friction
-from .surfaces import one_value, out_of_range, settle
+from .surfaces import out_of_range, settle
 
 WHEELS = ("front left", "front right", "rear left", "rear right")
 # Cases that are integrated together: few calls of numpy, and memory that is kept small.
