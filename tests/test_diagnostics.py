@@ -420,6 +420,39 @@ def test_damage_against_the_answer():
     assert (finding.vehicle, finding.measured) == ("b", pytest.approx(1.0, rel=1e-15))
 
 
+def test_components_are_compared_as_vectors():
+    """A recorder's pair (forward, left) of the right size from another side is off by twice the sine of half the angle."""
+    impact = square(friction=0.3, a={"vy": 8.0})
+    forward, left = impact.a.delta_v_forward, impact.a.delta_v_left
+    assert of("delta_v_off_damage", impact, damage_delta_v_a=(forward, left)) == []
+    assert of("delta_v_off_damage", impact, damage_delta_v_a=(f"{forward!r} m/s", left)) == []
+    for degrees in (5.0, 30.0, 180.0):
+        c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        turned = (c * forward - s * left, s * forward + c * left)
+        assert of("delta_v_off_damage", impact, damage_delta_v_a=math.hypot(*turned)) == []
+        found = of("delta_v_off_damage", impact, damage_delta_v_a=turned)
+        if degrees == 5.0:
+            assert found == []
+            continue
+        assert found[0].measured == pytest.approx(2.0 * math.sin(math.radians(degrees / 2)), rel=1e-12)
+        assert " from " in found[0].sentence
+    (longer,) = of("delta_v_off_damage", impact, damage_delta_v_a=(1.3 * forward, 1.3 * left))
+    assert longer.measured == pytest.approx(0.3, rel=1e-12)
+    with pytest.raises(col.MissingInputError, match="no heading, which damage_delta_v_a needs"):
+        diagnose(square(a={"heading": None}), damage_delta_v_a=(1.0, 2.0))
+    with pytest.raises(col.ShapeError, match="damage_delta_v_a must be a pair"):
+        diagnose(impact, damage_delta_v_a=(1.0, 2.0, 3.0))
+    solution = reconstruct.momentum(
+        1500, 1200, course_a=0.0, course_b=1.5, course_a_after=0.4, course_b_after=0.6, speed_a_after=9.0, speed_b_after=8.0,
+        heading_a=0.0,
+    )  # fmt: skip
+    size, pdof = solution.delta_v_a, solution.pdof_a
+    assert of("delta_v_off_damage", solution, damage_delta_v_a=(-size * math.cos(pdof), size * math.sin(pdof))) == []
+    assert of("delta_v_off_damage", solution, damage_delta_v_a=(size * math.cos(pdof), size * math.sin(pdof))) != []
+    with pytest.raises(col.MissingInputError, match="heading_b"):
+        diagnose(solution, damage_delta_v_b=(1.0, 2.0))
+
+
 def test_the_tutorial_whose_damage_contradicts_its_momentum():
     """EDCRASH, Visibility Study (M10): delta-V of 60.7 and 59.4 km/h by damage, 12.6 and 12.3 by momentum."""
     known = {}

@@ -291,6 +291,45 @@ def test_moment_arms_and_gamma():
     assert np.isfinite([many.a.gamma[0], many.a.moment_arm[0], many.a.normal_arm[0]]).all()
 
 
+def test_damage_to_delta_v_of_the_edcrash_tutorial():
+    """Both delta-Vs by damage of its figures 5-15, 5-16 and 5-23, from damage energies, masses, inertias and impulse centres.
+
+    EDCRASH counts headings clockwise and y to the right. A plastic contact that moves along the impulse alone is its model.
+    """
+    energy = 262905.65 + 140864.15
+
+    def at(mass, inertia, heading, forward, right):
+        """A car whose impulse centre lies at the origin."""
+        car = col.Vehicle(mass=mass, yaw_inertia=inertia, x=0.0, y=0.0, heading=math.radians(heading))
+        x, y = car.point(forward=forward, left=-right)
+        return car.replace(x=-x, y=-y)
+
+    ford = at(1124.04, 1763.82, -195.0, 1.5209, -0.1649)
+    nissan = at(1149.52, 2033.94, 90.0, -0.5848, 0.6765)
+    # The force on the Ford comes from 30 degrees left of ahead, and the normal points where it comes from.
+    normal = math.radians(-195.0 + 30.0)
+    contact = {"normal": normal, "point": (0.0, 0.0), "friction": 0.0}
+    (found,) = col.reconstruct.speeds(
+        ford, nissan, course_a=normal, course_b=None, speed_b=0.0, energy_loss=energy, restitution=0.0, **contact
+    )
+    for side, pdof, arm, delta_v, forward, right in (
+        (found.a, -30.0, 0.6176, 60.7, -52.6, 30.4),
+        (found.b, 75.0, 0.7400, 59.4, -15.4, -57.4),
+    ):
+        assert math.degrees(side.pdof) == pytest.approx(pdof, abs=1e-9)
+        # Half a unit of the last digit printed; a clockwise arm is positive there.
+        assert abs(side.moment_arm) == pytest.approx(arm, abs=2e-4)
+        assert 3.6 * side.delta_v == pytest.approx(delta_v, abs=0.05)
+        assert 3.6 * side.delta_v_forward == pytest.approx(forward, abs=0.05)
+        assert -3.6 * side.delta_v_left == pytest.approx(right, abs=0.05)
+    felt = [side.gamma * side.before.mass for side in (found.a, found.b)]
+    impulse = math.sqrt(2.0 * energy * felt[0] * felt[1] / sum(felt))
+    assert impulse == pytest.approx(found.normal_impulse, rel=1e-12)
+    # The energies divide as the damage says, and the EES with them.
+    ees = found.ees(262905.65 / energy)
+    assert ees == pytest.approx((math.sqrt(2 * 262905.65 / 1124.04), math.sqrt(2 * 140864.15 / 1149.52)), rel=1e-12)
+
+
 def test_linear_attributes():
     """The linear model has no tangent: ratios 0, frictionless, no law, no point."""
     impact = SCENES[0]

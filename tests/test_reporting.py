@@ -325,6 +325,14 @@ def test_ees_needs_a_share():
             assert float(shown[who, name].split()[0]) == pytest.approx(math.sqrt(2 * part * energy / mass), abs=0.006)
 
 
+def test_components_of_a_recorder_are_printed_and_kept():
+    """A pair (forward, left) stands among the inputs as it was given, and goes into the report that is made again."""
+    page = report(crash(), form="markdown", damage_delta_v_a=("-20 km/h", 1.5))
+    assert "forward: -5.556 m/s, given as -20 km/h; left: 1.5 m/s" in page
+    assert "and its damage shows 5.75 m/s from 0.264 rad" in page
+    assert report(replay(page), **options(page)) == page
+
+
 def test_every_finding_is_told(impacts):
     limits = {"tyre_impulse": 0.01}
     for name in ("pinned", "eccentric", "energy gain"):

@@ -525,6 +525,38 @@ def a_bent_reading(share):
     return reconstruct.fit(lambda x: {"y": x + k * x * x}, {"x": uncertainty.Uniform(-3.0, 3.0)}, seen)
 
 
+STUCK = {
+    "course_a": 0.0, "course_b": 1.6, "restitution": 0.0, "normal": 0.0, "point": (0.0, 0.0),
+}  # fmt: skip
+
+
+def recorders(friction, **components):
+    """Two equal cars without levers that meet; where both recorders tell of one impulse, it is that of A turned round."""
+    a, b = (col.Vehicle(mass=1e3, yaw_inertia=math.inf, x=x, y=0.0, heading=0.0) for x in (-2.0, 2.0))
+    return reconstruct.speeds(a, b, **STUCK, friction=friction, **components)
+
+
+def two_recorders(off):
+    """The components of B longer than those of A: each is off the mean by this share of it."""
+    forward, left = -8.0, 3.0
+    of_b = (1.0 + off) / (1.0 - off)
+    return recorders(
+        math.inf, delta_v_forward_a=forward, delta_v_left_a=left, delta_v_forward_b=-of_b * forward, delta_v_left_b=-of_b * left
+    )
+
+
+def beside_a_slide(tangent):
+    """The components of an impulse within the friction of 0.5, at an angle of this tangent to its edge."""
+    angle = math.atan(0.5) - math.atan(tangent)
+    return recorders(0.5, delta_v_forward_a=-8.0 * math.cos(angle), delta_v_left_a=8.0 * math.sin(angle))
+
+
+def a_record_that_stops(change):
+    """Flat until 20 ms before the end, where it gains this much."""
+    time = np.array([0.0, 0.05, 0.08, 0.10])
+    return reconstruct.recorded_pulse(time, np.array([0.0, -5.0, -8.0, -8.0 - change]), polarity="ISO 8855")
+
+
 UNITS, RANGE, CONDITION, GAIN = col.SuspectUnitsWarning, col.OutOfRangeWarning, col.IllConditionedWarning, col.EnergyGainWarning
 
 
@@ -591,6 +623,9 @@ WARNINGS = [
         below=True),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
+    Warned("impulse beside the edge of the friction", 0.1, CONDITION, "may_slide", beside_a_slide, below=True),
+    Warned("two recorders", 0.1, CONDITION, "recorders_differ", two_recorders),
+    Warned("change at the end of a record", 0.8 / 3.6, RANGE, "pulse_cut", a_record_that_stops),
     Warned("fit that bends", 0.2, CONDITION, "not_linear", a_bent_reading),
     Warned("fit within its bounds", 1.0, CONDITION, "told_by_bounds", one_reading, below=True),
     Warned("turn between two marks", math.radians(90.0), RANGE, "wide_segment", lambda x: two_marks(headings=[0.0, x])),
@@ -612,7 +647,7 @@ WARNINGS = [
 
 
 def test_every_warning_has_its_rows():
-    """Those of the source whose category is of a limit; two have a test of their own, below or where the rank is tested."""
+    """Those of the source whose category is of a limit; others have a test of their own."""
     categories = {row.category.__name__ for row in WARNINGS} - {"CollisionsWarning"}
     found = set()
     for path in Path(col.__file__).parent.rglob("*.py"):
@@ -625,7 +660,7 @@ def test_every_warning_has_its_rows():
             elif any(isinstance(part, ast.Name) and part.id in categories for part in call.args):
                 words = [part.value for part in call.args if isinstance(part, ast.Constant)]
                 found |= {word for word in words if re.fullmatch("[a-z_]+", word)}
-    assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | {"nearly_plastic", "undetermined"}
+    assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | {"nearly_plastic", "undetermined", "fold"}
 
 
 @pytest.mark.parametrize("row", WARNINGS, ids=lambda row: row.name)

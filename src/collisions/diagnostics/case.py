@@ -31,10 +31,11 @@ _ENERGY_FIGURES = 4
 
 
 class Damage(NamedTuple):
-    """The PDOF and delta-V that a vehicle's damage shows, independently of the result."""
+    """The PDOF and delta-V that a vehicle's damage shows, independently of the result; the direction if it came as a pair."""
 
     pdof: float | None
     delta_v: float | None
+    direction: float | None
 
 
 class VehicleResult(NamedTuple):

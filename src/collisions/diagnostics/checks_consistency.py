@@ -318,17 +318,23 @@ def pdof_off_damage(case: Case) -> Iterator[Measured]:
 
 
 @finding(
-    "difference of the damage_delta_v that was given from delta-V, as a share of delta-V",
+    "difference of the damage_delta_v that was given from delta-V, of a pair as vectors, as a share of delta-V",
     above(0.1),
     f"Delta-V Compatibility Note, {MESSAGES}: about 10 percent",
 )
 def delta_v_off_damage(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        delta_v, seen = vehicle.delta_v, case.damage[label].delta_v
-        if seen is not None:
-            has, shows = case.text(delta_v, "speed"), case.text(seen, "speed")
-            sentence = f"{vehicle.who} has a delta-V of {has}, and its damage shows {shows}"
-            yield Measured(share(abs(seen - delta_v), delta_v), sentence, label, rounding=off_by(1.0))
+        delta_v, seen, direction = vehicle.delta_v, case.damage[label].delta_v, case.damage[label].direction
+        if seen is None:
+            continue
+        has, shows, off = case.text(delta_v, "speed"), case.text(seen, "speed"), abs(seen - delta_v)
+        if direction is not None and vehicle.pdof is not None and not math.isnan(vehicle.pdof):
+            has, shows = (
+                f"{size} from {case.text(angle, 'angle')}" for size, angle in ((has, vehicle.pdof), (shows, direction))
+            )
+            off = math.hypot(off, 2.0 * math.sqrt(seen * delta_v) * math.sin(0.5 * (direction - vehicle.pdof)))
+        sentence = f"{vehicle.who} has a delta-V of {has}, and its damage shows {shows}"
+        yield Measured(share(off, delta_v), sentence, label, rounding=off_by(1.0))
 
 
 @finding(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,7 +17,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
-from ..units import Input, shown
+from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
 from .case import Case, Damage, ImpactCase, MomentumCase
@@ -40,8 +41,8 @@ def diagnose(
     crush_energy: Input | None = None,
     damage_pdof_a: Input | None = None,
     damage_pdof_b: Input | None = None,
-    damage_delta_v_a: Input | None = None,
-    damage_delta_v_b: Input | None = None,
+    damage_delta_v_a: Input | Pair | None = None,
+    damage_delta_v_b: Input | Pair | None = None,
     units: UnitSystem = "metric",
 ) -> Findings:
     """Check an impact, forward or reconstructed, for oddities: findings, an energy gain first.
@@ -71,8 +72,9 @@ def diagnose(
     damage_pdof_a, damage_pdof_b : angle [rad], optional
         Direction of force that the damage of a vehicle shows, 0 from straight ahead, positive clockwise, for
         ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a heading.
-    damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], optional
-        Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``.
+    damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
+        Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``: the magnitude, or the pair
+        (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
     units : "si", "metric" or "us"
         Of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. Measure and limit stay in SI, as do the
         numbers in a sentence that asks for the unit which was meant.
@@ -207,22 +209,33 @@ def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, giv
 
 
 def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str) -> Damage:
-    """The PDOF seen from the vehicle, and the delta-V, that its damage shows."""
+    """The PDOF seen from the vehicle, the delta-V that its damage or recorder shows, and of a pair its direction as a PDOF."""
+    direction = None
     if pdof is not None:
         name = f"damage_pdof_{label}"
         pdof = _single(reader, reader.number(pdof, "rad", name), name)
-        if isinstance(answer, Impact):
-            _need(reader, answer, ("heading",), name, label)
-        elif getattr(answer, f"pdof_{label}") is None:
-            text = (
-                f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 deg' (where the vehicle "
-                f"points) to reconstruct.momentum"
-            )
-            reader.refuse(MissingInputError(text, code="missing_heading", argument=f"heading_{label}"))
-    if delta_v is not None:
+        _need_heading(reader, answer, name, label)
+    if isinstance(delta_v, (tuple, list)):
+        name = f"damage_delta_v_{label}"
+        forward, left = (_single(reader, part, name) for part in reader.pair(delta_v, "m/s", name))
+        _need_heading(reader, answer, name, label)
+        if not reader.problems:
+            delta_v, direction = math.hypot(forward, left), math.atan2(left, -forward)
+    elif delta_v is not None:
         name = f"damage_delta_v_{label}"
         delta_v = _single(reader, amount(reader, delta_v, "m/s", name), name)
-    return Damage(pdof, delta_v)
+    return Damage(pdof, delta_v, direction)
+
+
+def _need_heading(reader: ArgumentReader, answer: Impact | MomentumSolution, name: str, label: str) -> None:
+    if isinstance(answer, Impact):
+        _need(reader, answer, ("heading",), name, label)
+    elif getattr(answer, f"pdof_{label}") is None:
+        text = (
+            f"the solution has no pdof_{label}, which {name} needs; give heading_{label}='30 deg' (where the vehicle "
+            f"points) to reconstruct.momentum"
+        )
+        reader.refuse(MissingInputError(text, code="missing_heading", argument=f"heading_{label}"))
 
 
 def _need(reader: ArgumentReader, impact: Impact, fields: tuple[str, ...], purpose: str, label: str) -> None:

@@ -29,7 +29,7 @@ from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
-from ..units import Input, shown
+from ..units import Input, Pair, shown
 from . import sections
 from .record import EVIDENCE, plain_options, record
 from .render import Html, Markdown, plain, visible
@@ -66,8 +66,8 @@ def report(
     crush_energy: Input | None = None,
     damage_pdof_a: Input | None = None,
     damage_pdof_b: Input | None = None,
-    damage_delta_v_a: Input | None = None,
-    damage_delta_v_b: Input | None = None,
+    damage_delta_v_a: Input | Pair | None = None,
+    damage_delta_v_b: Input | Pair | None = None,
     share_a: Input | None = None,
     notes: str | Sequence[str] | Mapping[str, str] | None = None,
     figures: bool = True,

@@ -75,7 +75,9 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
     """The options with numbers as floats or the texts given; a value that cannot be read stays, for the reader to refuse."""
     found = {name: value for name, value in given.items() if name in _UNITS}
     for name, unit in _UNITS.items():
-        if unit is not None and given[name] is not None:
+        if unit is not None and isinstance(given[name], (tuple, list)):
+            found[name] = [_number(part, unit, name) for part in given[name]]
+        elif unit is not None and given[name] is not None:
             found[name] = _number(given[name], unit, name)
     if isinstance(given["limits"], Mapping):
         found["limits"] = {

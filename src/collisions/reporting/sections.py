@@ -261,9 +261,13 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
     """Table rows with the PDOF and delta-V that the damage shows."""
     for name, (of, what, kind) in _EVIDENCE.items():
         if evidence[name] is not None:
-            read = ArgumentReader(trusted=(name,)).number(evidence[name], SI_UNITS[kind], name)
-            given_as = evidence[name] if isinstance(evidence[name], str) else None
-            yield of if of == "damage" else f"damage of {of}", what, sheet.as_given(read, kind, given_as)
+            pair = isinstance(evidence[name], (tuple, list))
+            texts = []
+            for part in evidence[name] if pair else (evidence[name],):
+                read = ArgumentReader(trusted=(name,)).number(part, SI_UNITS[kind], name)
+                texts.append(sheet.as_given(read, kind, part if isinstance(part, str) else None))
+            shown = f"forward: {texts[0]}; left: {texts[1]}" if pair else texts[0]
+            yield of if of == "damage" else f"damage of {of}", what, shown
 
 
 def assumptions(
