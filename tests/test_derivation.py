@@ -1169,15 +1169,6 @@ def test_a_momentum_beyond_floats_is_written_as_infinite():
     assert "infinite" in explain(col.linear_central(a, b, 0.5))
 
 
-def test_a_fit_on_a_bound_where_the_model_turns_shares_no_variance_on_its_page():
-    """The slopes there are 0, so that no observation has a share; none is printed as nan."""
-    found = reconstruct.fit(lambda x: {"s": x * x}, {"x": uncertainty.Interval(0.0, 10.0)}, {"s": (0.0, 1.0)})
-    assert all(math.isnan(share) for share in found.contributions["x"].values())
-    for page in (explain(found), col.report(found, form="markdown").partition("```")[0]):
-        assert "estimate" in page
-        assert not re.search(r"\bnan\b", page)
-
-
 def test_a_deviation_as_large_as_floats_can_be():
     """It is written out: a digit before the point could round beyond the range of floats."""
     assert f"{sys.float_info.max:.0f}"[:15] in explain(example_2(), uncertainty={"energy_loss": sys.float_info.max}).replace(

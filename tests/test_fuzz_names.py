@@ -589,9 +589,9 @@ def _known_of(impact: col.Impact, name: str) -> Any:
 # --- fit -------------------------------------------------------------------------------------------------------------------
 
 FIT_OPEN = frozenset(
-    f"reconstruct.Fit.{name}" for name in ("values", "p_value", "nonlinearity", "bounds", "standard_errors", "contributions", "reaches")
+    f"reconstruct.Fit.{name}" for name in ("values", "p_value", "nonlinearity", "bounds", "standard_errors", "contributions")
 ) | {
-    "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Estimate.reach", "Values", "Direction.changes",
+    "Estimate.value", "Estimate.standard_error", "Estimate.low", "Estimate.high", "Values", "Direction.changes",
     "uncertainty.Normal.support", "Residual.computed", "Residual.residual", "Residual.over_sigma",
 }  # fmt: skip
 

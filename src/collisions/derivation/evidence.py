@@ -282,8 +282,7 @@ def _unknown(page: Page, found: Fit, name: str) -> Iterator[tuple[str, str, str]
     yield of, "estimate", _number(page, one.value, one.unit, one.standard_error) + bound
     yield of, "95 percent interval", f"{low} to {high}{unit}"
     for by, share in found.contributions[name].items():
-        if math.isfinite(share):  # where the model turns round on a bound, slopes share nothing
-            yield of, f"share of the variance by {page.name(by)}", percent(share)
+        yield of, f"share of the variance by {page.name(by)}", percent(share)
     correlations = found.correlation_matrix[at, at + 1 :].tolist()
     for other, correlation in zip(found.names[at + 1 :], correlations, strict=True):
         if math.isfinite(correlation):

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, NoSolutionError, SuspectUnitsWarning
 from ..quantities import lock
 from ..warning import warn
-from .fit_candidate import SAME_CHI_SQUARED, TWO_ERROR_RISE, Candidate, examined, with_limits
+from .fit_candidate import SAME_CHI_SQUARED, Candidate, examined
 from .fit_problem import FitInputs, read_fit_inputs
 from .fit_result import Direction, Fit, Residual, Values, notes_of, warn_of
 from .least_squares import (
@@ -33,6 +33,7 @@ _MORE_STARTS = 4096  # looked at where the model refuses all of the first
 _FEW = 2  # searches that ended at the best: more are begun around it
 _CLOSER, _CLOSEST = 4.0, 6  # how many times closer each time, and how often
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
+_TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
 _APART = 1.0  # standard errors
 _AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
 
@@ -51,8 +52,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     before, is made least within the bounds (Levenberg-Marquardt from 64 starts spread over what was known). The covariance is
     that of the slopes of the model at the answer and of the errors as stated; it is not scaled by the misfit. It holds where
     the errors of the observations are normal and independent and the model bends little within two standard errors, which
-    is tried and warned of. Rivals are looked for between the starts, and closer by where few found the best; they are not
-    proved absent.
+    is tried and warned of. Where one answer with such errors does not describe what the evidence says, this refuses or warns:
+    ``posterior`` answers then, whatever the priors and however the model bends.
 
     Parameters
     ----------
@@ -81,12 +82,11 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         An argument that cannot be used, or a model (code "bad_model") that returns something else than named arrays, mixes the
         cases it is called with, or answers the same case differently.
     AmbiguousSolutionError
-        Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all are in ``solutions``.
-        So it is with a friction that slides, or sticks whatever its value.
+        Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all that the searches met
+        are in ``solutions``. So it is with a friction that slides, or sticks whatever its value.
     NoSolutionError
-        The model refuses everywhere (code "refused"); or the misfit is least at a jump, a bend, an edge or, off the bounds, a
-        turning point of the model, where no error can be given (code "no_convergence"). A turning point on a bound, such as
-        no restitution where only its square matters, has a range to one side, see ``Fit.reaches``.
+        The model refuses everywhere (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point of
+        the model, such as no restitution where only its square matters: no error can be given there (code "no_convergence").
 
     Warns
     -----
@@ -123,8 +123,6 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         first = _search(inputs, problem)
         ends = _search_around(inputs, problem, first)
         best = examined(inputs, problem, ends, _lowest(ends))
-        if best.state == CONVERGED:
-            best = with_limits(best, ends)
         _check_minimum(best, ends)
         fits = [_answer(candidate, ends, len(ends.state) - len(first.state)) for candidate in _rivals(problem, ends, best)]
         if len(fits) > 1:
@@ -189,21 +187,17 @@ def _lowest(ends: Ends) -> int:
 
 def _check_minimum(best: Candidate, ends: Ends) -> None:
     """Raise if the misfit is least at a point that is not a minimum of a smooth model."""
-    why, advice = _WHY_NO_MINIMUM.get(best.state), "Narrow the bounds to one side of it, or give fewer unknowns"
+    why = _WHY_NO_MINIMUM.get(best.state)
     if why is None and best.problem.has_kink(best.point):
         why = _WHY_NO_MINIMUM[STALLED]
-    # Searches that agree in an unknown that no slope identifies, or slopes that vanish so close by that no error holds.
-    if why is None and (np.any(np.isinf(best.errors) & best.agreed(ends)) or best.overstates_errors(_OVERSTATED)):
+    if why is None and (best.turns_round(ends) or best.overstates_errors(_OVERSTATED)):
         why = "there the model turns round, so that its slopes give no error"
-        advice = (
-            "Narrow the bounds to one side of it (on a bound the rise of chi-squared gives a range), give a prior of it (a "
-            "Normal), or fewer unknowns"
-        )
     if why is not None:
         at = dict(zip(best.inputs.names, best.point.tolist(), strict=True))
         raise NoSolutionError(
             f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, and "
-            f"{why}. {advice}",
+            f"{why}. reconstruct.posterior answers there too, with a range; or narrow the bounds to one side of it, or give a "
+            f"prior of it (a Normal), or fewer unknowns",
             code="no_convergence",
             chi_squared=float(best.chi_squared),
             at=at,
@@ -215,7 +209,7 @@ def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
 
     Apart are those beyond one standard error in what the better one determines; what it does not is not in the other either.
     """
-    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + TWO_ERROR_RISE))
+    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
     turning = np.array([unknown.unit == "rad" for unknown in best.inputs.unknowns.values()])
     found = [(best, _precision(best.determination.covariance))]
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
@@ -227,7 +221,6 @@ def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
         else:
             rival = examined(best.inputs, problem, ends, k)
             if _is_minimum(rival):
-                rival = with_limits(rival, ends)
                 found.append((rival, _precision(rival.determination.covariance)))
     return [one for one, _ in found]
 
@@ -277,7 +270,6 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
             for row in rows
         ),
         at_bounds={name: side for name, side, known in zip(names, sides, identified, strict=True) if side and known},
-        reaches={names[j]: limit.value for j, limit in found.limits.items()},
         nonlinearity=found.nonlinearity,
         searches=_counted(ends, found.chi_squared) | {"around": around},
     )
@@ -325,8 +317,9 @@ def _warn_of(found: Fit) -> None:
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
     answers = "; ".join(f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits)
     return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; narrow the bounds of an "
-        f"unknown to one of them, or add an observation that tells them apart",
+        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; "
+        f"reconstruct.posterior says how probable each is; or narrow the bounds of an unknown to one of them, or add an "
+        f"observation that tells them apart",
         code="ambiguous",
         solutions=tuple(fits),
     )

@@ -19,7 +19,6 @@ from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
 from ..warning import warn
 
-TWO_ERRORS = 2.0
 _GIVEN_ERRORS = "A standard error is given the stated errors of the observations and priors."
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
@@ -66,10 +65,7 @@ class WithUnit(Shown):
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Estimate(WithUnit):
-    """One unknown: its value and standard error, NaN and inf if it is not identified; ``at_bound`` is "low" or "high".
-
-    ``reach`` is None but where the model turns round on the bound: then it is the end of the range of two standard errors.
-    """
+    """One unknown: its value and standard error, NaN and inf if it is not identified; ``at_bound`` is "low" or "high"."""
 
     name: str
     unit: str
@@ -78,7 +74,6 @@ class Estimate(WithUnit):
     low: float = field(metadata={"unit": OWN})
     high: float = field(metadata={"unit": OWN})
     at_bound: str | None
-    reach: float | None = field(default=None, metadata={"unit": OWN})
 
     _title = "Estimate"
 
@@ -90,8 +85,7 @@ class Estimate(WithUnit):
     def interval(self, coverage: float) -> tuple[float, float]:
         """Central range that holds the truth with this probability given the stated errors, cut off at the bounds.
 
-        Normal theory around the estimate; the bounds themselves where nothing determines the unknown. From a bound on which the
-        model turns round to ``reach`` for any coverage up to that of two standard errors (0.9545), and the bounds above it.
+        Normal theory around the estimate; the bounds themselves where nothing determines the unknown.
         """
         if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
             raise InputError(
@@ -100,10 +94,8 @@ class Estimate(WithUnit):
                 argument="coverage",
             )
         score = score_of_coverage(float(coverage))
-        if not self.determined or (self.reach is not None and score > TWO_ERRORS):
+        if not self.determined:
             return self.low, self.high
-        if self.reach is not None:
-            return min(self.value, self.reach), max(self.value, self.reach)
         half = score * self.standard_error
         return max(self.low, self.value - half), min(self.high, self.value + half)
 
@@ -164,11 +156,8 @@ class Fit(Shown):
     the observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
-    the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there. ``reaches`` has the
-    unknowns that ended on a bound on which the model turns round, so that its slopes give no error: the value up to which
-    chi-squared rises by no more than 4 while the others are fitted again. The standard error of such an unknown is half of the
-    way there, and the covariance of the others is that with it on its bound. ``searches`` counts the starts by how they ended;
-    ``around`` are those among them that were added around an answer that few found.
+    the others along with it as in a straight model (where a bound is nearer, to there); NaN if the model refuses there.
+    ``searches`` counts the starts by how they ended; ``around`` are those that were added around an answer that few found.
     """
 
     values: Values
@@ -183,7 +172,6 @@ class Fit(Shown):
     p_value: float = field(metadata={"unit": ""})
     undetermined: tuple[Direction, ...]
     at_bounds: dict[str, str]
-    reaches: dict[str, float]
     nonlinearity: float = field(metadata={"unit": ""})
     searches: dict[str, int]
 
@@ -203,7 +191,6 @@ class Fit(Shown):
             low=low,
             high=high,
             at_bound=self.at_bounds.get(name),
-            reach=self.reaches.get(name),
         )
 
     @property
@@ -267,7 +254,6 @@ class Fit(Shown):
         plain = (
             "contributions",
             "at_bounds",
-            "reaches",
             "chi_squared",
             "degrees_of_freedom",
             "p_value",
@@ -377,11 +363,6 @@ def notes_of(found: Fit) -> Iterator[Note]:
     for name, side in found.at_bounds.items():
         inward = "above" if side == "low" else "below"
         why = f"beyond which the evidence pulls it: its error is not symmetric and reaches {inward} only"
-        if name in found.reaches:
-            why = (
-                f"where the model turns round: its error reaches {inward} only, and two errors, at the rise of chi-squared by "
-                f"4 or the other bound, to {show(found.reaches[name], found.units[name])}"
-            )
         yield Note(None, f"{name} ended on its {side} bound, {why}")
     for name in found.told_by_bounds:
         yield Note(
@@ -398,7 +379,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
             f"may still lie between them, which narrower bounds would show",
         )
     if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
-        yield Note(IllConditionedWarning, found.bend, "; sample the unknowns, or give closer priors", "not_linear")
+        yield Note(IllConditionedWarning, found.bend, "; reconstruct.posterior has no need of that", "not_linear")
 
 
 def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:

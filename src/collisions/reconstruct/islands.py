@@ -15,7 +15,7 @@ Steps: TypeAlias = Generator[Any, tuple[Any, Any], None]
 
 _FEWEST = 0.25  # of a population: with fewer answers more of the prior is drawn
 _MOST_DRAWS = 64  # populations of the prior
-_MOVES, _MOST_SWEEPS = 3.0, 60  # accepted moves a point after each resampling, and tries at most
+_MOVES, _MOVES_LAST, _MOST_SWEEPS = 3.0, 10.0, 80  # accepted moves a point after each resampling, and tries at most
 _ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
 _NOISE = 0.1  # of the spread, beside the differences of points
 _NO_NEARER, _MOST_OF_THESE = 0.98, 5  # sharp bounds that so many stages miss by as much cannot be met
@@ -170,6 +170,6 @@ class _Population:
             self.missed[better] = missed[better]
             accepted += better
             self.scale *= math.exp(np.mean(better) - _ACCEPTED)
-            if np.mean(accepted) >= _MOVES:
+            if np.mean(accepted) >= (_MOVES if self.power < 1.0 else _MOVES_LAST):
                 break
         self.moved = float(np.mean(accepted > 0))

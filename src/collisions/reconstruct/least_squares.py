@@ -23,7 +23,6 @@ _UNBOUNDED_SHARE = 0.1  # of a direction, in unknowns without bounds: along it a
 _NEGLIGIBLE_SHARE = 1e-4  # of its scale: an unknown that moves less along a direction is not part of it
 _DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
-_TERMS = 10_000  # both expansions of the chi-squared tail take about 6 sqrt(degrees of freedom) terms at worst
 
 SEARCHING, CONVERGED, STALLED, AT_REFUSAL, REFUSED = range(5)
 
@@ -127,14 +126,13 @@ def spread(count: int, low: Any, high: Any) -> Any:
     return low + (high - low) * share
 
 
-def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = _CLOSE) -> Ends:
+def minimise(problem: Problem, starts: Any) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, seen in the metric of
     the standard errors, is rounding; it stalls where no step however short lowers the misfit, which a smooth model does only
-    there. Where ``movable`` (k, n) is given, each search leaves the other unknowns as they start.
+    there.
     """
-    movable = np.ones(starts.shape, dtype=bool) if movable is None else movable
     points = np.clip(starts, problem.low, problem.high)
     outputs, slopes = problem.with_slopes(points)
     misfit = problem.misfit(outputs)
@@ -143,12 +141,12 @@ def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = 
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
     for _ in range(_ROUNDS):
-        arrived = _left_to_go(problem, points, misfit, slopes, movable, state == SEARCHING) <= close
+        arrived = _left_to_go(problem, points, misfit, slopes, state == SEARCHING) <= _CLOSE
         state = np.where(arrived, CONVERGED, state)
         live = np.flatnonzero(state == SEARCHING)
         if not live.size:
             break
-        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], movable[live], damping[live])
+        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], damping[live])
         found, steep = problem.with_slopes(trial)
         rest = problem.misfit(found)
         new = _cost(problem, rest, steep)
@@ -167,7 +165,7 @@ def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = 
         state[live[stuck]] = np.where(np.isfinite(new[stuck]), STALLED, AT_REFUSAL)
 
     short_of_it = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
-    near = _left_to_go(problem, points, misfit, slopes, movable, short_of_it) <= _CLOSE_ENOUGH
+    near = _left_to_go(problem, points, misfit, slopes, short_of_it) <= _CLOSE_ENOUGH
     return Ends(points, outputs, slopes, cost, np.where(near, CONVERGED, state))
 
 
@@ -183,19 +181,19 @@ def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
     return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
 
 
-def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
-    """Gradient and curvature in scaled unknowns, with those held by a bound or not movable left out."""
+def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any) -> tuple[Any, Any]:
+    """Gradient and curvature in scaled unknowns, with those held by a bound left out."""
     scaled = slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
     held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
-    free = movable & ~held
+    free = ~held
     curvature = np.einsum("kmi,kmj->kij", scaled, scaled) * (free[:, :, np.newaxis] & free[:, np.newaxis, :])
     return np.where(free, gradient, 0.0), curvature
 
 
-def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, damping: Any) -> tuple[Any, Any]:
+def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, damping: Any) -> tuple[Any, Any]:
     """The damped step within the bounds, and the predicted fall of chi-squared."""
-    gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
+    gradient, curvature = _normal_equations(problem, points, misfit, slopes)
     weight = np.einsum("kii->ki", curvature)
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
 
@@ -212,13 +210,13 @@ def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any,
     return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)
 
 
-def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, wanted: Any) -> Any:
+def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, wanted: Any) -> Any:
     """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not wanted."""
     left = np.full(len(points), np.inf)
     rows = np.flatnonzero(wanted)
     if rows.size:
         points, misfit = points[rows], misfit[rows]
-        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows], movable[rows])
+        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows])
         size, direction = np.linalg.eigh(curvature)
         along = np.einsum("kij,ki->kj", direction, gradient)
         # With bounds, directions that are too flat do not count either.
@@ -296,43 +294,14 @@ def _reduced(directions: Any) -> Any:
 
 
 def chi_squared_tail(chi_squared: float, degrees_of_freedom: int) -> float:
-    """Probability that a chi-squared variable exceeds the value: the regularised upper incomplete gamma function.
+    """Probability that a chi-squared variable exceeds the value; NaN without degrees of freedom.
 
-    The power series below the mean, the continued fraction by Lentz's method above (Abramowitz and Stegun 6.5.29, 6.5.31). NaN
-    without degrees of freedom.
+    The finite sums for whole degrees of freedom, whose terms all have one sign (Abramowitz and Stegun 26.4.4, 26.4.5).
     """
     if degrees_of_freedom < 1 or math.isnan(chi_squared):
         return math.nan
-    a, x = 0.5 * degrees_of_freedom, 0.5 * chi_squared
-    if x <= 0.0:
-        return 1.0
-    if math.isinf(x):
-        return 0.0
-    front = math.exp(a * math.log(x) - x - math.lgamma(a))
-    return 1.0 - front * _lower_series(a, x) if x < a + 1.0 else front * _upper_fraction(a, x)
-
-
-def _lower_series(a: float, x: float) -> float:
-    term = total = 1.0 / a
-    for k in range(1, _TERMS):
-        term *= x / (a + k)
-        total += term
-        if term <= _EPS * total:
-            break
-    return total
-
-
-def _upper_fraction(a: float, x: float) -> float:
-    """For x >= a + 1, where by induction ``1 / d`` and ``c`` are at least k + 1, so that nothing is divided by 0."""
-    b = x + 1.0 - a
-    c, d = 1e300, 1.0 / b
-    product = d
-    for k in range(1, _TERMS):
-        factor = k * (a - k)
-        b += 2.0
-        d = 1.0 / (factor * d + b)
-        c = b + factor / c
-        product *= c * d
-        if abs(c * d - 1.0) <= 4.0 * _EPS:
-            break
-    return product
+    half, odd = 0.5 * max(chi_squared, 0.0), degrees_of_freedom % 2
+    if half == 0.0 or math.isinf(half):
+        return float(half == 0.0)
+    powers = (j + 0.5 * odd for j in range(degrees_of_freedom // 2))
+    return math.erfc(math.sqrt(half)) * odd + sum(math.exp(j * math.log(half) - half - math.lgamma(j + 1.0)) for j in powers)
