@@ -281,8 +281,8 @@ class Fit(Shown):
 
         found = [row(self[name]) for name in self.names]
         misfit = [
-            (one.name, *(numbers.text(value, one.unit) for value in (one.observed, one.computed)), f"{one.over_sigma:+.2f}")
-            for one in self.residuals.values()
+            (name, *(numbers.text(value, one.unit) for value in (one.observed, one.computed)), f"{one.over_sigma:+.2f}")
+            for name, one in self.residuals.items()
         ]
         parts = [
             Part(found, "Unknown", ("estimate", "standard error", "95 percent interval")),

@@ -41,7 +41,7 @@ class PosteriorOutput(Sampled):
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
-        found: dict[str, Any] = strict(self._summary())
+        found: dict[str, Any] = strict(self._basics())
         return found
 
     def _shares(self) -> Shares:

@@ -203,13 +203,13 @@ class Output:
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
         shares = {"contributions": self.contributions, "total_contributions": self.total_contributions}
-        return {name: _plain(value) for name, value in (self._summary() | shares).items()}
+        return {name: _plain(value) for name, value in (self._basics() | shares).items()}
 
     def __repr__(self) -> str:
         name, text = self.row()
         return f"<{name}: {text}, given {self.given}>"
 
-    def _summary(self) -> dict[str, Any]:
+    def _basics(self) -> dict[str, Any]:
         return {
             "unit": self.unit,
             "mean": self.mean,
