@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import direction
 from .errors import InputError, Status
 from .inputs import UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
-from .models import BY_NAME, read_again
+from .models import BY_NAME, TIME_RESOLVED, read_again
 from .provenance import Reconstruction
 from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
@@ -118,6 +119,9 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             raise bad_record(f"its model is {shown(model)}; known are {', '.join(_SOLVERS)}")
         if model != "solve" and found["tolerance"] is not None:
             raise bad_record(f"only solve has a tolerance, and its model is {shown(model)}")
+        stray = [name for name in (*TIME_DOMAINS, *_OPTIONS) if found[name] is not None]
+        if model != TIME_RESOLVED.name and stray:
+            raise bad_record(f"only time_resolved has {stray[0]}, and its model is {shown(model)}")
         status = record["results"]["status"]
         status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
