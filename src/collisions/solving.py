@@ -20,7 +20,6 @@ from .kernels.elementwise import (
     Domain,
     all_with_length,
     either_infinite,
-    first_status,
     not_about_pivot,
     rounding,
     without_length,
@@ -182,7 +181,10 @@ def error_of(status: int, text: str, **fields: Any) -> CollisionsError:
 def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Callable[[Any], Any]], Any] | None = None) -> None:
     """Raise for, or warn of, the refused cases of a batch; warn of energy gains. ``one`` solves a single case."""
     status = raw.status
-    if np.any(status > Status.ENERGY_GAIN):
+    worst = status.max(initial=Status.OK)
+    if worst == Status.OK:
+        return
+    if worst > Status.ENERGY_GAIN:
         if on_failure == "raise":
             raise _first_refusal(inputs, status, one)
         if on_failure is None:
@@ -217,12 +219,9 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
 
     found: list[Check] = []
 
-    def add(holds: Callable[..., bool] | None, values: tuple[Any, ...], *faults: tuple[Callable[..., Any], Status]) -> None:
-        found.append(Check(lambda *block: first_status(*((fault(*block), code) for fault, code in faults)), values, holds))
-
     def add_array(value: Any, domain: Domain) -> None:
         if isinstance(value, np.ndarray):
-            add(domain.holds, (value,), *domain.faults)
+            found.append(Check(domain.faults, (value,), domain.holds, domain is FINITE))
 
     for vehicle in (inputs.a, inputs.b):
         for name, domain in DOMAINS.items():
@@ -231,17 +230,17 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
             for part in vehicle.pivot:
                 add_array(part, FINITE)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
-            add(None, (vehicle.mass, *inertia), (either_infinite, Status.PINNED_INFINITE))
+            found.append(Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia)))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
             if vehicle.x is not None and vehicle.y is not None:
                 # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
-                add(None, motion, (partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY))
+                found.append(Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion))
     add_array(inputs.restitution, RESTITUTION)
     if any(isinstance(part, np.ndarray) for part in inputs.normal):
         for part in inputs.normal:
             add_array(part, FINITE)
-        add(all_with_length, inputs.normal, (without_length, Status.ZERO_NORMAL))
+        found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
     for part in inputs.point or ():
         add_array(part, FINITE)
     add_array(inputs.rule_value, RULES[inputs.rule].domain)

@@ -15,11 +15,17 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from .buffers import Program, aligned
+from .elementwise import first_status
 from .model_error import ECCENTRIC, least_model
-from .replay import Replay, aligned, record
+from .replay import Replay, input_kind, record
 from .status import Answer, Status
 
 BLOCK = 8192
+# Batches of up to so many cases are answered by the kernel itself, the first ``_MANY`` times: recording it takes longer.
+AS_IT_IS = 100
+_USES: dict[Any, int] = {}
+_MANY, _MOST_KNOWN = 64, 1024
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
 # Outputs that most callers read of a large batch; and the rest, with the status, which marks the cases to set to NaN.
@@ -42,19 +48,22 @@ _SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 # Runs one block: reads the inputs and writes the outputs; an output that is not wanted is None.
-Run: TypeAlias = Callable[[Sequence[Any], Sequence[Any]], None]
+# It gives whether all its cases are fine.
+Run: TypeAlias = Callable[[Sequence[Any], Sequence[Any]], bool]
 Progress: TypeAlias = Callable[[int, int], None]
 
 
 class Check(NamedTuple):
-    """A function for the status of a case (0 if nothing is wrong), and the values it looks at.
+    """Conditions for a fault, each with its status, and the values they look at.
 
-    ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault.
+    ``passes`` is a cheaper test of whole arrays; it may be False although there is no fault. ``implied`` says that a case that
+    a kernel finds fine has no such fault if the kernel reads the values: a number that is not finite leaves no sum finite.
     """
 
-    fault: Callable[..., Any]
+    faults: Sequence[tuple[Callable[..., Any], Status]]
     values: tuple[Any, ...]
     passes: Callable[..., bool] | None = None
+    implied: bool = False
 
 
 class Work(NamedTuple):
@@ -229,33 +238,56 @@ def _in_blocks(
     values = chain(*(work.inputs for work in works), *(check.values for check in checks))
     columns = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
     numbers = None if which is None else flat(which, shape)
-    prepared = [_prepared(work, size, kinds, np.dtype(dtype)) for work in works]
+    programs = [_program(work, kinds, np.dtype(dtype), size) for work in works]
     # Scratch per thread: that of every model, with several models one set of outputs, and the inputs of one block.
     gathered = 0 if which is None else sum(not isinstance(column, float) for column in columns.values()) + len(works)
-    length = block_length(size, threads, sum(scratch for _, scratch in prepared) + gathered * np.dtype(dtype).itemsize)
+    scratch = sum(program.scratch for program in programs if program is not None) + gathered * np.dtype(dtype).itemsize
+    length = min(block_length(size, threads, scratch), size or 1)
     per_block = length * len(works)
+    judged = _judged(works[0], programs[0]) if which is None else frozenset[int]()
+    open_checks = [check for check in checks if not (check.implied and judged.issuperset(map(id, check.values)))]
     mine = threading.local()
+    replays: list[Replay] = []
+
+    def run_of(work: Work, program: Program | None) -> Run:
+        if program is None:
+            return partial(run_as_it_is, work.kernel, work.settings)
+        replays.append(Replay(program, length))
+        return replays[-1]
 
     def solve(start: int) -> int:
         block = slice(start, min(start + per_block, size))
         if not hasattr(mine, "runs"):
-            mine.runs = [make(length) for make, _ in prepared]
+            mine.runs = [run_of(work, program) for work, program in zip(works, programs, strict=True)]
             mine.room = None if which is None else aligned(min(per_block, size), np.float64)
         cut = {key: _part(column, block, dtype) for key, column in columns.items()}
         inputs = [[cut[id(value)] for value in work.inputs] for work in works]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
-            # Before gathering: the checks read the inputs in the order of the cases, which brings them into the cache.
-            faults = _faults(checks, cut)
             if numbers is None:
-                mine.runs[0](inputs[0], answers)
+                fine = mine.runs[0](inputs[0], answers)
+                faults = _faults(open_checks if fine else checks, cut)
             else:
+                # Before gathering: the checks read the inputs in the order of the cases, which brings them into the cache.
+                fine, faults = False, _faults(checks, cut)
                 _run_by_model(mine.runs, inputs, numbers[block], answers, length, mine.room)
-        refuse(faults, answers)
+        if faults or not fine:
+            refuse(faults, answers)
         return block.stop - block.start
 
-    each_block(solve, range(0, size, per_block), size, threads, progress)
+    try:
+        each_block(solve, range(0, size, per_block), size, threads, progress)
+    finally:
+        for replay in replays:
+            replay.close()
     return outputs
+
+
+def _judged(work: Work, program: Program | None) -> frozenset[int]:
+    """The ids of the values that the kernel reads to find out whether a case is fine."""
+    if program is None:
+        return frozenset()
+    return frozenset(id(work.inputs[at]) for at in program.judged)
 
 
 def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
@@ -264,7 +296,7 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     for check in checks:
         values = [cut[id(value)] for value in check.values]
         if check.passes is None or not check.passes(*values):
-            found.append(check.fault(*values))
+            found.append(first_status(*((fault(*values), code) for fault, code in check.faults)))
     return found
 
 
@@ -299,22 +331,27 @@ def _gathered(column: Any, some: Any) -> Any:
     return column[some] if isinstance(some, slice) else column.take(some, mode="clip")
 
 
-def _prepared(work: Work, size: int, kinds: tuple[Any, ...], dtype: Any) -> tuple[Callable[[int], Run], int]:
-    """A factory for the kernel's ``Run`` at a block length, and its scratch in bytes per case; large batches are traced."""
-    if size <= BLOCK:
-        return lambda length: partial(run_as_it_is, work.kernel, work.settings), 0
-    texts = tuple(value.hex() if isinstance(value, float) else None for value in work.inputs)
-    program = record(work.kernel, work.settings, texts, dtype, kinds)
-    return partial(Replay, program), sum(kind.itemsize for kind in program.buffers)
+def _program(work: Work, kinds: tuple[Any, ...], dtype: Any, size: int) -> Program | None:
+    """The kernel recorded for inputs of these kinds; None for a small batch, until there were many of them."""
+    wanted = work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds
+    uses = _USES.get(wanted, 0) + 1
+    if uses < _MANY:
+        if len(_USES) >= _MOST_KNOWN:
+            _USES.clear()
+        _USES[wanted] = _MANY if size > AS_IT_IS else uses
+        if size <= AS_IT_IS:
+            return None
+    return record(*wanted)
 
 
 def run_as_it_is(
     kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
-) -> None:
+) -> bool:
     """Call the kernel itself on a block: for small batches, where tracing it would cost more."""
     for output, answer in zip(outputs, kernel(*inputs, *settings), strict=True):
         if output is not None:
             output[...] = answer
+    return not outputs[0].any()
 
 
 def block_length(size: int, threads: int, scratch: int) -> int:

@@ -10,23 +10,32 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .tracing import Step, Tape
+from .tracing import CODE, Step, Tape
 
+PAGE = 4096
 Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
 class Program(NamedTuple):
     """Calls in order, each a function and an itemgetter of the arrays that it reads and, last, the one that it writes.
 
-    The arrays are inputs, outputs, constants and buffers. The late calls only serve to compute the status, and are skipped for
-    a block in which all cases are fine.
+    The arrays are inputs, outputs, constants, results that are one number for all cases, and buffers. The late calls only serve
+    to compute the status, and are skipped for a block in which all cases are fine; ``judged`` has the inputs that are read to
+    find out whether they are.
     """
 
     calls: tuple[Call, ...]
     late: tuple[Call, ...]
     fine: int | None
+    judged: frozenset[int]
     constants: tuple[Any, ...]
+    numbers: tuple[Any, ...]
     buffers: tuple[Any, ...]
+
+    @property
+    def scratch(self) -> int:
+        """Bytes of its buffers, by case."""
+        return sum(dtype.itemsize for dtype in self.buffers)
 
 
 def _needs(steps: Sequence[Step], wanted: set[int]) -> set[int]:
@@ -50,14 +59,19 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Pr
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
     fine = tape.fine(status)
+    judging = set() if fine is None else _needs(steps, {fine})
     early = _needs(steps, set(written) if fine is None else (written.keys() - {status}) | {fine})
-    order = [*sorted(early), *sorted(_needs(steps, set(written)) - early)]
-    last = {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
+    needed = _needs(steps, set(written))
+    numbers = [index for index in sorted(needed) if not steps[index].sample.ndim]
+    early, needed = early.difference(numbers), needed.difference(numbers)
+    order = [*sorted(early), *sorted(needed - early)]
+    last = {operand: -1 for index in numbers for operand in steps[index].operands}
+    last |= {operand: at for at, index in enumerate(order) for operand in steps[index].operands}
     constants = [index for index in sorted(last) if steps[index].function is None and not steps[index].operands]
     # Where each result is found among inputs, outputs, constants and buffers.
     places = {index: steps[index].operands[0] for index in last if steps[index].function is None and steps[index].operands}
     places |= {index: inputs + which for index, which in written.items()}
-    places |= {index: inputs + outputs + at for at, index in enumerate(constants)}
+    places |= {index: inputs + outputs + at for at, index in enumerate((*constants, *numbers))}
     rooms: dict[int, _Room] = {}
     free: dict[Any, list[_Room]] = defaultdict(list)
     # A ufunc may write its result over an operand; the helpers below that take two numpy calls may not.
@@ -73,18 +87,35 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Pr
             found = [rooms[one] for one in ended if in_place[at] and steps[one].sample.dtype == dtype] + free[dtype][::-1]
             found = [room for room in found if room.until >= last[index]]
             if not found:
-                found.append(_Room(math.inf, inputs + outputs + len(constants) + len(buffers)))
+                found.append(_Room(math.inf, inputs + outputs + len(constants) + len(numbers) + len(buffers)))
                 buffers.append(dtype)
             rooms[index] = min(found)
             places[index] = rooms[index].place
         for one in ended:
             free[steps[one].sample.dtype].append(rooms.pop(one))
         free[dtype] = [room for room in free[dtype] if room != rooms.get(index)]
-    calls: list[Any] = [(steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i)))) for i in order]
+    calls: list[Any] = [
+        (steps[i].function, itemgetter(*(places[one] for one in (*steps[i].operands, i)))) for i in (*numbers, *order)
+    ]
+    at_once = len(numbers) + len(early)
+    read = (steps[one] for index in judging for one in steps[index].operands)
     return Program(
-        tuple(calls[: len(early)]),
-        tuple(calls[len(early) :]),
+        tuple(calls[:at_once]),
+        tuple(calls[at_once:]),
         None if fine is None else places[fine],
-        tuple(steps[index].sample for index in constants),
+        frozenset(step.operands[0] for step in read if step.function is None and step.operands),
+        tuple(np.asarray(steps[index].sample) for index in constants),
+        tuple(steps[index].sample.dtype for index in numbers),
         tuple(buffers),
     )
+
+
+def aligned(length: int, dtype: Any) -> Any:
+    """An empty array aligned to a memory page; numpy's own alignment can make a step over it take up to twice as long."""
+    dtype = np.dtype(dtype)
+    size = length * dtype.itemsize
+    if size < PAGE:
+        return np.empty(length, dtype)
+    whole = np.empty(size + PAGE, dtype=CODE)
+    start = -whole.ctypes.data % PAGE
+    return whole[start : start + size].view(dtype)

@@ -132,8 +132,8 @@ def eccentric(
     torque_b = rn_b * impulse_t - rt_b * normal
     stuck = bounded & (regular ^ True) & needs_no_slip
     if impulse_only:
-        work = closing * normal + slip * impulse_t
-        answered = (closing > 0.0) & bounded & (work - work == 0.0) & ((immovable | stuck | pulls | jams) ^ True)
+        bounded = bounded & (0.0 * normal + 0.0 * impulse_t == 0.0)
+        answered = (closing > 0.0) & bounded & ((immovable | stuck | pulls | jams) ^ True)
         for_a = a_a, b_a, torque_a, rt_a * no_slip_n - rn_a * no_slip_t
         for_b = a_b, b_b, torque_b, rn_b * no_slip_t - rt_b * no_slip_n
         return answered, closing, (normal, impulse_t), (no_slip_n, no_slip_t), for_a, for_b

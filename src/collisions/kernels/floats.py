@@ -12,6 +12,7 @@ from .elementwise import larger
 from .status import Answer, Status
 from .tracing import TextTape, statements
 
+_BODIES = "a.", "b."
 WRITTEN: dict[Any, str] = {
     np.add: "({} + {})",
     np.subtract: "({} - {})",
@@ -40,8 +41,9 @@ def compile_for_floats(
 ) -> Callable[[Any], Any]:
     """A kernel with these settings compiled to one plain function, which reads its numbers at the paths in ``takes``.
 
-    Of a kernel that gives an ``Answer`` it answers only cases whose status is plainly OK. For any other case, and where Python
-    raises, as in a division by 0, it returns None, and the caller runs the kernel itself.
+    A path is such as "restitution", "a.mass", or "[3]" of a sequence. Of a kernel that gives an ``Answer`` it answers only
+    cases whose status is plainly OK. For any other case, and where Python raises, as in a division by 0, it returns None, and
+    the caller runs the kernel itself.
     """
     tape = TextTape()
     with np.errstate(all="ignore"):
@@ -52,15 +54,16 @@ def compile_for_floats(
     if fine is None:
         raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
     wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
-    paths = [path if path.startswith(("a.", "b.")) else f"inputs.{path}" for path in takes]
+    paths = [path if path.startswith(_BODIES) else f"inputs{path}" if path[0] == "[" else f"inputs.{path}" for path in takes]
     lines, (condition, *found) = statements(tape, wanted, paths, WRITTEN, _constant, kernel.__name__)
-    returned = f"new(Answer, (OK, {', '.join(found)}))" if isinstance(given, Answer) else f"({', '.join(found)})"
-    body = "\n        ".join(["a = inputs.a", "b = inputs.b", *lines, f"if {condition}:"])
+    returned = f"new(made, ({', '.join((['OK'] if isinstance(given, Answer) else []) + found)}))"
+    bodies = [f"{body} = inputs.{body}" for body in "ab" if any(path.startswith(f"{body}.") for path in takes)]
+    body = "\n        ".join([*bodies, *lines, f"if {condition}:"])
     source = (
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"
     )
-    return _made(source, kernel.__name__)
+    return _made(source, kernel.__name__, type(given))
 
 
 def compile_loop(
@@ -93,12 +96,13 @@ def compile_loop(
     return _made(source, step.__name__)
 
 
-def _made(source: str, name: str) -> Callable[..., Any]:
-    names: dict[str, Any] = {"larger": larger, "OK": Status.OK, "Answer": Answer, "new": tuple.__new__}
+def _made(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
+    names: dict[str, Any] = {"larger": larger, "OK": Status.OK, "made": kind, "new": tuple.__new__}
     exec(compile(source, f"<{name} of floats>", "exec"), names)
     made: Callable[..., Any] = names["function"]
     return made
 
 
 def _constant(value: Any) -> str:
+    value = int(value) if isinstance(value, Status) else value
     return repr(value) if math.isfinite(value) else f"float('{value}')"

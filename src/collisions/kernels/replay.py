@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
-from .buffers import Program, placed
+from .buffers import PAGE, Program, aligned, placed
 from .tracing import CODE, Step, Tape, Traced, cast
 
-_PAGE = 4096
+# Memory of runs that have ended, for the next ones.
+_SPARE: list[Any] = []
+_MOST_SPARE, _LARGEST_SPARE = 4, 4 * 2**20
+
+
+def input_kind(value: Any) -> str | None:
+    """What ``record`` has to know of an input: None for an array, the text of a 0 or a 1, which shorten a kernel, or ""."""
+    return None if isinstance(value, np.ndarray) else value.hex() if value in (0.0, 1.0) else ""
 
 
 @lru_cache(maxsize=64)
@@ -22,50 +30,67 @@ def record(
     dtype: Any,
     outputs: tuple[Any, ...],
 ) -> Program:
-    """Trace a kernel whose inputs are arrays of ``dtype`` (None in ``inputs``) or plain numbers (as ``float.hex`` texts).
+    """Trace a kernel whose inputs are arrays of ``dtype`` or plain numbers, each of its ``input_kind``.
 
     ``outputs`` has the dtype of each output, None for one that is not wanted; the first, the status, always is.
     """
     tape = Tape()
-    operands = [tape.input(at, dtype) if text is None else float.fromhex(text) for at, text in enumerate(inputs)]
+    operands = [
+        float.fromhex(kind) if kind else tape.input(at, dtype) if kind is None else tape.input(at, np.float64, ())
+        for at, kind in enumerate(inputs)
+    ]
     written: dict[int, int] = {}
     with np.errstate(all="ignore"):
         for which, (answer, wanted) in enumerate(zip(kernel(*operands, *settings), outputs, strict=True)):
             if wanted is not None:
                 value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
                 step, index = tape.steps[value.index], value.index
-                if step.function is None or index in written or step.sample.dtype != wanted:
+                if step.function is None or index in written or step.sample.dtype != wanted or not step.sample.ndim:
                     index = len(tape.steps)
                     tape.steps.append(Step(cast, (value.index,), np.zeros(1, wanted)))
                 written[index] = which
     return placed(tape, written, len(inputs), len(outputs))
 
 
-def aligned(length: int, dtype: Any) -> Any:
-    """An empty array aligned to a memory page; numpy's own alignment can make a step over it take up to twice as long."""
-    dtype = np.dtype(dtype)
-    whole = np.empty(length * dtype.itemsize + _PAGE, dtype=CODE)
-    start = -whole.ctypes.data % _PAGE
-    return whole[start : start + length * dtype.itemsize].view(dtype)
-
-
 class Replay:
-    """A program with its own buffers for blocks of one length: one per thread."""
+    """A program with its own buffers for blocks of one length: one per thread.
+
+    Its memory, of which new pages would cost as much as some of the calls, comes from ``_SPARE`` and goes back by ``close``.
+    """
 
     def __init__(self, program: Program, length: int) -> None:
         self.program = program
         self.length = length
-        self.buffers = [aligned(length, dtype) for dtype in program.buffers]
+        # Taking from a list and putting back is safe between threads, and in a call within a call.
+        self.memory = _SPARE.pop() if _SPARE else np.empty(0, CODE)
+        sizes = [-(-length * dtype.itemsize // PAGE) * PAGE for dtype in program.buffers]
+        if self.memory.size < sum(sizes):
+            self.memory = aligned(max(sum(sizes), PAGE), CODE)
+        ends = list(accumulate(sizes))
+        self.buffers = [
+            self.memory[end - size : end - size + length * dtype.itemsize].view(dtype)
+            for end, size, dtype in zip(ends, sizes, program.buffers, strict=True)
+        ]
+        self.numbers = [np.empty((), dtype) for dtype in program.numbers]
 
-    def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> None:
-        """Run one block: the inputs, with arrays cut to the block, and slices of the outputs to write to."""
+    def close(self) -> None:
+        """Give the memory back."""
+        if len(_SPARE) < _MOST_SPARE and self.memory.size <= _LARGEST_SPARE:
+            _SPARE.append(self.memory)
+
+    def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
+        """Run one block: the inputs, with arrays cut to the block, and slices of the outputs to write to.
+
+        Gives whether all its cases are fine.
+        """
         length = len(outputs[0])
         buffers = self.buffers if length == self.length else [buffer[:length] for buffer in self.buffers]
-        arrays = [*inputs, *outputs, *self.program.constants, *buffers]
+        arrays = [*map(np.asarray, inputs), *outputs, *self.program.constants, *self.numbers, *buffers]
         for function, chosen in self.program.calls:
             function(*chosen(arrays))
         if self.program.fine is not None and arrays[self.program.fine].all():
             outputs[0].fill(0)
-            return
+            return True
         for function, chosen in self.program.late:
             function(*chosen(arrays))
+        return False

@@ -20,9 +20,10 @@ _BITS = {4: np.dtype(np.int32), 8: np.dtype(np.int64)}
 
 
 class Step(NamedTuple):
-    """One step: the function, the numbers of the steps it reads, and a one-element sample of its result (which has its dtype).
+    """One step: the function, the numbers of the steps it reads, and a sample of its result (which has its dtype).
 
     A step without a function is an input, whose one operand is its position among the inputs, or a constant, without operands.
+    The sample has one element, or no dimensions if the result is one number for all cases.
     """
 
     function: Callable[..., Any] | None
@@ -63,9 +64,9 @@ class Tape:
             self.steps.append(Step(function, operands, sample))
         return self.known[key]
 
-    def input(self, which: int, dtype: Any) -> Traced:
-        """An array that the kernel is called with."""
-        return self.add(None, (which,), np.ones(1, dtype))
+    def input(self, which: int, dtype: Any, shape: tuple[int, ...] = (1,)) -> Traced:
+        """An array, or one number, that the kernel is called with."""
+        return self.add(None, (which,), np.ones(shape, dtype))
 
     def operand(self, value: Any, dtype: Any = None) -> Traced:
         """The operand for a traced value or a plain number, cast to ``dtype`` if one is given."""
@@ -78,7 +79,7 @@ class Tape:
 
     def call(self, function: Callable[..., Any], *values: Any) -> Traced:
         """The step for an operator or a ufunc."""
-        kinds = {value.sample.dtype for value in values if isinstance(value, Traced)}
+        kinds = {value.sample.dtype for value in values if isinstance(value, Traced) and value.sample.ndim}
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":
             beside = None
@@ -86,21 +87,22 @@ class Tape:
             return self.operand(values[1])
         elif function is np.power and type(values[1]) is float and values[1] == 0.5:
             return self.call(np.sqrt, values[0])
-        # A plain number is cast to the dtype of the array operand: the same value, read faster.
-        operands = [self.operand(value, beside if type(value) is float else None) for value in values]
+        # A plain number is cast to the dtype of the array operand, as numpy does with a Python float.
+        operands = [self.operand(value, beside if _is_number(value) else None) for value in values]
         return self.add(function, tuple(one.index for one in operands), function(*(one.sample for one in operands)))
 
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         """``np.where`` on the bits of both values: without branches, a quarter of its time where the cases are mixed."""
         samples = [value.sample if isinstance(value, Traced) else value for value in (condition, yes, no)]
-        dtype, which = np.where(*samples).dtype, self.operand(condition)
+        found = np.where(samples[0], *(float(sample) if _is_number(sample) else sample for sample in samples[1:]))
+        dtype, which = found.dtype, self.operand(condition)
         codes = dtype.kind in "iu"
         if codes:
             dtype = CODE
         else:
-            which = self.add(_mask, (which.index,), np.zeros(1, _BITS[dtype.itemsize]))
+            which = self.add(_mask, (which.index,), np.zeros(which.sample.shape, _BITS[dtype.itemsize]))
         operands = which, self.operand(yes, dtype), self.operand(no, dtype)
-        return self.add(_label if codes else _pick, tuple(one.index for one in operands), np.zeros(1, dtype))
+        return self.add(_label if codes else _pick, tuple(one.index for one in operands), np.zeros(found.shape, dtype))
 
     def fine(self, status: int) -> int | None:
         """The operand `fine` of the final select(fine, OK, ...); None if the kernel does not end with that select."""
@@ -116,6 +118,12 @@ class TextTape(Tape):
     def choose(self, condition: Any, yes: Any, no: Any) -> Traced:
         operands = [self.operand(value) for value in (condition, yes, no)]
         return self.add(np.where, tuple(one.index for one in operands), np.where(*(one.sample for one in operands)))
+
+
+def _is_number(value: Any) -> bool:
+    """Whether this is a float, or stands for one, and not for an array."""
+    sample = value.sample if isinstance(value, Traced) else value
+    return type(sample) is float or (getattr(sample, "ndim", 1) == 0 and sample.dtype.kind == "f")
 
 
 def cast(value: Any, out: Any) -> None:

@@ -163,14 +163,15 @@ class Cases(NamedTuple):
 
 
 def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
-    """The faults of arrays, whose elements the reader does not check."""
+    """The faults of arrays, whose elements the reader does not check; and of NaN from a case that was refused."""
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
+            value = value if np.ndim(value) else float(value)
             found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2]).faults]
             if name.startswith(_AMOUNTS):
                 found.append((value < 0.0, Status.CONTRADICTORY))
-    return found
+    return [(condition, status) for condition, status in found if condition is not False]
 
 
 def _domain(name: str) -> Any:
@@ -219,7 +220,7 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
     """The forward impact from the reconstructed state; where it is refused, the reconstructed values are NaN."""
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
-    impact = solved(inputs, on_failure=on_failure)
+    impact = solved(inputs, plain=not isinstance(status, np.ndarray), on_failure=on_failure)
     if np.any(found & impact.refused):
         inputs = inputs_of(found & np.logical_not(impact.refused))
     return found_by(origin, inputs, answer_of(impact), status)

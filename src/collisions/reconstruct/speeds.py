@@ -220,16 +220,24 @@ def speeds(
         _refuse_pairs(known, a, b)
         function = RestitutionOf(restitution, cases) if callable(restitution) else None
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-        scene = (ComponentScene if measured else Scene)(arrays, inputs.rule, inputs.law or BRACH, counted(given))
-        scene.forward_only = bool(forward_only)
-        if measured and (function is not None or scene.shares_critical()):
-            raise InputError(
-                "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
-                "friction=, friction=inf or impulse_ratio=",
-                code="bad_combination",
-                argument="restitution" if function is not None else "critical_fraction",
-            )
-        found = _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
+        known_of = arrays, inputs.rule, inputs.law or BRACH, counted(given)
+
+        def roots_of(scene: Scene) -> tuple[Scene, list[tuple[Root, Any]]]:
+            scene.forward_only = bool(forward_only)
+            if measured and (function is not None or scene.shares_critical()):
+                raise InputError(
+                    "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
+                    "friction=, friction=inf or impulse_ratio=",
+                    code="bad_combination",
+                    argument="restitution" if function is not None else "critical_fraction",
+                )
+            return scene, _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
+
+        try:
+            plain = cases.shape is None and function is None
+            scene, found = roots_of(ComponentScene(*known_of) if measured else Scene(*known_of, plain))
+        except ZeroDivisionError:
+            scene, found = roots_of(Scene(*known_of))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function)
 
@@ -316,10 +324,16 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
 def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
     shape = cases.shape or ()
+    judged = [scene.fits(root) for root in roots]
+    if cases.shape is None:
+        roots = [root for root, (fit, _) in zip(roots, judged, strict=True) if fit]
+        judged = [found for found in judged if found[0]]
     if not roots:
         return []
+    if cases.shape is None and len(roots) == 1 and not scene.forward_only:
+        scene.undetermined = scene.undetermined | np.asarray(scene.one_of_many(roots[0]))
+        return [] if scene.undetermined else [(roots[0], np.True_)]
     parts = [np.stack([np.broadcast_to(root[i], shape) for root in roots]) for i in range(4)]
-    judged = [scene.fits(root) for root in roots]
     fits = np.stack([np.broadcast_to(fit, shape) for fit, _ in judged])
     closing = np.stack([np.broadcast_to(speed, shape) for _, speed in judged])
     for root, fit in zip(roots, fits, strict=True):

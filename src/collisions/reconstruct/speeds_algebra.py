@@ -8,12 +8,16 @@ quotient, with a divisor that is linear in the speeds; times its square what was
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, energy_losses
+from ..kernels.elementwise import larger, select
+from ..kernels.floats import compile_for_floats
 from ..kernels.reverse import PLACES, energy_of_speeds, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, PAIRS, forward
@@ -49,14 +53,43 @@ class Root(NamedTuple):
     slopes: Sequence[Any] = (0.0, 0.0)
 
 
+class _Seen(NamedTuple):
+    """The outputs of the forward kernel that tell of the observations."""
+
+    status: Any
+    closing_speed: Any
+    slip_before: Any
+    slip_after: Any
+    normal_impulse: Any
+    tangential_impulse: Any
+    no_slip_normal: Any
+    no_slip_tangential: Any
+    effective_mass: Any
+    coupling: Any
+    energy_loss: Any
+
+
+def _forward(*inputs: Any) -> _Seen:
+    """The forward kernel of two free bodies."""
+    raw = forward(*inputs, False, False)
+    return _Seen._make(getattr(raw, name) for name in _Seen._fields)
+
+
+@lru_cache(maxsize=16)
+def _float_function(rule: str, law: str) -> Callable[[Sequence[float]], Any]:
+    """The same compiled for plain floats."""
+    return compile_for_floats(_forward, tuple(f"[{i}]" for i in range(24)), (rule, law))
+
+
 class Scene:
     """Two vehicles whose speeds are unknown, and the two observations made of them.
 
     Every case is worked out in a unit of speed and a unit of mass of its own, powers of two, so that squares of what was given
-    neither overflow nor vanish. ``speed_unit``, ``mass_unit`` lead back.
+    neither overflow nor vanish. ``speed_unit``, ``mass_unit`` lead back. A single case may be worked out with ``plain`` floats,
+    much faster; then a division by 0 raises, and it has to be worked out without.
     """
 
-    def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...]) -> None:
+    def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...], plain: bool = False) -> None:
         self.rule, self.law, self.names = rule, law, kinds
         self.kinds = tuple(_SAME.get(kind, kind) for kind in kinds)
         masses = np.minimum(given["a.mass"], given["b.mass"])
@@ -65,7 +98,14 @@ class Scene:
         self.speed_unit = _power_of_two(np.maximum.reduce(np.broadcast_arrays(*sizes)))
         self.numbers = {name: self._in_units(name, value) for name, value in given.items()}
         self.e, self.bound = given["restitution"], given[rule]
+        v: dict[str, Any] = {name: float(value) for name, value in self.numbers.items()} if plain else self.numbers
+        self.plain = plain
+        self.courses = [[v[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"]
+        bodies = (v.get(f"{label}.{name}", 0.0) for label in "ab" for name in NUMBERS)
+        self.at_rest = [v["restitution"], v["normal[0]"], v["normal[1]"], v[rule], v["point[0]"], v["point[1]"], *bodies]
         self.targets = {kind: self._target(name) for kind, name in zip(self.kinds, kinds, strict=True)}
+        if self.plain:
+            self.targets = {kind: float(target) for kind, target in self.targets.items()}
         self.spinning = sum(
             abs(self.numbers[f"{label}.yaw_rate"])
             * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
@@ -73,6 +113,8 @@ class Scene:
         )
         # Whether backward roots are left out.
         self.forward_only = False
+        if plain:
+            self.e, self.bound, self.spinning = float(self.e), float(self.bound), float(self.spinning)
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
         zero, one = np.zeros(()), np.ones(())
@@ -107,58 +149,69 @@ class Scene:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
             return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK, *([_SHARE] if self.shares_critical() else [])]
-        finite = np.where(np.isinf(self.bound), np.nan, self.bound)
-        return [finite, np.where(self.bound > 0.0, -finite, np.nan), _STICK]
+        finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
+        return [finite, select(self.bound > 0.0, -finite, np.nan), _STICK]
 
     def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> Any:
         """The forward kernel at these speeds."""
-        v, bodies = self.numbers, []
-        for label, speed in (("a", speed_a), ("b", speed_b)):
-            cx, cy = v[f"course_{label}[0]"], v[f"course_{label}[1]"]
-            rest = [v[f"{label}.{name}"] for name in NUMBERS[4:]]
-            bodies += [v[f"{label}.mass"], v[f"{label}.yaw_inertia"], speed * cx, speed * cy, *rest]
-        place = (v["normal[0]"], v["normal[1]"], bound, v["point[0]"], v["point[1]"])
-        return forward(e, *place, *bodies, rule, self.law, False, False)
+        if self.plain:
+            numbers = self._of_forward(float(speed_a), float(speed_b), float(e), float(bound))
+            found = _float_function(rule, self.law)(numbers)
+            if found is not None:
+                return found
+        return _forward(*self._of_forward(speed_a, speed_b, e, bound), rule, self.law)
+
+    def _of_forward(self, speed_a: Any, speed_b: Any, e: Any, bound: Any) -> list[Any]:
+        """The numbers that the forward kernel takes, in their order."""
+        found = self.at_rest.copy()
+        found[0], found[3] = e, bound
+        for start, speed, (cx, cy) in zip((8, 17), (speed_a, speed_b), self.courses, strict=True):
+            found[start : start + 2] = speed * cx, speed * cy
+        return found
 
     def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
         """The observations at these speeds if the contact is in this regime; times its weight, a polynomial of them."""
         if not isinstance(regime, str):
-            return {"weight": 1.0, **self._seen(self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime), speed_a, speed_b, e)}
+            return self._seen(self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime), speed_a, speed_b, e)
         raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
         normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
         if regime is _SHARE:
             shared = self.bound * tangential
             weight = (normal + shared * (raw.coupling * raw.effective_mass)) ** 2
-            return {**self.observe(shared / normal, speed_a, speed_b, e), "weight": weight}
+            return self.observe(shared / normal, speed_a, speed_b, e) | {"weight": weight}
         left = LAWS[self.law].sticking_slip(e)
         slips = (raw.slip_before, left * raw.slip_before, (1.0 + left) * raw.slip_before, 0.0)
         loss = energy_losses(e, raw.closing_speed, *slips, normal, tangential, 0.0, IMPULSE_RATIO, "", EPS)[2]
-        raw = raw._replace(normal_impulse=normal, tangential_impulse=tangential, energy_loss=loss)
-        return {"weight": 1.0, **self._seen(raw, speed_a, speed_b, e)}
+        return self._seen(raw, speed_a, speed_b, e, (normal, tangential, loss))
 
     def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
         """Status and observations at these speeds under the given law."""
         raw = self.run(speed_a, speed_b, e, self.rule, self.bound)
         return raw.status, self._seen(raw, speed_a, speed_b, e)
 
-    def _seen(self, raw: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
-        closing, normal, tangential = raw.closing_speed, raw.normal_impulse, raw.tangential_impulse
+    def _seen(self, raw: Any, speed_a: Any, speed_b: Any, e: Any, sticking: tuple[Any, ...] = ()) -> dict[str, Any]:
+        """What is seen of the forward answer; ``sticking`` has the impulse and the loss in place of its own."""
+        closing = raw.closing_speed
+        normal, tangential, loss = sticking or (raw.normal_impulse, raw.tangential_impulse, raw.energy_loss)
         squared = normal * normal + tangential * tangential
+        if self.plain:
+            speed_a, speed_b, e = float(speed_a), float(speed_b), float(e)
         whole = abs(speed_a) + abs(speed_b) + self.spinning
         return {
+            "weight": 1.0,
             "closing": closing,
             "slip": raw.slip_before,
             "whole": whole,
             "normal": normal,
             "tangential": tangential,
-            "impulse": np.sqrt(squared),
+            "impulse": math.sqrt(squared) if type(squared) is float else np.sqrt(squared),
             # The terms of the loss, with each contact velocity as large as the velocities it is the difference of.
             "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
             "speed_a": speed_a,
             "speed_b": speed_b,
             "delta_v_a": squared,
             "delta_v_b": squared,
-            "energy_loss": raw.energy_loss,
+            "energy_loss": loss,
             "max_crush_speed_a": 0.5 * closing * normal / (1.0 + e),
         }
 
@@ -261,6 +314,10 @@ class Scene:
         self, regime: Any, e: Any, speed_a: Any, speed_b: Any, steps: int, slope: Callable[[Any], Any] | None
     ) -> Root:
         """Newton's method on the kernel, with central differences for its derivatives."""
+        if self.plain:
+            speed_a, speed_b, e = float(speed_a), float(speed_b), float(e)
+            if not math.isfinite(speed_a + speed_b):
+                steps = 0
         condition: Any = np.nan
         slopes: tuple[Any, ...] = (0.0, 0.0)
         rows: list[tuple[Any, Any]] = []
@@ -275,12 +332,14 @@ class Scene:
             ahead = self.observe(regime, speed_a - step_a, speed_b - step_b, e)
             # Where two roots meet the derivative is rounding, and a step over it may lead anywhere.
             away = self._off(ahead, here) > self._off(here, here)
-            usable = np.isfinite(step_a) & np.isfinite(step_b) & ~away
-            speed_a = speed_a - np.where(usable, step_a, 0.0)
-            speed_b = speed_b - np.where(usable, step_b, 0.0)
-            here = {name: np.where(usable, ahead[name], here[name]) for name in ahead}
+            usable = (step_a - step_a == 0.0) & (step_b - step_b == 0.0) & (away ^ True)
+            speed_a = speed_a - select(usable, step_a, 0.0)
+            speed_b = speed_b - select(usable, step_b, 0.0)
+            here = ahead if usable is True else {name: select(usable, ahead[name], here[name]) for name in ahead}
             slopes = (abs(j11) + abs(j12), abs(j21) + abs(j22))
             condition = self._condition(rows, here["closing"])
+            if usable is False:
+                break
         if slope is not None:
             # The restitution changes with the closing speed, and the observations with it.
             after, before = (self.observe(regime, speed_a, speed_b, e + step) for step in (_STEP, -_STEP))
@@ -298,7 +357,7 @@ class Scene:
         """
         whole = abs(here["closing"] * here["normal"])
         sizes = [abs(here[k]) + abs(self.targets[k]) + (whole if k == "energy_loss" else 0.0) for k in self.kinds]
-        return np.fmax(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))
+        return larger(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))
 
     def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
         """Derivatives of each observation by both speeds."""
