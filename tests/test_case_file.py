@@ -176,6 +176,24 @@ def test_fit_of_what_was_observed():
     assert "a.vx" in answers(read_text(text.encode())).text()
 
 
+@pytest.mark.slow
+def test_posterior_of_what_was_observed():
+    """A flat prior cut by a reading and by a bound: the mean of a normal distribution, truncated; in closed form."""
+    text = REAR_END.replace('"80 km/h"', '"0 m/s .. 40 m/s"') + "[posterior]\nsamples = 2048\n[posterior.observed]\n"
+    text += '"b.delta_v" = "15 m/s +/- 0.5 m/s"\n"a.before.vx" = "15 m/s .. 20 m/s"\n'
+    factor = 1100 / 2050 * 1.4
+    middle, sd = 15 / factor, 0.5 / factor
+    cut = (20 - middle) / sd
+    wanted = middle - sd * math.exp(-0.5 * cut * cut) / math.sqrt(math.tau) / (0.5 * (1 + math.erf(cut / math.sqrt(2))))
+    found = solved(text)["a.vx"]
+    assert abs(found.mean - wanted) < 5 * found.mean_standard_error
+    censored = text.replace('"15 m/s .. 20 m/s"', '{ Censored = { high = "20 m/s" } }')
+    found = solved(censored)["a.vx"]
+    assert abs(found.mean - wanted) < 5 * found.mean_standard_error
+    assert "a.vx" in answers(read_text(text.encode())).text()
+    assert json.dumps(answers(read_text(text.encode())).to_dict(), allow_nan=False)
+
+
 def test_two_answers_are_told_apart():
     """Both are printed; a report or a range needs to know which."""
     body = "yaw_inertia = {}\nx = {}\ny = {}\n"

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from .model_choice import ModelChoice
     from .reporting import report
     from .schema import impact_schema
+    from .what_if import what_if
 
 __version__ = "0.1.0"
 
@@ -73,6 +74,7 @@ __all__ = [
     "time_resolved",
     "travel",
     "uncertainty",
+    "what_if",
 ]
 
 
@@ -84,6 +86,7 @@ _LATER = {
     "impact_schema": "schema",
     "left_out": "contact_effects",
     "report": "reporting",
+    "what_if": "what_if",
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -47,14 +47,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _write(options: Any, found: Answers) -> None:
     """Write the files that were asked for."""
+    pages: dict[str, Callable[[], str]] = {}
     if options.report is not None:
         form = "markdown" if Path(options.report).suffix.lower() in (".md", ".markdown") else "html"
-        page = found.report(form, options.units)
+        pages[options.report] = lambda: found.report(form, options.units)
+    if options.what_if is not None:
+        pages[options.what_if] = lambda: found.what_if(options.units)
+    for path, page in pages.items():
+        text = page()
         try:
-            Path(options.report).write_text(page, encoding="utf-8", newline="\n")
+            Path(path).write_text(text, encoding="utf-8", newline="\n")
         except (OSError, ValueError) as error:
-            text = f"cannot write {options.report} ({getattr(error, 'strerror', None) or error}); give another --report"
-            raise CaseError(("", text)) from None
+            why = getattr(error, "strerror", None) or error
+            raise CaseError(("", f"cannot write {path} ({why}); give the path of a file that may be written")) from None
 
 
 def _refused(options: Any, error: CaseError) -> int:
@@ -81,6 +86,7 @@ def _parser() -> argparse.ArgumentParser:
         "JSON schema of case files for editors",
     )
     parser.add_argument("--report", metavar="FILE", help="write a report: .html with figures, or .md")
+    parser.add_argument("--what-if", metavar="FILE", help="write an HTML page with a slider for each uncertain number")
     parser.add_argument("--units", choices=SYSTEMS, help="of what is written; metric, unless the file says otherwise")
     parser.add_argument("--json", action="store_true", help="print everything as JSON, for other tools")
     parser.add_argument("--version", action="version", version=f"collisions {__version__}")

@@ -14,14 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, nearest
+from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, ends, nearest
 from .errors import CollisionsWarning
 from .impact import Impact
 from .quantities import unit_of
-from .reconstruct import MomentumSolution
+from .reconstruct import MomentumSolution, Posterior
 from .reporting import report
 from .reporting.record import record
 from .units import shown, to_quantity
+from .what_if import starts, what_if
 
 # The parts of a report that are not printed, by their first words.
 _LEFT_OUT = ("Inputs", "The contact, and", "Assumptions", "Notes", "Figures", "Derivation", "References", "Record")
@@ -38,17 +39,37 @@ class Answers:
 
     def report(self, form: str, units: str | None = None, figures: bool = True) -> str:
         """The report of the one result; ``units`` in place of those of the file."""
+        return self._page(self._one(), form, units, figures)
+
+    def what_if(self, units: str | None = None) -> str:
+        """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
+        one, found = self._one(), self.case.ranges
+        if not found and isinstance(one, Impact):
+            known = starts(one)
+            named = ((_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items())
+            found = {name: ends(stated) for name, stated in named if name in known}
+            if not found:
+                text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
+                raise CaseError(("what_if.ranges", text))
+        shown_in = units or self.case.report.get("units", "metric")
+        page = Call("what_if", what_if, {"impact": one, "ranges": found, "units": shown_in})
+        with _noting(self.warnings):
+            whole: str = page({})
+        return whole
+
+    def _one(self) -> Any:
+        """The one result that a page is of."""
         if len(self.results) > 1:
-            text = (
-                f"{len(self.results)} answers fit, and a report is of one; write answer = 1 or another at the top of the file"
-            )
+            text = f"{len(self.results)} answers fit, and a page is of one; write answer = 1 or another at the top of the file"
             raise CaseError(("answer", text), refused=True, code="ambiguous")
-        return self._page(self.results[0], form, units, figures)
+        return self.results[0]
 
     def text(self, units: str | None = None) -> str:
         """The results, the uncertainty and the findings, as in the report."""
         found: list[str] = []
         for number, result in enumerate(self.results, 1):
+            if isinstance(result, Posterior):
+                return f"{result}\n"
             page = self._page(result, "markdown", units, figures=False)
             head, *sections = page.split("\n## ")
             gain = [line for line in head.splitlines() if line.startswith("**")]
@@ -62,7 +83,12 @@ class Answers:
         from . import __version__
 
         return {
-            "results": [json.loads(record(result, __version__, {}, self.propagation)) for result in self.results],
+            "results": [
+                result.to_dict()
+                if isinstance(result, Posterior)
+                else json.loads(record(result, __version__, {}, self.propagation))
+                for result in self.results
+            ],
             "uncertainty": None if self.propagation is None else self.propagation.to_dict(),
             "warnings": self.warnings,
         }
@@ -74,6 +100,12 @@ class Answers:
         with _noting(self.warnings):
             whole: str = page({})
         return whole
+
+
+def _slider(key: str) -> str:
+    """The name by which ``what_if`` knows a key of the file."""
+    label, _, name = key.rpartition(".")
+    return f"{name}_{label}" if label else key.replace("[0]", "_x").replace("[1]", "_y")
 
 
 def answers(case: Case) -> Answers:

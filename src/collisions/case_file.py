@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
@@ -25,10 +26,13 @@ SOLVERS: dict[str, Callable[..., Any]] = FORWARD | {
     for f in (reconstruct.central, reconstruct.momentum, reconstruct.planar, reconstruct.speeds)
 }  # fmt: skip
 # What is asked of the uncertain numbers of a file; without a table of these it is ``propagate`` as in ``_PROPAGATE``.
-STUDIES: dict[str, Callable[..., Any]] = {"propagate": uncertainty.propagate, "fit": reconstruct.fit}
+STUDIES: dict[str, Callable[..., Any]] = {
+    "propagate": uncertainty.propagate, "fit": reconstruct.fit, "posterior": reconstruct.posterior,
+}  # fmt: skip
 # Functions that may stand in place of a number: speed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }
 DISTRIBUTIONS = {
-    name: getattr(uncertainty, name) for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval")
+    name: getattr(uncertainty, name)
+    for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval", "Censored")
 }
 FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "travel.speed": travel.speed,
@@ -36,10 +40,14 @@ FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "reconstruct.crush_energy": reconstruct.crush_energy,
     "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
 }
-OTHERS = {"report": "options of the report", "answer": "which answer to take where there are several, counted from 1"}
+OTHERS = {
+    "report": "options of the report",
+    "what_if": "sliders of the page",
+    "answer": "which answer to take where there are several, counted from 1",
+}
 # Arguments that a file has no use for, or that come from the rest of it.
 _NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknowns", "impact", "uncertainty", "form", "rest"}
-_PROPAGATE = {"method": "quasi_random", "seed": 0}
+_PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
 _UNCERTAIN = re.compile(r"(.*?)(\+/-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -102,6 +110,7 @@ class Case:
     study: str
     options: Mapping[str, Any]
     report: Mapping[str, Any]
+    ranges: Mapping[str, Any]
     answer: int | None
 
 
@@ -185,6 +194,14 @@ def stated(text: str) -> Any:
     return uncertainty.Normal.between(low, high, coverage)
 
 
+def ends(stated: Any) -> tuple[str, str]:
+    """The range of an uncertain number as texts: its bounds, or three standard deviations to either side within them."""
+    low, high = (stated.low, stated.high) if isinstance(stated, uncertainty.Interval) else stated.support
+    if math.isinf(high - low):
+        low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
+    return f"{low!r} {stated.unit}", f"{high!r} {stated.unit}"
+
+
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
         return values.get(node.key, node.nominal)
@@ -231,8 +248,11 @@ class _Reader:
             )
         page = self.table("report")
         self.known(page, "report", parameters(report))
+        self.known(self.table("what_if"), "what_if", ["ranges"])
+        ranges = {key: _tuples(value) for key, value in self.table("what_if.ranges").items()}
         self.close()
-        return Case(name, call, self.uncertain, study, options, {key: _tuples(value) for key, value in page.items()}, answer)
+        page = {key: _tuples(value) for key, value in page.items()}
+        return Case(name, call, self.uncertain, study, options, page, ranges, answer)
 
     def solver(self) -> str:
         """The one solver that the file has a table of."""
@@ -335,7 +355,7 @@ class _Reader:
         except CaseError as error:
             self.problems.extend(error.problems)
             return None
-        middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else found.mean
+        middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else getattr(found, "mean", None)
         self.uncertain[key] = Uncertain(key, found, written or middle)
         return self.uncertain[key]
 
@@ -348,6 +368,8 @@ class _Reader:
         if name == "propagate":
             bounds_only = all(isinstance(one.stated, uncertainty.Interval) for one in self.uncertain.values())
             found = ({"method": "interval"} if bounds_only else _PROPAGATE) | found
+        elif name == "posterior":
+            found = _POSTERIOR | found
         rows = found.get("correlation", ())
         if isinstance(rows, tuple) and all(isinstance(row, tuple) and len(row) == 3 for row in rows):
             found |= {"correlation": {row[:2]: row[2] for row in rows}} if rows else {}
@@ -364,11 +386,9 @@ class _Reader:
         return found
 
     def _observed(self, key: str, value: Any) -> Any:
-        """A measured value with its error: a text, or a pair."""
-        if not isinstance(value, str):
-            return _tuples(value)
-        try:
-            return Call(key, stated, {"text": value})({})
-        except CaseError as error:
-            self.problems.extend(error.problems)
-            return None
+        """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
+        found = self.value(key, value, "Pair") if isinstance(value, (str, dict)) else _tuples(value)
+        self.uncertain.pop(key, None)
+        found = found.stated if isinstance(found, Uncertain) else found
+        # Of an observation two dots say that it lies between, not how likely it is where.
+        return uncertainty.Interval(*ends(found)) if isinstance(found, uncertainty.Uniform) else found

@@ -10,6 +10,7 @@ from typing import Any, get_args
 from .case_file import DISTRIBUTIONS, FUNCTIONS, OTHERS, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .reporting import report
 from .vehicle import Vehicle
+from .what_if import what_if
 
 _NUMBER = {"$ref": "#/$defs/number"}
 _PLAIN = {"str": "string", "bool": "boolean", "int": "integer"}
@@ -26,6 +27,7 @@ def case_schema() -> dict[str, Any]:
     tables |= {
         "reconstruct": _object(reverse),
         "report": _arguments(report),
+        "what_if": _object({"ranges": {"type": "object", "description": descriptions(what_if)["ranges"]}}),
         "answer": {"type": "integer", "minimum": 1, "description": OTHERS["answer"]},
     }
     moving = {name: _argument(one, Vehicle.from_speed) for name, one in parameters(Vehicle.from_speed).items()}

@@ -182,8 +182,8 @@ def attributes(kind: type[Any]) -> list[str]:
 
 
 def numeric(*values: Any) -> Any:
-    """``numpy`` if any of these values is an array, else ``math``."""
-    return np if any(isinstance(value, np.ndarray) for value in values) else math
+    """``math`` for numbers; ``numpy`` if any of these values is an array, or an operand of a recording."""
+    return math if all(isinstance(value, (float, int)) for value in values) else np
 
 
 def hypot(x: Value, y: Value) -> Value:

@@ -1,0 +1,303 @@
+"""``what_if``: one HTML page with a slider for each input, whose physics is the recorded kernel printed as JavaScript."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from html import escape
+from operator import attrgetter
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+from .directions import angle_of, direction, from_degrees
+from .document import Document
+from .errors import InputError, Status
+from .formatting import SI_UNITS, UnitSystem, bad_system, decimals_of, scale_of, unit_of
+from .impact import Impact, build
+from .inputs import Inputs
+from .kernels.contact_laws import RULES
+from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION
+from .kernels.javascript import javascript
+from .models import BY_NAME
+from .plot.canvas import who
+from .reading import ArgumentReader, need_one_case
+from .reporting.render import plain
+from .units import Input, shown
+from .vehicle import NAMES, Vehicle, moved
+
+_PAGE = Path(__file__).with_name("what_if.html")
+# The inputs that may have a slider, with their kinds: of the contact, and of a vehicle.
+_CONTACT = {"restitution": "number", "normal": "angle", "point_x": "length", "point_y": "length"} | dict.fromkeys(
+    RULES, "number"
+)
+_BODY = {
+    "speed": "speed", "course": "angle", "vx": "speed", "vy": "speed", "yaw_rate": "yaw rate", "mass": "mass",
+    "yaw_inertia": "inertia", "x": "length", "y": "length", "heading": "angle",
+}  # fmt: skip
+_DOMAINS = {
+    "restitution": RESTITUTION, "speed": NOT_NEGATIVE, "mass": POSITIVE, "yaw_inertia": POSITIVE,
+    **{name: rule.domain for name, rule in RULES.items()},
+}  # fmt: skip
+_WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
+# The rows of the table of results, of a vehicle and of both, with their kinds; and what else the drawing needs.
+_OF_EACH = {
+    "before.speed": ("speed before", "speed"), "after.speed": ("speed after", "speed"), "delta_v": ("delta-V", "speed"),
+    "pdof": ("PDOF, clockwise from ahead", "angle"), "delta_yaw_rate": ("change of yaw rate", "yaw rate"),
+}  # fmt: skip
+_OF_BOTH = {"closing_speed": ("closing speed", "speed"), "energy_loss": ("energy lost", "energy")}
+_DRAWN = ("before.x", "before.y", "before.heading", "before.vx", "before.vy", "after.vx", "after.vy", "impulse_x", "impulse_y")
+
+
+_TO_DEGREES = 180.0 / math.pi
+
+
+class Slider(NamedTuple):
+    """One input of the page: angles in degrees, everything else in SI."""
+
+    name: str
+    kind: str
+    low: float
+    high: float
+    start: float
+
+
+def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units: UnitSystem | None = None) -> Document:
+    """One offline HTML page with a slider for each of these inputs: the scene, delta-V, PDOF, yaw and energy as they move.
+
+    The page solves the impact anew at every move, by the model of this one: the kernel itself, recorded and printed as
+    JavaScript, so that both give the same numbers (sine, cosine and arctangent are the browser's). It asks for nothing from
+    outside, and works by keyboard and with screen readers. Of an impact that a reverse solver found it goes forward from the
+    motions found.
+
+    Parameters
+    ----------
+    impact : Impact
+        A single answered case of any solver; the sliders start at its values.
+    ranges : dict
+        Ends (low, high) of each slider by the name of the input, with units as anywhere, around the value of the impact. Of a
+        vehicle, however it was given: ``speed_a``, ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``, ``yaw_rate_a``,
+        ``yaw_inertia_a``, ``x_a``, ``y_a``, ``heading_a``, and the same with ``_b``. Of the contact: ``restitution``,
+        ``normal``, ``point_x``, ``point_y``, and whichever was given of ``friction``, ``impulse_ratio`` and
+        ``critical_fraction``.
+    units : {"si", "metric", "us"}, optional
+        Of what the page shows; "metric" if not given.
+
+    Returns
+    -------
+    Document
+        The page, a ``str`` that a notebook shows and that ``.save("page.html")`` writes to a file.
+
+    Raises
+    ------
+    InputError
+        A name that the model of this impact has no use for, ends that are not in order, or a value outside of them.
+    ShapeError
+        A batch: take one case of it.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> a, b = col.Vehicle(mass="1500 kg", vx="50 km/h"), col.Vehicle(mass="1200 kg")
+    >>> page = col.what_if(col.linear_central(a, b, 0.2), {"speed_a": ("30 km/h", "80 km/h"), "restitution": (0.0, 0.4)})
+    >>> page[:15], page.count('<input type="range"')
+    ('<!DOCTYPE html>', 2)
+    """
+    need_one_case(impact, (Impact,), "what_if")
+    system = "metric" if units is None else units
+    problem = bad_system(system)
+    if problem is not None:
+        raise problem
+    if impact.model not in BY_NAME:
+        raise InputError(
+            f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
+        )
+    sliders = _sliders(impact, ranges)
+
+    def page(*values: Any) -> dict[str, Any]:
+        return results(impact, dict(zip((slider.name for slider in sliders), values, strict=True)))
+
+    return Document(_written(impact, sliders, javascript(page, len(sliders)), system), "html")
+
+
+def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The numbers of the page for these values of its sliders: floats, arrays, or operands of a recording."""
+    was, model = impact.inputs, BY_NAME[impact.model]
+    a, b = (_body(getattr(was, label), label, given) for label in "ab")
+    normal = from_degrees(given["normal"]) if "normal" in given else was.normal
+    point = was.point and (given.get("point_x", was.point[0]), given.get("point_y", was.point[1]))
+    rest = given.get("restitution", was.restitution), normal, was.rule, given.get(was.rule, was.rule_value), was.law, point
+    inputs = Inputs(model.name, a, b, *rest)
+    raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
+    answer = build(inputs, raw)
+    paths = [*_OF_BOTH, *(f"{label}.{name}" for label in "ab" for name in (*_OF_EACH, *_DRAWN))]
+    found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {path: attrgetter(path)(answer) for path in paths}
+    found |= {} if point is None else {"px": point[0], "py": point[1]}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def _body(vehicle: Vehicle, label: str, given: Mapping[str, Any]) -> Vehicle:
+    """The vehicle with the values of its sliders."""
+    changed = {name: given[f"{name}_{label}"] for name in _BODY if f"{name}_{label}" in given}
+    body = SimpleNamespace(**{name: getattr(vehicle, name) for name in NAMES} | changed)
+    if changed.keys() & {"speed", "course"}:
+        cx, cy = from_degrees(changed["course"]) if "course" in changed else _heading_for(vehicle)
+        speed = changed.get("speed", vehicle.speed)
+        body.vx, body.vy = speed * cx, speed * cy
+    if "heading" in changed:
+        body.heading = changed["heading"] * (math.pi / 180.0)
+    made: Any = body
+    return moved(made, body.vx, body.vy, body.yaw_rate)
+
+
+def _heading_for(vehicle: Vehicle) -> tuple[Any, Any]:
+    """The direction in which the vehicle moves; of one at rest as it was given."""
+    if vehicle.speed > 0.0:
+        return vehicle.vx / vehicle.speed, vehicle.vy / vehicle.speed
+    return direction(ArgumentReader(), (vehicle.given or {})["course"], "course")
+
+
+def starts(impact: Impact) -> dict[str, Any]:
+    """The value of each input that may have a slider, angles in degrees; NaN where only its range is known."""
+    inputs, takes = impact.inputs, BY_NAME[impact.model].takes
+    found = {"restitution": inputs.restitution, "normal": impact.normal_angle}
+    if "rule_value" in takes:
+        found[inputs.rule] = inputs.rule_value
+    if "point[0]" in takes and inputs.point is not None:
+        found |= {"point_x": inputs.point[0], "point_y": inputs.point[1]}
+    for label, body in (("a", inputs.a), ("b", inputs.b)):
+        free = ("speed", "course", "vx", "vy") if body.pivot is None else ()
+        names = [*free, *(name for name in _BODY if f"{label}.{name}" in takes and name not in ("vx", "vy")), "heading"]
+        found |= {f"{name}_{label}": getattr(body, name) for name in names if getattr(body, name) is not None}
+        if not body.speed > 0.0 and free and "course" in (body.given or {}):
+            found[f"course_{label}"] = angle_of(*_heading_for(body))
+    return {name: _TO_DEGREES * value if _kind(name) == "angle" else value for name, value in found.items()}
+
+
+def _kind(name: str) -> str:
+    return _CONTACT[name] if name in _CONTACT else _BODY[name[:-2]]
+
+
+def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
+    """The sliders; one error names every range that cannot be used."""
+    reader, known, found = ArgumentReader(), starts(impact), []
+    if not isinstance(ranges, Mapping) or not ranges:
+        raise InputError(
+            f"ranges must be a dict of (low, high) by input, such as {{'speed_a': ('40 km/h', '70 km/h')}}; "
+            f"got {shown(ranges)}",
+            code="bad_inputs",
+            argument="ranges",
+        )
+    for name, ends in ranges.items():
+        if name not in known:
+            text = f"{shown(name)} is no input of this {impact.model} that could be moved; take some of {', '.join(known)}"
+            reader.refuse(InputError(text, code="bad_inputs", argument="ranges"))
+        elif not isinstance(ends, (tuple, list)) or len(ends) != 2:
+            text = f"{name} must be a pair (low, high), got {shown(ends)}"
+            reader.refuse(InputError(text, code="bad_range", argument=name))
+        else:
+            found.append(_slider(reader, name, ends, known[name]))
+    for label in "ab":
+        moving = [name for name in ("vx", "vy", "speed", "course") if f"{name}_{label}" in ranges]
+        if {"vx", "vy"} & set(moving) and {"speed", "course"} & set(moving):
+            both = " and ".join(f"{name}_{label}" for name in moving)
+            text = f"{both} say one thing in two ways; move vx and vy, or speed and course"
+            reader.refuse(InputError(text, code="speed_twice", argument="ranges"))
+        if moving == ["speed"] and math.isnan(known[f"course_{label}"]):
+            text = f"{label} stands, and its course is not known; give course_{label} a range too"
+            reader.refuse(InputError(text, code="missing_course", argument=f"course_{label}"))
+    reader.close()
+    return found
+
+
+def _slider(reader: ArgumentReader, name: str, ends: Any, start: float) -> Slider:
+    kind, count = _kind(name), len(reader.problems)
+    numbers: list[Any] = []
+    for end in ends:
+        if kind == "angle":
+            value, in_degrees = reader.angle(end, name)
+            numbers.append(value if in_degrees else _TO_DEGREES * value)
+        else:
+            numbers.append(
+                reader.number(end, SI_UNITS[kind], name, _DOMAINS.get(name.removesuffix("_a").removesuffix("_b"), FINITE))
+            )
+    if len(reader.problems) == count:
+        low, high = numbers
+        if not all(isinstance(end, float) and math.isfinite(end) for end in numbers) or not low < high:
+            text = f"{name} must be two finite numbers in order, (low, high), got {shown(ends)}"
+            reader.refuse(InputError(text, code="bad_range", argument=name))
+        else:
+            middle = 0.5 * low + 0.5 * high
+            start = middle if math.isnan(start) else start
+            start = (
+                start + 360.0 * round((middle - start) / 360.0) if kind == "angle" and math.isfinite(middle - start) else start
+            )
+            if low <= start <= high:
+                return Slider(name, kind, low, high, start)
+            unit = "deg" if kind == "angle" else SI_UNITS[kind]
+            text = f"{name} of the impact is {start:.6g} {unit}, outside of {low:.6g} to {high:.6g} {unit}; give ends around it"
+            reader.refuse(InputError(text, code="bad_range", argument=name))
+    return Slider(name, kind, math.nan, math.nan, math.nan)
+
+
+def _written(impact: Impact, sliders: list[Slider], printed: str, system: str) -> str:
+    """The page: the sliders and the empty table as HTML, what the script needs as JSON, and the printed kernel."""
+    from . import __version__
+
+    names = {label: plain(who(at, body)) for at, (label, body) in enumerate((("a", impact.inputs.a), ("b", impact.inputs.b)))}
+    units = {}
+    for kind in {*(slider.kind for slider in sliders), *(kind for _, kind in (_OF_EACH | _OF_BOTH).values())}:
+        label = unit_of(kind, system).replace("**2", "²").replace("*", "·")
+        units[kind] = {"unit": label, "scale": scale_of(kind, system), "decimals": decimals_of(kind, system)}
+    rows = []
+    known = results(impact, {slider.name: slider.start for slider in sliders})
+    for name, (words, _) in _OF_EACH.items():
+        cells = "".join(f'<td id="{label}.{name}"></td>' for label in "ab")
+        rows += [f'<tr><th scope="row">{words}</th>{cells}</tr>'] if {f"a.{name}", f"b.{name}"} & known.keys() else []
+    rows += [f'<tr><th scope="row">{words}</th><td colspan="2" id="{name}"></td></tr>' for name, (words, _) in _OF_BOTH.items()]
+    inputs = []
+    for slider in sliders:
+        own, label = (slider.name, "") if slider.name in _CONTACT else (slider.name[:-2], slider.name[-1])
+        words = escape(_WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else ""))
+        scale = _scale(slider.kind, system)
+        ends = " ".join(
+            f'{key}="{end * scale!r}"' for key, end in (("min", slider.low), ("max", slider.high), ("value", slider.start))
+        )
+        inputs.append(
+            f'<p><label for="{slider.name}">{words}</label><output for="{slider.name}" id="{slider.name}-value"></output>'
+            f'<input type="range" id="{slider.name}" {ends} step="any"></p>'
+        )
+    data = {
+        "sliders": [
+            {"name": s.name, "kind": s.kind, "start": s.start, "factor": 1.0 / _scale(s.kind, system)} for s in sliders
+        ],
+        "kinds": {
+            **{f"{label}.{name}": kind for label in "ab" for name, (_, kind) in _OF_EACH.items()},
+            **{n: k for n, (_, k) in _OF_BOTH.items()},
+        },
+        "units": units,
+        "sentences": {int(status): status.sentence for status in Status},
+        "names": names,
+        "fixed": {label: math.isinf(getattr(impact.inputs, label).mass) for label in "ab"},
+    }
+    parts = {
+        "title": escape(f"What if: {names['a']} and {names['b']}"),
+        "model": escape(BY_NAME[impact.model].assumptions),
+        "inputs": "\n".join(inputs),
+        "a": escape(names["a"]),
+        "b": escape(names["b"]),
+        "rows": "\n".join(rows),
+        "data": json.dumps(data).replace("<", "\\u003c"),
+        "kernel": printed,
+        "version": __version__,
+    }
+    text = _PAGE.read_text(encoding="utf-8")
+    for name, part in parts.items():
+        text = text.replace(f"<!--{name}-->", part)
+    return text
+
+
+def _scale(kind: str, system: str) -> float:
+    """The factor from the number of a slider, degrees or SI, to the unit that the page shows."""
+    return scale_of(kind, system) / (_TO_DEGREES if kind == "angle" else 1.0)
