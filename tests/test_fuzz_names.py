@@ -339,6 +339,19 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
     assert json.dumps(case.must("impact_schema", col.impact_schema), allow_nan=False)
 
 
+@fuzzes("what_if", share=0.2)
+def test_pages_of_sliders(case: Case) -> None:
+    """Any impact, any names and ends."""
+    names = ("speed_a", "vx_b", "mass_a", "restitution", "friction", "normal", "point_x", "heading_b", case.text())
+    ranges = {}
+    for name in case.sample(names, 2):
+        low, high = sorted((case.number("vx"), case.number("vx")))
+        ranges[name] = case.option((case.value("speed"), case.value("speed")), (low, high), (-1e3, 1e3), (0.0, 1.0))
+    impact = case.option(answer_of(case), known_impact(0), known_impact(5))
+    found = case.call("what_if", col.what_if, impact, ranges, **case.spoil({"units": case.option(None, *UNIT_SYSTEMS)}))
+    assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
+
+
 def explained(case: Case, answer: Any) -> None:
     """The derivation of an answer."""
     options = {"units": case.option(*UNIT_SYSTEMS), "form": case.option("markdown", "text")}

@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import what_if as module_or_function
+from collisions import what_if
 from collisions.__main__ import main
-from collisions.what_if import results, what_if
-from fuzzing import Case, fuzzes, load_units
+from collisions.what_if_page import results
 from javascript import CHROMIUM, answers
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg", name="Golf")
@@ -254,27 +253,3 @@ def test_a_refused_case_says_why_in_the_browser():
     assert col.Status.SEPARATING.sentence in page
     (row,) = answers(script(page), [[180.0]])
     assert row[0] == col.Status.SEPARATING
-
-
-@fuzzes("what_if", share=0.2)
-def test_fuzz(case: Case) -> None:
-    """Any impact, any ranges."""
-    load_units()
-    names = ("speed_a", "vx_b", "mass_a", "restitution", "friction", "normal", "point_x", "heading_b", case.text())
-
-    def ends():
-        return case.option(
-            (case.value("speed"), case.value("speed")), sorted((case.number("vx"), case.number("vx"))), (-1e3, 1e3)
-        )
-
-    impact = case.option(IMPACT, col.linear_central(A, B.replace(vy=0.0), case.random()))
-    found = case.call(
-        "what_if", what_if, impact, {case.choice(names): ends() for _ in range(2)}, units=case.option(None, "si", "us")
-    )
-    assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
-
-
-def test_the_public_name():
-    """The function, although its module has the same name."""
-    assert module_or_function is what_if
-    assert col.what_if is what_if

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from .model_choice import ModelChoice
     from .reporting import report
     from .schema import impact_schema
-    from .what_if import what_if
+    from .what_if_page import what_if
 
 __version__ = "0.1.0"
 
@@ -86,7 +86,7 @@ _LATER = {
     "impact_schema": "schema",
     "left_out": "contact_effects",
     "report": "reporting",
-    "what_if": "what_if",
+    "what_if": "what_if_page",
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import re
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import reduce
 from inspect import signature
@@ -14,18 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, ends, nearest
-from .errors import CollisionsWarning
+from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, ends, nearest, parameters
+from .diagnostics import diagnose
+from .errors import CollisionsWarning, InputError
+from .formatting import percent
 from .impact import Impact
 from .quantities import unit_of
 from .reconstruct import MomentumSolution, Posterior
 from .reporting import report
 from .reporting.record import record
 from .units import shown, to_quantity
-from .what_if import starts, what_if
-
-# The parts of a report that are not printed, by their first words.
-_LEFT_OUT = ("Inputs", "The contact, and", "Assumptions", "Notes", "Figures", "Derivation", "References", "Record")
+from .what_if_page import starts, what_if
 
 
 @dataclass(frozen=True)
@@ -37,9 +35,11 @@ class Answers:
     propagation: Any
     warnings: list[str]
 
-    def report(self, form: str, units: str | None = None, figures: bool = True) -> str:
+    def report(self, form: str, units: str | None = None) -> str:
         """The report of the one result; ``units`` in place of those of the file."""
-        return self._page(self._one(), form, units, figures)
+        options = {**self.case.report, "units": self._units(units), "form": form, "uncertainty": self.propagation}
+        whole: str = self._made(report, {**options, "impact": self._one()})
+        return whole
 
     def what_if(self, units: str | None = None) -> str:
         """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
@@ -51,10 +51,7 @@ class Answers:
             if not found:
                 text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
                 raise CaseError(("what_if.ranges", text))
-        shown_in = units or self.case.report.get("units", "metric")
-        page = Call("what_if", what_if, {"impact": one, "ranges": found, "units": shown_in})
-        with _noting(self.warnings):
-            whole: str = page({})
+        whole: str = self._made(what_if, {"impact": one, "ranges": found, "units": self._units(units)}, "what_if")
         return whole
 
     def _one(self) -> Any:
@@ -65,41 +62,48 @@ class Answers:
         return self.results[0]
 
     def text(self, units: str | None = None) -> str:
-        """The results, the uncertainty and the findings, as in the report."""
-        found: list[str] = []
+        """The results with their findings, and the ranges with what they come of."""
+        found: list[Any] = []
+        system = self._units(units)
+        looked_at = {name: value for name, value in self.case.report.items() if name in parameters(diagnose)}
         for number, result in enumerate(self.results, 1):
-            if isinstance(result, Posterior):
-                return f"{result}\n"
-            page = self._page(result, "markdown", units, figures=False)
-            head, *sections = page.split("\n## ")
-            gain = [line for line in head.splitlines() if line.startswith("**")]
-            parts = [f"## {part}" for part in sections if not part.startswith(_LEFT_OUT)]
-            title = [f"# Answer {number} of {len(self.results)}"] if len(self.results) > 1 else []
-            found += map(_aligned, [*title, *gain, *parts])
-        return "\n\n".join(part.strip() for part in found) + "\n"
+            found += [f"Answer {number} of {len(self.results)}"] if len(self.results) > 1 else []
+            parts = [result]
+            if isinstance(result, (Impact, MomentumSolution)):
+                parts.append(self._made(diagnose, {**looked_at, "impact": result, "units": system}))
+            found += [self._made(part.summary, {"units": system}) for part in parts]
+        if self.propagation is not None:
+            shares = [self._made(_shares, {"output": output}, "propagate") for output in self.propagation.outputs.values()]
+            found += [self.propagation.summary(system), "\n".join(shares)]
+        return "\n\n".join(str(part).strip() for part in found if str(part).strip()) + "\n"
 
     def to_dict(self) -> dict[str, Any]:
         """Everything in plain values for other tools: each result as the record at the end of a report."""
         from . import __version__
 
-        return {
-            "results": [
-                result.to_dict()
-                if isinstance(result, Posterior)
-                else json.loads(record(result, __version__, {}, self.propagation))
-                for result in self.results
-            ],
-            "uncertainty": None if self.propagation is None else self.propagation.to_dict(),
-            "warnings": self.warnings,
-        }
+        results = [
+            result.to_dict() if isinstance(result, Posterior) else json.loads(record(result, __version__, {}, self.propagation))
+            for result in self.results
+        ]
+        ranges = None if self.propagation is None else self._made(self.propagation.to_dict, {}, "propagate")
+        return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
 
-    def _page(self, result: Any, form: str, units: str | None, figures: bool) -> str:
-        options = {"units": "metric", **self.case.report, **({} if units is None else {"units": units})}
-        options |= {} if figures else {"figures": False}
-        page = Call("report", report, {**options, "form": form, "uncertainty": self.propagation, "impact": result})
+    def _units(self, units: str | None) -> Any:
+        return units or self.case.report.get("units", "metric")
+
+    def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
+        """What a function makes of the results; its warnings are kept, and a refusal names the table of its options."""
         with _noting(self.warnings):
-            whole: str = page({})
-        return whole
+            return Call(key, function, arguments)({})
+
+
+def _shares(output: Any) -> str:
+    """The inputs that the spread of an output comes of, as shares of its variance; "" where there are none."""
+    with suppress(InputError):
+        shares = sorted(output.contributions.items(), key=lambda one: -one[1])
+        listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
+        return f"Variance of {output.name}: {listed}"
+    return ""
 
 
 def _slider(key: str) -> str:
@@ -199,14 +203,3 @@ def _usual(case: Case, result: Any) -> tuple[str, ...]:
         return (*result.unknowns, "delta_v_a", "delta_v_b")
     found = ("a.delta_v", "b.delta_v", "energy_loss")
     return found if case.solver in FORWARD else ("a.before.speed", "b.before.speed", *found)
-
-
-def _aligned(text: str) -> str:
-    """Markdown as a text: the columns of its tables as wide as their longest cells, without marks and lines of dashes."""
-    lines = [
-        [re.sub(r"\\(.)", r"\1", part.strip()) for part in (re.split(r"(?<!\\)\|", line)[1:-1] if line[:1] == "|" else [line])]
-        for line in text.splitlines()
-        if not line.startswith("| ---")
-    ]
-    wide = [max((len(row[at]) for row in lines if len(row) > 1), default=0) for at in range(3)]
-    return "\n".join("  ".join(map(str.ljust, row, wide)).rstrip() if len(row) > 1 else row[0] for row in lines)

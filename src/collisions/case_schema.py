@@ -10,7 +10,7 @@ from typing import Any, get_args
 from .case_file import DISTRIBUTIONS, FUNCTIONS, OTHERS, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .reporting import report
 from .vehicle import Vehicle
-from .what_if import what_if
+from .what_if_page import what_if
 
 _NUMBER = {"$ref": "#/$defs/number"}
 _PLAIN = {"str": "string", "bool": "boolean", "int": "integer"}

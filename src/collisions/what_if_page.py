@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from .directions import angle_of, direction, from_degrees
 from .document import Document
 from .errors import InputError, Status
-from .formatting import SI_UNITS, UnitSystem, bad_system, decimals_of, scale_of, unit_of
+from .formatting import SI_UNITS, UnitSystem, decimals_of, scale_of, unit_of
 from .impact import Impact, build
 from .inputs import Inputs
 from .kernels.contact_laws import RULES
@@ -24,10 +24,11 @@ from .models import BY_NAME
 from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
+from .summary import cells
 from .units import Input, shown
 from .vehicle import NAMES, Vehicle, moved
 
-_PAGE = Path(__file__).with_name("what_if.html")
+_PAGE = Path(__file__).with_name("what_if_page.html")
 # The inputs that may have a slider, with their kinds: of the contact, and of a vehicle.
 _CONTACT = {"restitution": "number", "normal": "angle", "point_x": "length", "point_y": "length"} | dict.fromkeys(
     RULES, "number"
@@ -82,7 +83,7 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
         ``normal``, ``point_x``, ``point_y``, and whichever was given of ``friction``, ``impulse_ratio`` and
         ``critical_fraction``.
     units : {"si", "metric", "us"}, optional
-        Of what the page shows; "metric" if not given.
+        Of what the page shows; by default those that the inputs were given in, where they agree, else SI.
 
     Returns
     -------
@@ -105,10 +106,7 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
     ('<!DOCTYPE html>', 2)
     """
     need_one_case(impact, (Impact,), "what_if")
-    system = "metric" if units is None else units
-    problem = bad_system(system)
-    if problem is not None:
-        raise problem
+    system = cells(units, impact._texts()).name
     if impact.model not in BY_NAME:
         raise InputError(
             f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
