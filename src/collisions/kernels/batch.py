@@ -65,6 +65,10 @@ class Check(NamedTuple):
     passes: Callable[..., bool] | None = None
     implied: bool = False
 
+    def fault(self, *values: Any) -> Any:
+        """The status of each case, 0 if nothing is wrong."""
+        return first_status(*((fault(*values), code) for fault, code in self.faults))
+
 
 class Work(NamedTuple):
     """A kernel, its settings and its inputs."""
@@ -296,7 +300,7 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     for check in checks:
         values = [cut[id(value)] for value in check.values]
         if check.passes is None or not check.passes(*values):
-            found.append(first_status(*((fault(*values), code) for fault, code in check.faults)))
+            found.append(check.fault(*values))
     return found
 
 
