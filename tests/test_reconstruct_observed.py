@@ -485,6 +485,29 @@ def test_a_function_is_met_more_than_once():
     assert (type(error), error.code) == (col.NoSolutionError, "contradictory")
 
 
+def test_a_function_in_a_batch_of_inline_impacts():
+    """As one by one; where two closing speeds fit, none does, or an input is wrong, the case is NaN and counted."""
+    solve = reconstruct.inline_closing_speed
+
+    def two_steps(v):
+        return 0.3 if v < 3 else 0.1
+
+    delta_v = np.array([[1.0, 1.8, 2.5, -1.0, math.nan]])
+    with pytest.warns(col.CollisionsWarning, match="3 of 5 cases"):
+        found = solve(1000, 1000, two_steps, delta_v_a=delta_v)
+    assert found.shape == (1, 5)
+    assert found[0, [0, 2]].tolist() == [solve(1000, 1000, two_steps, delta_v_a=dv) for dv in (1.0, 2.5)]
+    assert np.isnan(found[0, [1, 3, 4]]).all()
+    for function in (lambda v: 0.3 / (1 + v), lambda v: col.reference.restitution(v, outside="refuse")):
+        many = np.linspace(0.8, 2.5, 300)
+        found = solve(1000, np.linspace(900, 1400, 300), function, delta_v_a=many)
+        for i in (0, 7, 255, 256, 299):
+            alone = solve(1000, float(np.linspace(900, 1400, 300)[i]), function, delta_v_a=float(many[i]))
+            assert found[i] == pytest.approx(alone, rel=1e-12)
+    assert solve(1000, 1000, two_steps, delta_v_a=np.zeros(0)).shape == (0,)
+    assert solve(1000, 1000, two_steps, delta_v_a=np.array([1.0], dtype=np.float32)).dtype == np.float32
+
+
 def only_slow(v):
     if v > 3.0:
         raise ValueError("fitted below 3 m/s")
@@ -544,7 +567,6 @@ INLINE = [
     ("immovable", (INF, INF, cipriani), {"energy_loss": 5}, ["both masses are infinite"]),
     ("contradictory", (INF, 1, 0.1), {"ees_a": 5, "ees_b": 5}, ["an infinite mass has an equivalent speed of 0"]),
     ("contradictory", (1, 1, lambda v: 1.0), {"energy_loss": 5}, ["no closing speed has the restitution"]),
-    ("bad_shape", (1, np.ones(2), cipriani), {"delta_v_a": 5}, ["single cases", "call once for each"]),
     ("bad_shape", (np.ones(3), np.ones(2), 0.1), {"delta_v_a": 5}, ["mass_a (3,), mass_b (2,)"]),
 ]
 

@@ -365,19 +365,87 @@ def test_a_jump_of_the_function_is_no_root():
 
 
 def test_functions_that_cannot_be_used():
-    """Values out of range, or an exception of its own, are quoted with the closing speed; batches and shares are refused."""
+    """Values out of range, or an exception of its own, are quoted with the closing speed; shares are refused."""
     with pytest.raises(col.InputError, match=r"gave 1\.5, which is not .*from 0 to 1") as caught:
         low_speed(delta_v_a=2.0, restitution=lambda g: 1.5)
     assert (caught.value.code, caught.value.fields["argument"]) == ("bad_restitution", "restitution")
     with pytest.raises(col.InputError, match=r"raised KeyError: 'nothing'") as caught:
         low_speed(delta_v_a=2.0, restitution=lambda g: {}["nothing"])
     assert caught.value.code == "bad_restitution"
-    with pytest.raises(col.InputError, match="single cases") as caught:
-        low_speed(delta_v_a=np.array([2.0, 3.0]), restitution=falling)
-    assert caught.value.code == "bad_shape"
     with pytest.raises(col.InputError, match="solved together") as caught:
         low_speed(delta_v_a=2.0, restitution=falling, friction=None, critical_fraction=0.5)
     assert caught.value.code == "bad_combination"
+
+
+def in_arrays(closing):
+    """The same as ``falling``, of arrays too."""
+    return 0.05 + 0.45 * np.exp(-closing / 6.0)
+
+
+@pytest.mark.parametrize("function", [in_arrays, falling, lambda closing: col.reference.restitution(closing, outside="refuse")])
+@pytest.mark.parametrize(
+    "pair", [("speed_b", "delta_v_a"), pytest.param(("delta_v_b", "energy_loss"), marks=pytest.mark.slow)], ids=str
+)
+def test_a_function_in_a_batch(function, pair):
+    """Every root of every case as one by one; a case without one is NaN, and its neighbours are untouched."""
+    contact = {**CONTACT, "friction": 0.5}
+    e_true = [float(np.asarray(function(g))) for g in (3.0, 4.5, 6.0)]
+    hits = []
+    for closing, e in zip((3.0, 4.5, 6.0), e_true, strict=True):
+        hit = solve_forward(closing, e, contact)
+        assert hit.closing_speed == pytest.approx(closing, rel=1e-9)
+        hits.append(hit)
+    one_by_one = [knowledge(hit, pair) for hit in hits]
+    together = {name: np.array([[*(known[name] for known in one_by_one), -1.0]]) for name in one_by_one[0]}
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = speeds(A, B, **COURSES, restitution=function, **contact, **together)
+    assert any("1 of 4 cases" in str(one.message) for one in said)
+    assert found[0].a.before.vx.shape == (1, 4)
+    assert found[0].refused.tolist() == [[False, False, False, True]]
+    for i, (hit, known) in enumerate(zip(hits, one_by_one, strict=True)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            alone = speeds(A, B, **COURSES, restitution=function, **contact, **known)
+        answers = [root for root in found if not root.refused[0, i]]
+        assert len(answers) == len(alone) == found[0].reconstruction.answers[0, i]
+        for root, single in zip(answers, alone, strict=True):
+            # Both end within rounding of the root, by a restitution narrowed to rounding.
+            assert root.a.before.speed[0, i] == pytest.approx(single.a.before.speed, rel=1e-9)
+            assert root.restitution[0, i] == pytest.approx(single.restitution, rel=1e-9)
+            assert root.reconstruction.condition[0, i] == pytest.approx(single.reconstruction.condition, rel=1e-5)
+        assert min(abs(root.a.before.speed[0, i] - hit.a.before.speed) for root in answers) < 1e-6
+
+
+def solve_forward(closing, e, contact):
+    """The impact of A and B along ``COURSES`` at this closing speed, both equally fast but for that."""
+    ways = [(math.cos(course), math.sin(course)) for course in COURSES.values()]
+    approach = ways[0][0] - ways[1][0]  # the normal is along x, and nothing turns before
+    speed = closing / approach
+    return col.eccentric(
+        A.replace(vx=speed * ways[0][0], vy=speed * ways[0][1]),
+        B.replace(vx=speed * ways[1][0], vy=speed * ways[1][1]),
+        e,
+        **contact,
+    )
+
+
+def test_a_function_under_propagate():
+    """The restitution belongs to each sample's own closing speed."""
+    contact = {**CONTACT, "friction": 0.5}
+
+    def model(delta_v):
+        known = {"speed_b": 0.0, "delta_v_a": delta_v}
+        (found,) = speeds(A, B, course_a=0.0, course_b=None, restitution=in_arrays, **contact, **known)
+        return {"speed": found.a.before.speed, "off": found.restitution - in_arrays(found.closing_speed)}
+
+    spread = col.uncertainty.propagate(
+        model, {"delta_v": col.uncertainty.Normal(4.0, 0.2)}, method="quasi_random", samples=64, seed=1
+    )
+    assert abs(spread["off"].mean) < 1e-9
+    assert spread.failed == 0
+    slope = float((model(np.array([4.001]))["speed"] - model(np.array([3.999]))["speed"])[0] / 0.002)
+    assert spread["speed"].std == pytest.approx(abs(slope) * 0.2, rel=0.05)
 
 
 @pytest.mark.slow

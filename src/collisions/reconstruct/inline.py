@@ -44,7 +44,8 @@ def inline_closing_speed(
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; one may be ``inf``.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s; then both are solved together.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s; then both are solved together, in
+        a batch case by case, NaN where none or more than one answer fits.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
         Change of velocity of one vehicle, >= 0.
     energy_loss : float, str, Quantity or array [J], optional
@@ -108,13 +109,14 @@ def _closing_speed(kind: str, numbers: dict[str, Any]) -> Any:
         return changing_speed(values[kind], share_a if kind == "delta_v_a" else share_b, values["restitution"])
 
 
-def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
-    speed = _closing_speed(kind, numbers)
+def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = None, faults: Any = ()) -> Value:
+    speed = _closing_speed(kind, numbers) if found is None else found
     status = cases.first_status(
         (
             *input_faults(numbers),
             (np.isinf(numbers["mass_a"]) & np.isinf(numbers["mass_b"]), Status.IMMOVABLE),
             (np.isinf(numbers.get(f"mass_{kind[-1]}", 0.0)) & kind.startswith("delta"), Status.INFINITE_MASS),
+            *faults,
             (~cases.beyond(speed), Status.OK),
             (kind in ("energy_loss", "ees_a") and np.equal(numbers["restitution"], 1.0), Status.UNDETERMINED),
             (True, Status.UNDETERMINED if kind == "energy_loss" else Status.CONTRADICTORY),
@@ -136,17 +138,29 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any]) -> Value:
 
 
 def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf) -> Value:
-    _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses inputs that are wrong whatever the restitution
+    if cases.shape is None:
+        _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses inputs that are wrong whatever the restitution
+    shape = cases.shape or ()
+    flat = {name: np.broadcast_to(np.asarray(value, dtype=np.float64), shape).reshape(-1) for name, value in numbers.items()}
 
-    def speed(e: Any) -> Any:
-        return _closing_speed(kind, {**numbers, "restitution": e})
+    def speed(e: Any, case: Any) -> Any:
+        return _closing_speed(kind, {name: value[case] for name, value in flat.items()} | {"restitution": e})
 
-    def mismatch(e: Any) -> list[Any]:
+    def mismatch(e: Any, case: Any) -> list[Any]:
         # Both speeds of maximum crush give the closing speed without e.
-        return [function(np.broadcast_to(speed(e), np.shape(e))) - e]
+        return [function(speed(e, case) + 0.0 * e) - e]
 
-    found = {float(speed(np.float64(e))) for _, e in crossings(mismatch)}
-    answers = tuple(sorted(filter(math.isfinite, found)))
+    count = math.prod(shape)
+    found: list[set[float]] = [set() for _ in range(count)]
+    for case, _, e in crossings(mismatch, count):
+        found[case] |= {float(speed(np.float64(e), case))}
+    each = [tuple(sorted(filter(math.isfinite, answers))) for answers in found]
+    if cases.shape is not None:
+        alone = np.array([answers[0] if answers else np.nan for answers in each]).reshape(shape)
+        several = np.array([len(answers) > 1 for answers in each], dtype=bool).reshape(shape)
+        faults = (several, Status.AMBIGUOUS), (np.isnan(alone), Status.CONTRADICTORY)
+        return _with_number(cases, kind, {**numbers, "restitution": 0.0}, alone, faults)
+    (answers,) = each
     if not answers:
         function.complain()
         raise NoSolutionError("no closing speed has the restitution that leads to it", code="contradictory")

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..units import shown
+from ..warning import quietly
 from .common import Cases
 
 # The restitutions at which the search begins.
@@ -21,30 +22,50 @@ _ROUNDS = 13
 _ROOT = 1e-6
 # Relative step for the slope: accurate to 1e-8 for functions that vary over some metres per second.
 _STEP = 1e-4
+# Closing speeds at which a function is asked both ways, alone and in an array.
+_COMPARED = 16
 
-_Mismatch = Callable[[Any], Sequence[Any]]
+# Cases whose grids are looked at together, so that their arrays stay small.
+_BLOCK = 256
+
+# By restitution and case, arrays alike: the mismatch of each row.
+_Mismatch = Callable[[Any, Any], Sequence[Any]]
 
 
-def crossings(mismatch: _Mismatch) -> list[tuple[int, float]]:
-    """Every root of each row of ``mismatch(restitution)`` that a grid of restitutions shows: row and root.
+def crossings(mismatch: _Mismatch, count: int = 1) -> list[tuple[int, int, float]]:
+    """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows: case, row and root.
 
     NaN marks where a row has no answer. A change of sign is narrowed down, also between the grid and the place where a row
     ends; where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there.
     """
-    values = np.stack(list(mismatch(_GRID)))
-    signs, known = np.sign(values), np.isfinite(values)
-    brackets = [_Brackets(row, _GRID[i], _GRID[i + 1]) for row, i in [np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)]]
+    found = []
+    for start in range(0, count, _BLOCK):
+        found += _crossings(mismatch, np.arange(start, min(start + _BLOCK, count)))
+    return found
 
-    row, i = np.nonzero(known[:, :-1] != known[:, 1:])
-    i, outside = np.where(known[row, i], (i, i + 1), (i + 1, i))
-    ending = _Brackets(row, _GRID[i], _GRID[outside])
-    brackets.append(_Brackets(row, _GRID[i], _narrowed(mismatch, ending, _last_answer, 1).low))
+
+def _crossings(mismatch: _Mismatch, cases: Any) -> list[tuple[int, int, float]]:
+    grid, of = np.tile(_GRID, cases.size), np.repeat(cases, _GRID.size)
+    # Rows and cases in one, the cases of a row one after another.
+    values = np.stack(list(mismatch(grid, of))).reshape(-1, _GRID.size)
+    signs, known = np.sign(values), np.isfinite(values)
+
+    def brackets_of(place: Any, low: Any, high: Any) -> _Brackets:
+        return _Brackets(place // cases.size, cases[place % cases.size], low, high)
+
+    place, i = np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)
+    brackets = [brackets_of(place, _GRID[i], _GRID[i + 1])]
+
+    place, i = np.nonzero(known[:, :-1] != known[:, 1:])
+    i, outside = np.where(known[place, i], (i, i + 1), (i + 1, i))
+    ending = brackets_of(place, _GRID[i], _GRID[outside])
+    brackets.append(ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1).low))
 
     size, same = abs(values), signs[:, :-1] * signs[:, 1:] > 0.0
-    row, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
-    around, side = _Brackets(row, _GRID[i], _GRID[i + 2]), signs[row, i][:, np.newaxis]
+    place, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
+    around, side = brackets_of(place, _GRID[i], _GRID[i + 2]), signs[place, i][:, np.newaxis]
     turn = _narrowed(mismatch, around, lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1, 2).low
-    brackets += [_Brackets(row, around.low, turn), _Brackets(row, turn, around.high)]
+    brackets += [around._replace(high=turn), around._replace(low=turn)]
 
     whole = _Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
     _, ends = _sampled(mismatch, whole, 1)
@@ -53,36 +74,36 @@ def crossings(mismatch: _Mismatch) -> list[tuple[int, float]]:
     _, rest = _sampled(mismatch, found, 1)
     roots = np.where(abs(rest[:, 0]) <= abs(rest[:, 1]), found.low, found.high)
     sure = np.min(abs(rest), axis=1, initial=np.inf) <= _ROOT
-    return sorted({(int(row), float(root)) for row, root in zip(found.row[sure], roots[sure], strict=True)})
+    return sorted(set(zip(found.case[sure].tolist(), found.row[sure].tolist(), roots[sure].tolist(), strict=True)))
 
 
 class _Brackets(NamedTuple):
-    """Intervals of restitution: for each its row and both ends."""
+    """Intervals of restitution: for each its row, its case and both ends."""
 
     row: Any
+    case: Any
     low: Any
     high: Any
 
 
 def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any, Any]:
     """Split each bracket into ``pieces``; gives the end points, and the mismatch of the bracket's row at them."""
-    row, low, high = (part[:, np.newaxis] for part in brackets)
+    row, low, high = (part[:, np.newaxis] for part in (brackets.row, brackets.low, brackets.high))
     places = np.append(low + (high - low) * (np.arange(pieces) / pieces), high, axis=1)
     if not places.size:
         return places, places
-    values = np.stack(list(mismatch(places.ravel()))).reshape(-1, *places.shape)
+    values = np.stack(list(mismatch(places.ravel(), np.repeat(brackets.case, pieces + 1)))).reshape(-1, *places.shape)
     return places, values[row, np.arange(len(row))[:, np.newaxis], np.arange(pieces + 1)]
 
 
 def _narrowed(mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int) -> _Brackets:
     """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one that ``first_piece`` chooses."""
-    row, low, high = brackets
     for _ in range(_ROUNDS):
-        places, values = _sampled(mismatch, _Brackets(row, low, high), _PIECES)
+        places, values = _sampled(mismatch, brackets, _PIECES)
         if places.size:
-            first = np.clip(first_piece(values), 0, _PIECES - count)
-            low, high = places[range(len(row)), first], places[range(len(row)), first + count]
-    return _Brackets(row, low, high)
+            first, of = np.clip(first_piece(values), 0, _PIECES - count), range(len(places))
+            brackets = brackets._replace(low=places[of, first], high=places[of, first + count])
+    return brackets
 
 
 def _change_of_sign(values: Any) -> Any:
@@ -95,22 +116,45 @@ def _last_answer(values: Any) -> Any:
 
 
 class RestitutionOf:
-    """A caller's function of the closing speed, whose values outside 0 to 1 are no answer."""
+    """A caller's function of the closing speed, whose values outside 0 to 1 are no answer.
+
+    For a batch it is called with arrays of closing speeds if it takes these as it takes single ones.
+    """
 
     def __init__(self, function: Callable[[float], Any], cases: Cases) -> None:
-        if cases.shape is not None:
-            raise InputError(
-                "a function of restitution takes single cases; call once for each", code="bad_shape", argument="restitution"
-            )
         self.function = function
         self.refused = ""
+        self.takes_arrays: bool | None = None if cases.shape is not None else False
 
     def __call__(self, closing: Any) -> Any:
         """Restitution at each closing speed; NaN where the function has none."""
+        if self.takes_arrays is None:
+            self.takes_arrays = self._same_in_arrays(closing)
+        if self.takes_arrays:
+            with quietly():
+                e = np.array(self.function(closing), dtype=np.float64)
+            return np.where((closing > 0.0) & (e >= 0.0) & (e <= 1.0), e, np.nan)
         return np.array([self._one(float(speed)) for speed in closing])
 
-    def slope(self, closing: float) -> float:
+    def _same_in_arrays(self, closing: Any) -> bool:
+        """Whether the function answers an array element by element."""
+        try:
+            with quietly():
+                e = np.array(self.function(closing), dtype=np.float64)
+        except Exception:
+            return False
+        if e.shape != closing.shape:
+            return False
+        some = np.flatnonzero(np.isfinite(closing))[:: max(1, closing.size // _COMPARED)]
+        alone = np.array([self._one(float(speed)) for speed in closing[some]])
+        usable = np.where((closing[some] > 0.0) & (e[some] >= 0.0) & (e[some] <= 1.0), e[some], np.nan)
+        return bool(np.allclose(usable, alone, rtol=1e-12, atol=0.0, equal_nan=True))
+
+    def slope(self, closing: Any) -> Any:
         """Derivative of the restitution by closing speed, one-sided where the function ends; NaN where it has no value."""
+        return np.vectorize(self._slope, otypes=[np.float64])(closing)
+
+    def _slope(self, closing: float) -> float:
         places, refused = closing * np.array([1.0 - _STEP, 1.0, 1.0 + _STEP]), self.refused
         values = self(places)
         # The function need not have a value on both sides of the answer.

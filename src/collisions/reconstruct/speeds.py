@@ -73,9 +73,9 @@ def speeds(
         Directions of motion before the impact; None for a vehicle whose speed is known to be 0.
     restitution : float, str, Quantity or array [1], or function
         Coefficient of restitution, or a function that gives it for a closing speed in m/s: solved together with the speeds,
-        in single cases. With a number every root is found in closed form. With a function, which is much slower, they are
-        looked for on a grid of 129 restitutions, between its places and where it turns or ends; two roots that the grid does
-        not tell apart may be missed.
+        in a batch case by case, and called with arrays if it answers these element by element. With a number every root is
+        found in closed form. With a function, which is much slower, they are looked for on a grid of 129 restitutions, between
+        its places and where it turns or ends; two roots that the grid does not tell apart may be missed.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m]
@@ -231,7 +231,7 @@ def speeds(
                     code="bad_combination",
                     argument="restitution" if function is not None else "critical_fraction",
                 )
-            return scene, _in_order(cases, scene, scene.roots() if function is None else _with_function(scene, function))
+            return scene, _in_order(cases, scene, scene.roots() if function is None else _with_function(cases, scene, function))
 
         try:
             plain = cases.shape is None and function is None
@@ -291,7 +291,7 @@ def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
         )
 
 
-def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
+def _with_function(cases: Cases, scene: Scene, function: RestitutionOf) -> list[Root]:
     """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
     if scene.shares_critical():
         raise InputError(
@@ -300,25 +300,62 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
             code="bad_combination",
             argument="critical_fraction",
         )
+    shape = cases.shape or ()
+    count = int(np.prod(shape))
 
-    def of_closing(closing: Any, e: Any) -> Any:
-        return function(scene.speed_unit * closing + 0.0 * e)
+    def of_closing(part: Scene, closing: Any, e: Any) -> Any:
+        return function(np.ravel(part.speed_unit * closing + 0.0 * e))
 
     def slope(closing: Any) -> Any:
         return scene.speed_unit * function.slope(scene.speed_unit * closing)
 
-    def mismatch(e: Any) -> list[Any]:
-        return [of_closing(scene.fits(root)[1], e) - e for root in scene.roots(e, polish=0)]
+    def mismatch(e: Any, case: Any) -> list[Any]:
+        part = scene.of(case, shape)
+        return [of_closing(part, part.fits(root)[1], e) - e for root in part.roots(e, polish=0)]
 
-    found = [scene.roots(np.full((), e), slope=slope)[row] for row, e in crossings(mismatch)]
-    scene.undetermined = np.zeros((), dtype=bool)
+    found = []
+    for candidate, e in _by_rank(crossings(mismatch, count), count):
+        tried = scene.roots(e.reshape(shape), slope=slope)
+        found.append(_chosen(tried, candidate.reshape(shape)))
+    undetermined = np.zeros(count, dtype=bool)
     if not scene.kinds[0].startswith("speed"):
-        regimes = scene.regimes()
-        for row, e in crossings(lambda e: [scene.any_slip_at(regime, e)[0] + 0.0 * e for regime in regimes]):
+
+        def slips(e: Any, case: Any) -> list[Any]:
+            part = scene.of(case, shape)
+            return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
+
+        for case, row, e in crossings(slips, count):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
-            closing = scene.any_slip_at(regimes[row], np.full((), e))[1]
-            scene.undetermined |= abs(of_closing(closing, np.full(1, e))[0] - e) <= REDUNDANT
+            part = scene.of(np.array([case]), shape)
+            closing = part.any_slip_at(part.regimes()[row], np.full(1, e))[1]
+            undetermined[case] |= abs(of_closing(part, closing, np.full(1, e))[0] - e) <= REDUNDANT
+    scene.undetermined = undetermined.reshape(shape)
     return found
+
+
+def _by_rank(found: list[tuple[int, int, float]], count: int) -> list[tuple[Any, Any]]:
+    """The first roots of all cases, then the second and so on: which candidate each is, and its restitution."""
+    ranks: list[tuple[Any, Any]] = []
+    seen = [0] * count
+    for case, row, e in found:
+        if seen[case] == len(ranks):
+            ranks.append((np.zeros(count, dtype=np.intp), np.full(count, np.nan)))
+        candidate, restitution = ranks[seen[case]]
+        candidate[case], restitution[case] = row, e
+        seen[case] += 1
+    return ranks
+
+
+def _chosen(roots: list[Root], candidate: Any) -> Root:
+    """Of each case the root of its candidate."""
+
+    def take(parts: list[Any]) -> Any:
+        stacked = np.stack([np.broadcast_to(part, candidate.shape) for part in parts])
+        return np.take_along_axis(stacked, candidate[np.newaxis], axis=0)[0]
+
+    slopes = tuple(take([root.slopes[i] for root in roots]) for i in range(2))
+    speed_a, speed_b, e, condition = (take([root[i] for root in roots]) for i in range(4))
+    return Root(speed_a, speed_b, e, condition, slopes)
 
 
 def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:

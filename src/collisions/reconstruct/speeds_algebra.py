@@ -90,7 +90,7 @@ class Scene:
     """
 
     def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...], plain: bool = False) -> None:
-        self.rule, self.law, self.names = rule, law, kinds
+        self.given, self.rule, self.law, self.names = given, rule, law, kinds
         self.kinds = tuple(_SAME.get(kind, kind) for kind in kinds)
         masses = np.minimum(given["a.mass"], given["b.mass"])
         sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else abs(given[kind]) for kind in kinds]
@@ -121,6 +121,11 @@ class Scene:
         seen = [self.observe(_STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
         self.rest = {name: seen[0][name] for name in ("closing", "slip")}
         self.per_speed = {name: tuple(part[name] - self.rest[name] for part in seen[1:]) for name in self.rest}
+
+    def of(self, case: Any, shape: tuple[int, ...]) -> Scene:
+        """The scene of some cases, by their places in the flattened batch."""
+        flat = {name: np.broadcast_to(value, shape).reshape(-1)[case] for name, value in self.given.items()}
+        return Scene(flat, self.rule, self.law, self.names)
 
     def _in_units(self, name: str, value: Any) -> Any:
         kind = name.rpartition(".")[2]
