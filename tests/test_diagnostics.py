@@ -228,6 +228,10 @@ CASES = {
         lambda: (silent(lambda: square(a={"heading": 90.0})), {}),
         lambda: (square(a={"heading": "360 deg"}), {}),
     ),
+    "suspect_bare_angle": (
+        lambda: (square(a={"heading": 5}), {}),
+        lambda: (square(a={"heading": "286.5 deg"}), {}),
+    ),
     "suspect_friction": (lambda: (square(friction=50.0), {}), lambda: (square(friction=math.inf), {})),
     "suspect_drag": (lambda: (square(), {"drag": "160 %"}), lambda: (square(), {"drag": "140 %"})),
     "suspect_duration": (lambda: (square(), {"duration": "1.5 s"}), lambda: (square(), {"duration": "900 ms"})),
@@ -876,6 +880,7 @@ def test_published_cases_have_no_false_alarm(monkeypatch):
     never = {
         "yaw_against_lever", "normal_against_positions", "near_collinear", "friction_gain", "rounding", "suspect_angle",
         "suspect_duration", "suspect_lever", "suspect_yaw_rate",
+        "suspect_bare_angle",
     }  # fmt: skip
     for impact in impacts:
         codes = [finding.code for finding in diagnose(impact)]
@@ -1517,3 +1522,29 @@ def test_an_outline_of_few_digits_is_read_in_full_precision(dtype):
         with pytest.raises(col.InputError) as caught:
             diagnose(square(), outline_a=wrong.astype(dtype))
         assert caught.value.code == "bad_outline"
+
+
+@pytest.mark.parametrize(
+    ("normal", "asks"),
+    [
+        (5, 5.0),
+        (-2.0, 2.0),
+        (3, 3.0),
+        (0.0, None),
+        ((1.0, 0.0), None),
+        ("5 deg", None),
+        (0.5, None),
+        (math.pi, None),
+        (6.1, None),
+    ],
+)
+def test_a_bare_whole_angle_is_asked_about(normal, asks):
+    """heading=5 and normal=5 are 286 degrees, and hardly meant; 3500 as kg with 35 as m/s is fine."""
+    a, b = col.Vehicle(mass=3500, vx=35.0, heading=0), col.Vehicle(mass=1000, vx=-1.0, heading="90 deg")
+    turned = a.replace(vx=35.0 * math.cos(5.0), vy=35.0 * math.sin(5.0)) if normal == 5 else a
+    turned = a.replace(vx=-35.0) if normal in (-2.0, 3, math.pi) else turned
+    impact = col.oblique_central(turned, b, 0.1, normal=normal, friction=0.0)
+    found = of("suspect_bare_angle", impact)
+    assert [finding.measured for finding in found] == ([] if asks is None else [asks])
+    if found:
+        assert f"were {normal:.0f} degrees meant?" in found[0].sentence

@@ -5,6 +5,7 @@ The list of public names is the list of what is fuzzed: a name that is added and
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import functools
 import json
@@ -513,7 +514,12 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     assert not isinstance(found, float) or found >= 0.0
 
 
-@fuzzes("reconstruct.recorded_pulse", "reconstruct.RecordedPulse", "reconstruct.RecordedPulse.inputs")
+@fuzzes(
+    "reconstruct.recorded_pulse",
+    "reconstruct.RecordedPulse",
+    "reconstruct.RecordedPulse.inputs",
+    "reconstruct.RecordedPulse.summary",
+)
 def test_recorded_pulses(case: Case) -> None:
     """A record of anything: with samples that rise it is answered, with its error, and handed on where it ended."""
     times: Any = np.arange(case.randint(1, 30)) * case.choice((0.01, 0.01, 1e-3, 1e3, -0.01, 0.0, math.nan, 1e-320))
@@ -524,6 +530,7 @@ def test_recorded_pulses(case: Case) -> None:
     pulse = case.call("reconstruct.recorded_pulse", reconstruct.recorded_pulse, *given, polarity=polarity)
     if not isinstance(pulse, Exception):
         case.look(pulse, None)
+        assert str(case.must("reconstruct.RecordedPulse.summary", pulse.summary, case.choice(UNIT_SYSTEMS)))
         case.call("reconstruct.RecordedPulse.inputs", pulse.inputs, case.option("a", "b"))
 
 
@@ -864,7 +871,7 @@ def test_travel(case: Case) -> None:
         case.look(found, frozenset({"travel.RunOut.course_difference", *(["travel.RunOut.straight_course"] * closed)}))
 
 
-@fuzzes("travel.simulate", "travel.SimulatedPath", share=0.2)
+@fuzzes("travel.simulate", "travel.SimulatedPath", "travel.SimulatedPath.summary", share=0.2)
 def test_simulated_travel(case: Case) -> None:
     """One vehicle or many from separation to rest: at rest, or refused."""
     body = vehicle(case)
@@ -878,6 +885,7 @@ def test_simulated_travel(case: Case) -> None:
     found = case.call("travel.simulate", travel.simulate, body, **case.spoil(ground))
     if isinstance(found, travel.SimulatedPath):
         assert np.all(np.diff(found.time, axis=0)[~np.isnan(np.diff(found.time, axis=0))] >= 0.0)
+        assert str(case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS)))
         case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course"}))
 
 
@@ -1100,6 +1108,15 @@ def known_shares(case: Case) -> None:
 
 
 # --- summaries -------------------------------------------------------------------------------------------------------------
+
+
+@fuzzes("options")
+def test_options(case: Case) -> None:
+    """Any value; numbers are read as before after the block."""
+    with contextlib.suppress(col.InputError), case.must("options", col.options, require_units=case.maybe(0.5)):
+        case.call("Vehicle", col.Vehicle, mass=case.value("mass"), vx=case.value("vx"))
+    case.call("options", col.options, require_units=case.garbage())
+    col.options(require_units=False)
 
 
 @fuzzes(

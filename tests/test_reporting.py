@@ -1098,7 +1098,7 @@ def test_a_pivot_is_no_force_that_is_left_out(impacts):
     assert ("A", "delta-V from its own tyres, bound") in {row[:2] for row in rows(printed)}
     assert ("B", "delta-V from its own tyres, about") in {row[:2] for row in rows(printed)}
     free = section(report(impacts["eccentric"], form="markdown"), "Assumptions")
-    assert "tyres and all other forces are left out" in free
+    assert "the forces of the tyres and all others are left out" in free
 
 
 # A record is whole, and its words are no part of what is compared.

@@ -223,3 +223,24 @@ def test_published_values_stand_beside_restitution_and_friction():
     assert "friction published" not in col.report(crash(friction=0.0), form="markdown")
     assert "| A (Camry) | delta-V forward | -20.0 mph |" in page
     assert "| A (Camry) | delta-V to the left (recorders count to the right) | 8.5 mph |" in page
+
+
+def test_columns_in_units_have_them_in_their_names():
+    speeds = np.array([10.0, 20.0])
+    many = crash(a=camry(vx=speeds), point=(0.0, 0.0))
+    plain, us = many.to_columns(), many.to_columns(units="us")
+    assert len(us) == len(plain)
+    assert us["a.delta_v [mph]"] == pytest.approx(np.array(plain["a.delta_v"]) / MPH, rel=1e-15)
+    assert us["a.before.mass [lb]"] == pytest.approx([3400.0, 3400.0], rel=1e-14)
+    assert us["point.x [ft]"] == [0.0, 0.0]
+    assert us["a.before.x [ft]"] == pytest.approx([-7.0, -7.0], rel=1e-14)
+    assert us["a.pdof [deg]"] == pytest.approx(np.degrees(plain["a.pdof"]), rel=1e-14)
+    assert us["a.before.yaw_inertia [lb*ft**2]"][0] == pytest.approx(plain["a.before.yaw_inertia"][0] / (LB * FT**2), rel=1e-14)
+    assert us["restitution"] == plain["restitution"]
+    assert us["status"] == plain["status"]
+    assert many.to_columns(columns=["b.delta_v", "status"]) == {name: plain[name] for name in ("b.delta_v", "status")}
+    assert list(many.to_columns(units="metric", columns="b.delta_v")) == ["b.delta_v [km/h]"]
+    with pytest.raises(col.InputError, match=r"no column 'b\.deltav'; write for example b\.delta_v"):
+        many.to_columns(columns=["b.deltav"])
+    with pytest.raises(col.InputError, match="units must be"):
+        many.to_columns(units="imperial")

@@ -25,6 +25,7 @@ from .errors import (
     UnitsError,
 )
 from .impact import Impact
+from .settings import options
 from .solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
 from .vehicle import Vehicle
 
@@ -65,6 +66,7 @@ __all__ = [
     "left_out",
     "linear_central",
     "oblique_central",
+    "options",
     "plot",
     "reconstruct",
     "reference",

@@ -17,6 +17,7 @@ from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, lock, numeric
 from .reading import ArgumentReader, broadcast, widened
+from .settings import computing
 from .travel.surfaces import out_of_range
 from .units import Input, Value
 from .vehicle import Vehicle
@@ -100,6 +101,7 @@ class LeftOut(Shown):
     b: LeftOutSide = field()
 
 
+@computing
 def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> LeftOut:
     """What an impact that takes no time and has no tyres leaves out, as numbers: is the idealisation fit for this case?
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from types import MappingProxyType
 from typing import Any
@@ -23,6 +23,7 @@ from .provenance import Reconstruction, origin_where_answered
 from .pulse import Pulse
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
 from .reading import ArgumentReader, broadcast, widened
+from .settings import in_si
 from .side import SIGNS, Side, beside, title_of
 from .solving import solve_inputs
 from .summary import Cells, Part, Summarized, Summary, all_numbers
@@ -468,18 +469,39 @@ class Impact(Frozen, Summarized):
         """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
         from .records import bad_record, from_record
 
-        inputs, on_failure, origin, status = from_record(record)
+        with in_si():
+            inputs, on_failure, origin, status = from_record(record)
         try:
             impact = solved(inputs, on_failure=on_failure)
         except TypeError as error:
             raise bad_record(f"its inputs are not those of {inputs.model}") from error
         return impact if origin is None else found_by(origin, inputs, impact._answer, status)
 
-    def to_columns(self) -> dict[str, list[Any]]:
-        """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``."""
+    def to_columns(self, *, units: str | None = None, columns: Collection[str] | None = None) -> dict[str, list[Any]]:
+        """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``.
+
+        Parameters
+        ----------
+        units : {"si", "metric", "us"}, optional
+            Numbers in these units, which then stand in the names: "a.delta_v [mph]". By default SI, without them.
+        columns : list of str, optional
+            Only these, in this order, by their names without a unit, such as "a.delta_v".
+
+        Raises
+        ------
+        InputError
+            No such system of units, or no such column.
+
+        Examples
+        --------
+        >>> import collisions as col
+        >>> impact = col.linear_central(col.Vehicle(mass="3400 lb", vx="30 mph"), col.Vehicle(mass="3400 lb"), 0.0)
+        >>> impact.to_columns(units="us", columns=["b.delta_v"])
+        {'b.delta_v [mph]': [15.0]}
+        """
         from .records import to_columns
 
-        return to_columns(self)
+        return to_columns(self, units, columns)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Impact):

@@ -16,6 +16,7 @@ from .kernels.contact_laws import FRICTION, LAWS, RULES
 from .kernels.elementwise import RESTITUTION
 from .quantities import lock, same
 from .reading import ArgumentReader, is_whole, largest
+from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
 
@@ -203,6 +204,7 @@ def read_inputs(
         and tangential.count(None) == len(tangential) - 1
         and type(law) is str
         and law in LAWS
+        and not units_required.get()
         and not problems
         and (a.pivot is b.pivot is None or model in ("solve", "eccentric"))
         and (model not in _PLACED or not missing_numbers(a, b, point))

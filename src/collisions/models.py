@@ -20,6 +20,7 @@ from .kernels.floats import compile_for_floats
 from .kernels.status import Answer
 from .kernels.time_resolved import time_resolved
 from .reading import ArgumentReader, amount
+from .settings import in_si
 from .vehicle import Vehicle
 
 
@@ -165,11 +166,12 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
-    if inputs.model == TIME_RESOLVED.name:
-        extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
-        again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
-        return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-    again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
+    with in_si():
+        if inputs.model == TIME_RESOLVED.name:
+            extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
+            again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
+            return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
+        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
     return replace(
         again,
         restitution=e if unknown else again.restitution,

@@ -13,6 +13,7 @@ import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
+from .settings import units_required
 from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
 from .warning import warn
 
@@ -65,6 +66,8 @@ class ArgumentReader:
             if problem_found is not None:
                 return self.refuse(problem_found)
         if not text and argument not in self.trusted:
+            if unit and units_required.get() and 0.0 < largest(read) < math.inf:
+                return self.refuse(_without_unit(value, unit, argument))
             _warn_if_implausible(read, unit, argument)
         return read
 
@@ -337,6 +340,15 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
                 value=worst,
             )
         )
+
+
+def _without_unit(value: Any, unit: str, argument: str) -> UnitsError:
+    written = example(unit).split("'")[1]
+    return UnitsError(
+        f"{argument} = {shown(value)} has no unit, and options(require_units=True) asks for one; write for example {written!r}",
+        code="bad_units",
+        argument=argument,
+    )
 
 
 _CODES = {"m/s": "negative_speed", "J": "negative_energy", "m": "negative_length", "N/m": "negative_stiffness"}

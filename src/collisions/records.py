@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ import numpy as np
 from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import direction
 from .errors import InputError, Status
+from .formatting import KIND_OF, bad_system, scale_of
+from .formatting import unit_of as system_unit
 from .inputs import UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
@@ -211,43 +214,72 @@ def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
     return with_given(vehicle, {**(vehicle.given or {}), **polar}) if polar else vehicle
 
 
-def to_columns(impact: Any) -> dict[str, list[Any]]:
+def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, list[Any]]:
     """One list per number, named by its path in the record; every list has one value per case."""
-    columns: dict[str, Any] = {}
+    problem = None if units is None else bad_system(units)
+    if problem is not None:
+        raise problem
+    found: dict[str, tuple[Any, str | None]] = {}
     for name, value in _results(impact):
-        _add(columns, name, value)
-    columns["status"] = np.array([status.label for status in Status])[impact.status]
-    columns[impact.inputs.rule] = impact.inputs.rule_value
+        _add(found, name, value, unit_of(type(impact), name))
+    found["status"] = np.array([status.label for status in Status])[impact.status], None
+    found[impact.inputs.rule] = impact.inputs.rule_value, ""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for moment in ("before", "after", "at_compression"):
             vehicle = getattr(side, moment)
             for name in NAMES:
-                _add(columns, f"{label}.{moment}.{name}", getattr(vehicle, name))
+                _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
         for name, value in _results(side):
-            _add(columns, f"{label}.{name}", value)
-    shape = np.shape(impact.status)
-    return {name: np.broadcast_to(np.asarray(value), shape).reshape(-1).tolist() for name, value in columns.items()}
+            _add(found, f"{label}.{name}", value, unit_of(Side, name))
+    return dict(_column(name, *found[name], units, np.shape(impact.status)) for name in _chosen(found, wanted))
+
+
+def _chosen(found: Mapping[str, Any], wanted: Any) -> list[str]:
+    """The names of the columns that were asked for, by default all."""
+    if wanted is None:
+        return list(found)
+    names = [wanted] if isinstance(wanted, str) or not isinstance(wanted, Iterable) else list(wanted)
+    for name in names:
+        if not isinstance(name, str) or name not in found:
+            near = get_close_matches(str(name), found, 3) or list(found)[:3]
+            raise InputError(
+                f"columns: there is no column {shown(name)}; write for example {', '.join(near)}, without a unit",
+                code="unknown_name",
+                argument="columns",
+            )
+    return names
+
+
+def _column(name: str, value: Any, unit: str | None, units: Any, shape: tuple[int, ...]) -> tuple[str, list[Any]]:
+    """A column with its name, in a system of units if one is given."""
+    numbers = np.asarray(value)
+    if units is not None and unit:
+        kind = KIND_OF.get(unit)
+        with np.errstate(over="ignore"):
+            numbers = numbers if kind is None else numbers * scale_of(kind, units)
+        name = f"{name} [{unit if kind is None else system_unit(kind, units)}]"
+    return name, np.broadcast_to(numbers, shape).reshape(-1).tolist()
 
 
 def bad_record(why: str) -> InputError:
     return InputError(f"record is not what Impact.to_dict() gives: {why}", code="bad_record", argument="record")
 
 
-def _add(columns: dict[str, Any], name: str, value: Any) -> None:
+def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: str | None) -> None:
     if isinstance(value, tuple):
         for part, axis in zip(value, "xy", strict=True):
-            columns[f"{name}.{axis}"] = part
+            found[f"{name}.{axis}"] = part, unit
     elif isinstance(value, Reconstruction):
-        columns[f"{name}.condition"] = value.condition
-        columns[f"{name}.answers"] = value.answers
+        found[f"{name}.condition"] = value.condition, ""
+        found[f"{name}.answers"] = value.answers, None
     elif isinstance(value, Pulse):
         for field in fields(value)[:5]:
-            columns[f"{name}.{field.name}"] = getattr(value, field.name)
+            found[f"{name}.{field.name}"] = getattr(value, field.name), unit_of(Pulse, field.name)
     elif isinstance(value, ModelChoice):
-        columns[f"{name}.tolerance"] = value.tolerance
-        columns |= {f"{name}.errors.{model}": error for model, error in value.errors.items()}
+        found[f"{name}.tolerance"] = value.tolerance, "m/s"
+        found |= {f"{name}.errors.{model}": (error, "m/s") for model, error in value.errors.items()}
     elif value is not None:
-        columns[name] = value
+        found[name] = value, unit
 
 
 def _results(owner: Any) -> list[tuple[str, Any]]:

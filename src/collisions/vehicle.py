@@ -16,6 +16,7 @@ from .errors import InputError, MissingInputError
 from .kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from .quantities import Quantities, derived, hypot, lock, returns, same, show
 from .reading import ArgumentReader, broadcast, widened
+from .settings import in_si, units_required
 from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
 from .units import Input, Pair, Value, shown
 
@@ -112,6 +113,7 @@ class Vehicle(_AsGiven):
             and (heading is None or (type(heading) is float and -6.0 < heading < 6.0))
             and pivot is None
             and type(name) is str
+            and not units_required.get()
         ):
             _fill(self, _read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
             return
@@ -171,7 +173,10 @@ class Vehicle(_AsGiven):
         broadcast({"speed": magnitude, "course": cx})
         with np.errstate(all="ignore"):
             vx, vy = magnitude * cx + 0.0, magnitude * cy + 0.0
-        vehicle = cls(**{**rest, "vx": vx, "vy": vy})
+        if units_required.get():
+            cls(**rest)  # names what lacks a unit; the velocity has been converted
+        with in_si():
+            vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
             cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle))
@@ -394,6 +399,7 @@ def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, g
     """A vehicle from SI numbers that were checked before, without unit warnings, and some new values."""
     vehicle: Vehicle = object.__new__(Vehicle)
     trusted = numbers.keys() - (changes or {}).keys()
+    trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
     _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
     if given:
         _set_given(vehicle, given)

@@ -14,6 +14,7 @@ from ..impact import Impact
 from ..kernels.contact_laws import RULES
 from ..reading import ArgumentReader, at_least_zero, need_one_case
 from ..reconstruct import Fit, MomentumSolution
+from ..settings import computing
 from ..solving import error_of
 from ..uncertainty.result import Propagation
 from ..units import shown
@@ -92,6 +93,7 @@ _IMPACT_ANSWERS = {f"{label}.{name}": kind for label in "ab" for name, (_, kind)
 _IMPACT_ANSWERS |= {name: kind for name, (_, kind) in _CONTACT.items()}
 
 
+@computing
 def explain(
     impact: Impact | MomentumSolution | Fit,
     *,

@@ -13,6 +13,7 @@ from .finding import Measured, above, below, finding
 
 # How far a contact may be from the centre of mass: in radii of gyration, and in metres where there is none.
 _RADII, _FURTHEST = 3.0, 10.0
+_WHOLE = 1e-12  # rad: the rounding of an angle from its unit vector
 
 
 @finding("mass", below(150.0, "kg"), "set here: no car is lighter, and a car of 1500 kg has 103 slug; tonnes or slugs as kg")
@@ -142,6 +143,32 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
         if angle is not None:
             sentence = f"{what} {angle:.6g} rad, {abs(angle) / math.tau:.3g} turns; were degrees meant?"
             yield Measured(abs(angle), sentence, label, rounding=off_by(math.tau))
+
+
+@finding(
+    "heading, course or normal that is a whole number of radians and was given without a unit",
+    above(0.0, "rad"),
+    "set here: nobody measures whole radians; degrees as rad",
+)
+def suspect_bare_angle(case: Case) -> Iterator[Measured]:
+    angles: list[tuple[str, str, float | None]] = []
+    if isinstance(case, ImpactCase):
+        inputs = case.answer.inputs
+        angles += [("", "the normal", case.answer.normal_angle + turn) for turn in (-math.tau, 0.0, math.tau)]
+        angles = [] if isinstance((inputs.given or {}).get("normal"), str) else angles
+        for label, who, side in case.sides:
+            if "heading" not in (side.before.given or {}):
+                angles.append((label, f"the heading of {who}", side.before.heading))
+    else:
+        for name, given in (case.answer.given or {}).items():
+            if name.startswith(("course", "heading")) and isinstance(given, (int, float)):
+                angles.append((name.split("_")[1], name, float(given)))
+    for label, what, angle in angles:
+        # Those of more than a turn are found by suspect_angle.
+        if angle is not None and abs(angle) <= math.tau:
+            bare, degrees = round(angle), math.degrees(angle)
+            sentence = f"{what} is {bare} without a unit, which is {degrees:.0f} degrees; were {bare} degrees meant?"
+            yield Measured(float(abs(bare)) if abs(angle - bare) < _WHOLE else 0.0, sentence, label)
 
 
 @finding(

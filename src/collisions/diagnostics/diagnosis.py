@@ -17,6 +17,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
+from ..settings import computing
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
@@ -30,6 +31,7 @@ LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
 """By code, in the order in which findings are listed: what is measured, its default limit and where that is from."""
 
 
+@computing
 def diagnose(
     impact: Impact | MomentumSolution,
     *,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import AmbiguousSolutionError, NoSolutionError, SuspectUnitsWarning
 from ..quantities import lock
+from ..settings import in_si
 from ..warning import warn
 from .fit_candidate import SAME_CHI_SQUARED, Candidate, examined
 from .fit_problem import FitInputs, read_fit_inputs
@@ -130,7 +131,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         found = fits[0]
         if not any(map(math.isnan, found.values.values())):
             # For the warnings that the model itself gives there.
-            inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
+            with in_si():
+                inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
     _warn_of(found)
     return found
 

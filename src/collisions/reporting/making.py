@@ -27,6 +27,7 @@ from ..outlines import read_outline
 from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution
+from ..settings import computing
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
 from ..units import Input, Pair, shown
@@ -51,6 +52,7 @@ _TAG = re.compile(r"<[^>]*>")
 _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 
+@computing
 def report(
     impact: Impact | MomentumSolution | Fit,
     *,

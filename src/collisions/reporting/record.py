@@ -21,6 +21,7 @@ from ..quantities import unit_of
 from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution, momentum
 from ..records import strict
+from ..settings import computing
 from ..uncertainty import Propagation
 from ..units import shown
 from ..vehicle import DOMAINS, Vehicle, with_given
@@ -123,6 +124,7 @@ def _results(solution: MomentumSolution) -> Any:
     return strict({f.name: getattr(solution, f.name) for f in fields(solution) if f.name != "given"})
 
 
+@computing
 def replay(text: str) -> Impact | MomentumSolution:
     """The answer of a report, solved again from the record at its end.
 

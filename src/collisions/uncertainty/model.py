@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import CollisionsError, InputError, ShapeError
 from ..reading import ArgumentReader
+from ..settings import in_si
 from ..units import is_quantity, shown, si_unit
 from ..warning import quietly
 from . import angles
@@ -59,7 +60,7 @@ class Model:
         for value in values.values():
             value.setflags(write=False)
         try:
-            with quietly(samples=True), np.errstate(all="ignore"):
+            with quietly(samples=True), in_si(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
         except Exception as error:
             called = (

@@ -1,0 +1,75 @@
+"""``options``: refuses numbers without a unit, for callers who want that; for the current thread or task only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import Any, TypeVar, cast
+
+from .errors import InputError
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+units_required: ContextVar[bool] = ContextVar("units_required", default=False)
+
+
+class options:
+    """Settings that hold from the call on, or within a ``with`` block until its end; in this thread or task only.
+
+    Parameters
+    ----------
+    require_units : bool
+        Whether a number without a unit is refused where one with a unit is meant, such as ``vx=20``: by vehicles,
+        solvers, reverse solvers and ``travel``. 0 and infinity need none. Models of ``propagate``, ``fit`` and ``posterior``
+        are called with SI numbers, and may give them on.
+
+    Raises
+    ------
+    InputError
+        ``require_units`` is not True or False.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> with col.options(require_units=True):
+    ...     col.Vehicle(mass="1500 kg", vx=20)
+    Traceback (most recent call last):
+    ...
+    collisions.errors.UnitsError: vx = 20 has no unit, and options(require_units=True) asks for one; write for example '80 km/h'
+    """
+
+    def __init__(self, *, require_units: bool) -> None:
+        if not isinstance(require_units, bool):
+            raise InputError(
+                f"require_units must be True or False, got {require_units!r}", code="bad_option", argument="require_units"
+            )
+        self._before = units_required.set(require_units)
+
+    def __enter__(self) -> options:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        units_required.reset(self._before)
+
+
+@contextmanager
+def in_si() -> Iterator[None]:
+    """Within this context numbers need no unit: they are the package's own, in SI."""
+    token = units_required.set(False)
+    try:
+        yield
+    finally:
+        units_required.reset(token)
+
+
+def computing(function: F) -> F:
+    """Decorate a function that works on results: the numbers it gives on are the package's own, in SI."""
+
+    @wraps(function)
+    def inside(*args: Any, **options: Any) -> Any:
+        with in_si():
+            return function(*args, **options)
+
+    return cast(F, inside)

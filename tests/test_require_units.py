@@ -1,0 +1,154 @@
+"""``options(require_units=True)``: bare numbers are refused, by name, and only there and then."""
+
+import asyncio
+import threading
+
+import numpy as np
+import pytest
+
+import collisions as col
+from collisions import plot, reconstruct, travel, uncertainty
+from collisions.reporting import options, replay
+
+WITH_UNITS = {
+    "mass": "3400 lb",
+    "yaw_inertia": "2100 lbf*ft*s**2",
+    "heading": "10 deg",
+    "vx": "45 mph",
+    "x": "-7 ft",
+    "y": "0.5 ft",
+}
+
+
+def crash():
+    a = col.Vehicle(**WITH_UNITS)
+    b = col.Vehicle(**{**WITH_UNITS, "vx": "0 mph", "vy": "20 mph", "x": "2.5 ft", "y": "-3 ft"})
+    return col.eccentric(a, b, 0.1, normal="0 deg", point=("0 ft", 0), friction=0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("mass", 1500),
+        ("vx", 20),
+        ("vx", np.array([20.0, 0.0])),
+        ("yaw_rate", 0.1),
+        ("heading", 5),
+        ("x", -2.0),
+        ("vy", np.float32(1)),
+    ],
+)
+def test_a_bare_number_is_refused_by_name(name, value):
+    with col.options(require_units=True):
+        with pytest.raises(col.UnitsError, match=f"^{name} = .* has no unit, and options") as refused:
+            col.Vehicle(**{**WITH_UNITS, name: value})
+        assert refused.value.fields["argument"] == name
+    col.Vehicle(**{**WITH_UNITS, name: value})
+
+
+def test_all_bare_numbers_are_named_at_once_and_0_and_infinity_need_no_unit():
+    with col.options(require_units=True):
+        with pytest.raises(col.UnitsError, match=r"(?s)3 arguments cannot be used.*mass = 1500.*vx = 20.*heading = 1"):
+            col.Vehicle(mass=1500.0, vx=20.0, heading=1.0, x=0.0)
+        assert col.Vehicle(mass=np.inf, vx=0, x=0.0, heading=np.zeros(2)).mass == np.inf
+        assert col.Vehicle.barrier().vx == 0.0
+        with pytest.raises(col.UnitsError, match="mass = 1500"):
+            col.Vehicle.from_speed(mass=1500, speed="20 m/s", course="30 deg")
+        with pytest.raises(col.UnitsError, match="speed = 20"):
+            col.Vehicle.from_speed(mass="1500 kg", speed=20, course="30 deg")
+        assert col.Vehicle.from_speed(mass="1500 kg", speed="20 m/s", course="90 deg").vy == 20.0
+        with pytest.raises(col.UnitsError, match="heading = 1"):
+            col.Vehicle(**WITH_UNITS).replace(heading=1)
+        assert col.Vehicle(**WITH_UNITS).replace(heading="1 deg").mass == pytest.approx(3400 * 0.45359237)
+
+
+def test_solvers_and_travel_refuse_too():
+    with col.options(require_units=True):
+        one = crash()
+        a, b = one.a.before, one.b.before
+        contact = {"normal": "0 deg", "point": ("1 ft", 0.0), "friction": 0.5}
+        for name, value in (("normal", 1.0), ("point", (1.0, 0.0))):
+            with pytest.raises(col.UnitsError, match=name):
+                col.eccentric(a, b, 0.1, **{**contact, name: value})
+        assert col.eccentric(a, b, 0.1, **{**contact, "normal": (1, 0)}).ok  # a direction has no unit
+        with pytest.raises(col.UnitsError, match="distance"):
+            travel.speed(20, drag=0.7)
+        assert travel.speed("20 m", drag=0.7) == pytest.approx((2 * 0.7 * 9.80665 * 20) ** 0.5, rel=1e-12)
+        with pytest.raises(col.UnitsError, match="mass_a"):
+            reconstruct.inline_closing_speed(1500, "1500 kg", 0.1, delta_v_b="10 mph")
+
+
+def test_what_follows_from_inputs_with_units_works(tmp_path):
+    """Records, pages, findings, pictures, models of a propagation: their numbers are the package's own."""
+    pytest.importorskip("matplotlib").use("agg")
+    with col.options(require_units=True):
+        impact = crash()
+        again = col.Impact.from_dict(impact.to_dict())
+        assert again == impact
+        assert impact.again(restitution=0.2).restitution == 0.2
+        page = col.report(impact, units="us", duration="90 ms")
+        assert col.report(replay(page), **options(page)) == page
+        col.report(impact, form="markdown", derivation=True)
+        col.diagnose(impact)
+        col.explain(impact)
+        col.left_out(impact)
+        plot.scene(impact)
+        plot.impulse_plane(impact)
+        assert "mph" in str(impact.summary())
+        contact = {"normal": "0 deg", "point": ("0 ft", 0), "friction": 0.5}
+        col.solve(impact.a.before, impact.b.before, 0.1, **contact)
+        slides = impact.again(friction=0.1)
+        planar = reconstruct.planar(slides.a.after, slides.b.after, restitution=0.1, **{**contact, "friction": 0.1})
+        assert planar.a.before.vx == pytest.approx(impact.a.before.vx, rel=1e-9)
+
+        def model(speed):
+            a = impact.a.before.replace(vx=speed)
+            return {"delta_v": col.eccentric(a, impact.b.before, 0.1, on_failure="nan", **contact).b.q.delta_v}
+
+        found = uncertainty.propagate(model, {"speed": uncertainty.Normal("45 mph", "2 mph")}, samples=64, seed=1)
+        assert found["delta_v"].mean == pytest.approx(impact.b.delta_v, rel=0.02)
+        fitted = reconstruct.fit(model, {"speed": uncertainty.Interval("1 mph", "90 mph")}, {"delta_v": ("10 m/s", "1 m/s")})
+        assert fitted["speed"].determined
+
+
+def test_as_a_setting_it_holds_until_it_is_taken_back():
+    try:
+        col.options(require_units=True)
+        with pytest.raises(col.UnitsError):
+            col.Vehicle(mass=1500.0)
+        with col.options(require_units=False):
+            col.Vehicle(mass=1500.0)
+        with pytest.raises(col.UnitsError):
+            col.Vehicle(mass=1500.0)
+    finally:
+        col.options(require_units=False)
+    col.Vehicle(mass=1500.0)
+    for value in (1, None, "yes"):
+        with pytest.raises(col.InputError, match="require_units must be True or False"):
+            col.options(require_units=value)
+
+
+def test_it_holds_in_its_own_thread_and_task_only():
+    seen = []
+    with col.options(require_units=True):
+        thread = threading.Thread(target=lambda: seen.append(col.Vehicle(mass=1500.0).mass))
+        thread.start()
+        thread.join()
+    assert seen == [1500.0]
+
+    async def strict(started, checked):
+        with col.options(require_units=True):
+            started.set()
+            await checked.wait()
+            with pytest.raises(col.UnitsError):
+                col.Vehicle(mass=1500.0)
+
+    async def both():
+        started, checked = asyncio.Event(), asyncio.Event()
+        task = asyncio.create_task(strict(started, checked))
+        await started.wait()
+        assert col.Vehicle(mass=1500.0).mass == 1500.0
+        checked.set()
+        await task
+
+    asyncio.run(both())
