@@ -112,7 +112,7 @@ def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progr
     block, from the calling thread.
     """
     solve = partial(_solved, works, which, cases)
-    if cases.size > BLOCK:
+    if cases.size > AS_IT_IS:
         return BatchAnswer(solve, solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress))
     return Answer(**solve(Answer._fields, progress))
 
@@ -239,8 +239,8 @@ def _in_blocks(
     size = cases.size
     outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
     # By the id of a value, the flat view its blocks are cut from: an array that is read more than once is cut once.
-    values = chain(*(work.inputs for work in works), *(check.values for check in checks))
-    columns = {id(value): value if isinstance(value, float) else flat(value, shape) for value in values}
+    values = {id(value): value for value in chain(*(work.inputs for work in works), *(check.values for check in checks))}
+    columns = {key: value if isinstance(value, float) else flat(value, shape) for key, value in values.items()}
     numbers = None if which is None else flat(which, shape)
     programs = [_program(work, kinds, np.dtype(dtype), size) for work in works]
     # Scratch per thread: that of every model, with several models one set of outputs, and the inputs of one block.
@@ -399,7 +399,7 @@ def _part(column: Any, block: slice, dtype: Any) -> Any:
     """The slice of a value for a block, in the precision of the batch; a plain number is left as it is."""
     if isinstance(column, float):
         return column
-    part = column[block]
+    part = column if len(column) == block.stop and type(column) is np.ndarray and not block.start else column[block]
     return part if part.dtype == dtype else part.astype(dtype)
 
 

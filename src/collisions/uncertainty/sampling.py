@@ -238,7 +238,7 @@ def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
     found, size = [], BLOCK if start else min(FIRST_BLOCK, BLOCK)
     while start < stop:
         found.append((start, min(start + size, stop)))
-        start, size = found[-1][1], min(2 * size, BLOCK)
+        start, size = found[-1][1], min(8 * size, BLOCK)
     return found
 
 
