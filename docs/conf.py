@@ -102,6 +102,7 @@ GALLERY = {
         "intersection_reconstruction",
         "in_line_by_momentum_and_ees",
         "rear_end_from_recorder",
+        "two_accounts",
     ),
     "Many cases": ("million_cases", "table_of_cases", "study_over_processes", "study_with_dask"),
 }

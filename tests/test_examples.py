@@ -52,6 +52,7 @@ def test_there_are_examples():
         "study_with_dask",
         "table_of_cases",
         "truck_against_car",
+        "two_accounts",
         "us_units",
     }
     assert expected <= {script.stem for script in EXAMPLES}

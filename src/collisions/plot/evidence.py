@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..formatting import UnitSystem
 from ..reconstruct import Fit, Posterior
+from ..uncertainty import Normal
 from ..units import shown
 from .canvas import FORCE, GREY, INK, LIGHT, SMALLEST, Units, begin, check_size, in_lines, tidy
 
@@ -108,7 +109,8 @@ def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     """Each observation less what is computed of it, over its stated error: where the evidence pulls against the model.
 
     Within the dark band lie two of three observations whose errors are as stated, within the light one nineteen of twenty. Of a
-    posterior the line holds 95 percent of what is computed. Readings with sharp bounds, which are met, are left out.
+    posterior the line holds 95 percent of what is computed; a censored reading has none, and a point off the middle only where
+    its bound is missed. Readings with sharp bounds, which are met, are left out.
 
     Parameters
     ----------
@@ -157,7 +159,7 @@ def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     over = [one.over_sigma for one in rows.values()]
     axes.plot(over, range(len(rows)), "o", color=INK, ms=7, ls="none", zorder=4, gid="residuals")
     for place, (name, one) in enumerate(rows.items()):
-        if isinstance(found, Posterior):
+        if isinstance(found, Posterior) and isinstance(found.observed[name], Normal):
             output = found.predicted[name]
             ends = [one.over_sigma + (float(output.mean) - end) / one.sigma for end in output.interval(0.95)]
             axes.plot(ends, [place, place], "-", color=FORCE, lw=2.2, zorder=3, gid=f"range of {name}")

@@ -25,7 +25,7 @@ from .observations import Observation, listed, observed_columns, read_each, read
 from .posterior_result import Posterior, PosteriorOutput, notes_of
 
 ISLANDS = 8
-_SIDE_BY_SIDE = 2  # in each call of the model, for any number of threads: so that no bit depends on it
+_SIDE_BY_SIDE = 4  # in each call of the model, for any number of threads: so that no bit depends on it
 _LEAST_SAMPLES = 512
 
 
@@ -67,7 +67,7 @@ def posterior(
     correlation : dict, optional
         Of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``: between their normal scores.
     threads : int, optional
-        Islands worked on at once. The model must then be safe to call from several threads.
+        At most two are of use, one for four islands. The model must then be safe to call from several threads.
     progress : function or bool, optional
         Called with samples done and samples in all; True shows a bar. An interrupt returns the islands finished until then.
 
