@@ -26,6 +26,8 @@ FILES = [
     '[a]\nmass = 1100\nvx = 20.0\n[b]\nmass = inf\n[oblique_central]\nrestitution = "10 %"\nnormal = [1, 0.2]\nfriction = 0.3\n',
     "[a]\nmass = 1500\nvx = 10.0\nx = -2.0\ny = 0.0\n[b]\nmass = 1200\nx = 2.0\ny = 0.0\n"
     "[solve]\nrestitution = 0.2\nnormal = 0.0\npoint = [0.0, 0.0]\nfriction = 0.5\ntolerance = 0.5\n",
+    f'[a]\nmass = 1500\nvx = 14\n{PLACED.format(x=-2.0)}[b]\nmass = 1200\n{PLACED.format(x=2.0)}[time_resolved]\nrestitution = 0.1\n'
+    'normal = 0\npoint = [0, 0.1]\nfriction = 0.5\nduration = "100 ms"\nsteps = 20\n',
     '[reconstruct.central]\nmass_a = "1100 kg"\nmass_b = 950\nva = "80 km/h +/- 2 km/h (95 %)"\nvb = 0.0\nvb_after = "60 km/h"\n',
     f'[a_after]\nmass = 1100\nvx = 11.0\nvy = 0.4\n{PLACED.format(x=0.0)}[b_after]\nmass = 950\nvx = 13.0\nvy = 10.0\n'
     f'{PLACED.format(x=2.5)}[reconstruct.planar]\nnormal = 0.0\npoint = [1.6, 0.3]\nrestitution = 0.2\nfriction = 0.2\n',

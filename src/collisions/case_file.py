@@ -20,7 +20,9 @@ from .units import shown
 from .vehicle import Vehicle
 
 # The functions of which a file calls one, by the name of its table.
-FORWARD = {f.__name__: f for f in (solvers.linear_central, solvers.oblique_central, solvers.eccentric, solvers.solve)}
+FORWARD = {
+    name: getattr(solvers, name) for name in ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
+}
 SOLVERS: dict[str, Callable[..., Any]] = FORWARD | {
     f"reconstruct.{f.__name__}": f
     for f in (reconstruct.central, reconstruct.momentum, reconstruct.planar, reconstruct.speeds)

@@ -20,7 +20,7 @@ from .inputs import Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION
 from .kernels.javascript import javascript
-from .models import BY_NAME
+from .models import BY_NAME, MODELS
 from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
@@ -107,7 +107,7 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
     """
     need_one_case(impact, (Impact,), "what_if")
     system = cells(units, impact._texts()).name
-    if impact.model not in BY_NAME:
+    if BY_NAME.get(impact.model) not in MODELS:
         raise InputError(
             f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
         )

@@ -15,7 +15,18 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
         return yes
     if condition is False:
         return no
-    return np.where(condition, yes, no)
+    xp = library(condition, yes, no)
+    if xp is not np:
+        yes, no = (xp.asarray(int(value)) if isinstance(value, Status) else value for value in (yes, no))
+    return xp.where(condition, yes, no)
+
+
+def library(*values: Any) -> Any:
+    """The array library of these values: numpy, unless one of them is an array of another, as of JAX."""
+    for value in values:
+        if (named := getattr(value, "__array_namespace__", None)) is not None:
+            return named()
+    return np
 
 
 def larger(one: Any, other: Any) -> Any:
