@@ -10,7 +10,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import reconstruct, travel
+from collisions import quantity_names, reconstruct, travel
 from collisions.diagnostics import diagnose
 from collisions.reporting import options, replay
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
@@ -244,3 +244,27 @@ def test_columns_in_units_have_them_in_their_names():
         many.to_columns(columns=["b.deltav"])
     with pytest.raises(col.InputError, match="units must be"):
         many.to_columns(units="imperial")
+
+
+def test_the_names_of_q_for_editors_are_those_it_has():
+    """Completion at run time, and the lists that editors and type checkers read."""
+    impact = crash()
+    solution = reconstruct.momentum(
+        1500.0, 1200.0, course_a=0.0, course_b=1.5, course_a_after=0.4, course_b_after=0.7, speed_a_after=9.0, speed_b_after=9.0
+    )
+    run = travel.path([(0.0, 0.0), (10.0, 0.0)], [0.0, 0.0], friction=0.7, lock=1.0)
+    for result in (impact.a.before, impact.a, impact, solution, run):
+        listed = getattr(quantity_names, f"{type(result).__name__}Quantities")
+        names = {name for name in (*vars(listed), *getattr(listed, "__annotations__", ())) if not name.startswith("_")}
+        assert names == set(dir(result.q))
+        assert "summary" not in names
+
+
+def test_bare_functions_have_a_way_to_quantities():
+    """sqrt(2 * 0.7 * 9.80665 * 18.288) = 15.8456 m/s, 35.446 mph."""
+    assert travel.q.speed("60 ft", drag=0.7).m_as("mph") == pytest.approx(35.4455, abs=1e-3)
+    assert travel.q.distance("35.4455 mph", drag=0.7).m_as("ft") == pytest.approx(60.0, abs=1e-3)
+    assert travel.q.time("60 ft", drag=0.7).m_as("s") == pytest.approx(15.8456 / (0.7 * 9.80665), rel=1e-5)
+    # In line: B gains (1 + e) * g * m_a / (m_a + m_b).
+    closing = reconstruct.q.inline_closing_speed(1500.0, 1500.0, 0.0, delta_v_b="10 mph")
+    assert closing.m_as("mph") == pytest.approx(20.0, rel=1e-12)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
 from .pulse import Pulse
 from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
+from .quantity_names import ImpactQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .settings import in_si
 from .side import SIGNS, Side, beside, title_of
@@ -55,9 +56,9 @@ class Impact(Frozen, Summarized):
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")
 
     @property
-    def q(self) -> Any:
+    def q(self) -> ImpactQuantities:
         """The same attributes as pint Quantities."""
-        return Quantities(self)
+        return cast(ImpactQuantities, Quantities(self))
 
     @derived()
     def a(self) -> Side:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import Field, fields
-from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, TypeVar, overload
+from functools import partial, wraps
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, TypeVar, overload
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from .summary import Cells, Summarized, Summary, all_numbers, sided
 from .units import Value, to_quantity
 
 T = TypeVar("T")
+P = ParamSpec("P")
 F = TypeVar("F", bound=Callable[..., Any])
 # A declared unit that stands for the ``unit`` of the object itself, known only when the object is made.
 OWN = "own"
@@ -164,6 +165,16 @@ class InUnit(Quantities):
 
     def _with_unit(self, value: Any, unit: str) -> Any:
         return tuple(part / self._factor for part in value) if isinstance(value, tuple) else value / self._factor
+
+
+def in_quantities(function: Callable[P, Any], unit: str) -> Callable[P, Any]:
+    """The same function with its result as a Quantity."""
+
+    @wraps(function)
+    def with_unit(*args: P.args, **options: P.kwargs) -> Any:
+        return to_quantity(function(*args, **options), unit)
+
+    return with_unit
 
 
 def lock(value: Any) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from .kernels.elementwise import select
 from .kernels.time_resolved import Passed
 from .model_choice import ModelChoice
 from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
+from .quantity_names import SideQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Pair, Value
@@ -47,9 +48,9 @@ class Side(Frozen, Summarized):
         return raw.delta_vx_a, raw.delta_vy_a, raw.delta_yaw_rate_a
 
     @property
-    def q(self) -> Any:
+    def q(self) -> SideQuantities:
         """The same attributes as pint Quantities; a MissingInputError for one that needs a heading not given."""
-        return Quantities(self)
+        return cast(SideQuantities, Quantities(self))
 
     @derived()
     def before(self) -> Vehicle:

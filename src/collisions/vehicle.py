@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import FrozenInstanceError, dataclass, field, fields
 from difflib import get_close_matches
 from inspect import signature
-from typing import Any, Never
+from typing import Any, Never, cast
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from .directions import Angle, angle_of, direction
 from .errors import InputError, MissingInputError
 from .kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from .quantities import Quantities, derived, hypot, lock, returns, same, show
+from .quantity_names import VehicleQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .settings import in_si, units_required
 from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
@@ -217,9 +218,9 @@ class Vehicle(_AsGiven):
         return vehicle
 
     @property
-    def q(self) -> Any:
+    def q(self) -> VehicleQuantities:
         """The same attributes as pint Quantities of the application registry."""
-        return Quantities(self)
+        return cast(VehicleQuantities, Quantities(self))
 
     @derived("m/s")
     def speed(self) -> Value:

@@ -18,6 +18,10 @@ col.Vehicle.from_speed(mass=1500.0, speed=10.0)  # refused
 a.point(2.0, 0.5)  # refused
 a.mass = 1600.0  # refused
 print(a.velocity)  # refused
+print(a.q.velocity)  # refused
+print(impact.q.b.after.delta_v)  # refused
+print(impact.a.q.deltav)  # refused
+travel.q.speed("60 ft")  # refused
 
 col.linear_central(a, 1200.0, 0.1)  # refused
 col.linear_central(a, b)  # refused

@@ -1,6 +1,10 @@
-"""The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence."""
+"""The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence.
+
+``reconstruct.q.inline_closing_speed`` and ``reconstruct.q.crush_energy`` give their number as a Quantity.
+"""
 
 from ..provenance import Reconstruction
+from ..quantities import in_quantities
 from .bayes import posterior
 from .central import central
 from .comparison import Comparison, compare
@@ -15,6 +19,14 @@ from .planar import planar
 from .posterior_result import Posterior
 from .recorded import RecordedPulse, recorded_pulse
 from .speeds import speeds
+
+
+class q:
+    """The functions of this module that return a number with a unit, with it as a Quantity."""
+
+    inline_closing_speed = staticmethod(in_quantities(inline_closing_speed, "m/s"))
+    crush_energy = staticmethod(in_quantities(crush_energy, "J"))
+
 
 __all__ = [
     "Comparison",

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import MissingInputError
 from ..kernels.status import Status
 from ..quantities import Shown, derived, same
+from ..quantity_names import MomentumSolutionQuantities
 from ..units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
@@ -75,6 +76,11 @@ class MomentumSolution(Shown):
     given: Mapping[str, Any] | None = field(default=None)
 
     _title = "Planar momentum"
+
+    if TYPE_CHECKING:
+
+        @property
+        def q(self) -> MomentumSolutionQuantities: ...
 
     def _missing(self, name: str) -> MissingInputError | None:
         if name not in _NEEDED:

@@ -12,11 +12,30 @@ those over the slope.
 
 Sheets in US units write the speed in mph as sqrt(30 f d) with d in feet. The constant for standard gravity is 29.914, so their
 speeds are 0.14 % higher than these; those of sheets that take 32.2 ft/s2 are 0.04 % higher.
+
+Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as Quantities.
 """
 
 from ..drag import GRAVITY
+from ..quantities import in_quantities
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time
+
+
+class q:
+    """The functions of this module that return a number, with it as a Quantity.
+
+    Examples
+    --------
+    >>> from collisions import travel
+    >>> print(f"{travel.q.speed('60 ft', drag=0.7).to('mph'):.1f~P}")
+    35.4 mph
+    """
+
+    speed = staticmethod(in_quantities(speed, "m/s"))
+    distance = staticmethod(in_quantities(distance, "m"))
+    time = staticmethod(in_quantities(time, "s"))
+
 
 __all__ = ["GRAVITY", "RunOut", "SimulatedPath", "distance", "path", "simulate", "speed", "time"]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import accumulate, pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from ..errors import InputError, MissingInputError, OutOfRangeWarning, ShapeErro
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, numeric
 from ..quantities import lock as write_locked
+from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
 from ..units import Input, Pair, Value, is_quantity, shown
 from ..warning import warn
@@ -68,6 +69,11 @@ class RunOut(Shown):
     """
 
     _title = "Run-out"
+
+    if TYPE_CHECKING:
+
+        @property
+        def q(self) -> RunOutQuantities: ...
 
     speed: Value = field(metadata={"unit": "m/s"})
     course: Value = field(metadata={"unit": "rad"})
