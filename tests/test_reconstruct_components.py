@@ -246,6 +246,40 @@ def test_a_sliding_contact_takes_the_impulse_along_its_friction():
     assert [w.message.code for w in caught] == ["may_slide"]
 
 
+def test_no_speed_fits_the_components_better():
+    """With one speed known, against a scan of the other by the forward solver: stuck, slid, or on the edge between both."""
+    rng, edges, answered = np.random.default_rng(5), 0, 0
+    frictional = [hit for hit in hits(seed=3, count=80) if 0.0 < hit[3].get("friction", 0.0) < 1.0]
+    for impact, both, courses, true_contact in frictional:
+        exact = recorded(impact, "a")
+        # A friction that is not quite the true one, so that the answer may lie on the edge.
+        contact = true_contact | {"friction": abs(impact.impulse_ratio) * rng.uniform(0.85, 1.15)}
+        noise = 0.1 * impact.a.delta_v * rng.uniform(-1, 1, 2)
+        known = {name: value + off for (name, value), off in zip(exact.items(), noise, strict=True)}
+        others = both[1] + np.linspace(-30.0, 30.0, 6001)
+        scanned = impact.b.before.replace(vx=others * math.cos(courses[1]), vy=others * math.sin(courses[1]))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.CollisionsWarning)
+            seen = col.eccentric(impact.a.before, scanned, impact.restitution, **contact, on_failure="nan").a
+        misfits = np.hypot(*(getattr(seen, name[:-2]) - value for name, value in known.items()))
+        least = np.nanmin(misfits)
+        root, refusal = None, None
+        try:
+            root = solve_back(impact, courses, contact, **known, speed_a=both[0])[0]
+        except col.NoSolutionError as error:
+            refusal = error
+        if refusal is not None:
+            assert least > 0.25 * impact.a.delta_v, refusal
+            continue
+        answered += 1
+        misfit = math.hypot(*(getattr(root.a, name[:-2]) - value for name, value in known.items()))
+        # The scan comes within its step of the best; the answer must not be worse.
+        assert misfit <= least * (1.0 + 1e-9)
+        edges += abs(abs(root.critical_impulse_ratio) - contact["friction"]) < 1e-9
+    assert answered > 10
+    assert edges > 0
+
+
 def test_forward_only_leaves_backward_roots_out():
     """A root with a negative speed is one of two, or the only one: then nothing is left."""
     hit = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT, friction=0.5)

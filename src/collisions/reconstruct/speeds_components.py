@@ -1,8 +1,9 @@
 """The algebra of ``speeds`` from components of delta-V (``ComponentScene``): least squares, linear in each regime.
 
 Components are components of the impulse, which in each regime is linear in both speeds: each regime is one linear problem, of
-as many equations as components were given. Its answer counts if the law leads from these speeds to that regime. Components are
-known relative to the impulse, so all weigh alike as momenta; a speed that is given is taken as exact.
+as many equations as components were given. Its answer counts if the law leads from these speeds to that regime, and where none does
+the best lies on the edge between two. Components are known relative to the impulse, so all weigh alike as momenta; a speed that
+is given is taken as exact.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 
 from ..directions import Angle
 from ..errors import IllConditionedWarning
+from ..kernels.contact_laws import FRICTION
 from ..reference import RECORDER_ACCURACY
 from ..warning import warn_of_cases
 from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
@@ -46,12 +48,12 @@ class ComponentScene(Scene):
             self._momenta.append(self.numbers[f"{label}.mass"] * self.numbers[kind])
 
     def roots(self, e: Any = None, polish: int = 0, slope: Callable[[Any], Any] | None = None) -> list[Root]:
-        """The answer of each regime that the law leads to, NaN where it is none; of several those within the accuracy."""
+        """The answer with the least misfit that the law leads to, or all that fit exactly; NaN in place of others."""
         e = self.e if e is None else e
         self.undetermined = np.zeros((), dtype=bool)
         found, misfits, open_slip = [], [], np.full((), np.inf)
-        for regime in self.regimes():
-            root, rest, stays_open = self._solved(regime, e)
+        tried = [(regime, *self._solved(regime, e)) for regime in self.regimes()]
+        for regime, root, rest, stays_open in [*tried, *self._edges(e)]:
             fits, _ = self.fits(root)
             usable = fits & ~stays_open & (rest <= _CONTRADICTION * ACCURACY)
             found.append(root._replace(speed_a=np.where(usable, root.speed_a, np.nan)))
@@ -60,7 +62,7 @@ class ComponentScene(Scene):
             open_slip = np.fmin(open_slip, np.where(stays_open & pushes, rest, np.inf))
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         for i, (root, rest) in enumerate(zip(found, misfits, strict=True)):
-            found[i] = root._replace(speed_a=np.where(rest <= np.maximum(ACCURACY, self.misfit), root.speed_a, np.nan))
+            found[i] = root._replace(speed_a=np.where(rest <= np.maximum(ROOT_TOL, self.misfit), root.speed_a, np.nan))
         none = np.isinf(self.misfit)
         self.undetermined = (open_slip <= REDUNDANT) | (none & (open_slip <= _CONTRADICTION * ACCURACY))
         self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
@@ -83,11 +85,6 @@ class ComponentScene(Scene):
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = sum(part * off for part, off in zip(row, left, strict=True))
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
-        speed_a, speed_b = speeds
-        seen = self.observe(regime, speed_a, speed_b, e)
-        impulse = np.hypot(seen["normal"], seen["tangential"])
-        left = self._left(regime, speed_a, speed_b, e)
-        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / impulse
         # A known speed enters by what it takes off the momenta.
         given = [(momentum, i) for i, momentum in enumerate(self._momenta)]
         moved: Any = 0.0
@@ -98,8 +95,42 @@ class ComponentScene(Scene):
                     by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
                     of_row = of_row + abs(by_speed * self.targets[f"speed_{label}"])
             moved = np.maximum(moved, of_row)
-        condition = moved / abs(seen["closing"])
-        return Root(speed_a, speed_b, e, condition, (seen["normal"], seen["tangential"])), misfit, stays_open
+        return *self._root(regime, speeds, e, moved), stays_open
+
+    def _edges(self, e: Any) -> list[tuple[Any, Root, Any, Any]]:
+        """With one speed known: where sticking just uses up the friction, one way or the other.
+
+        There the least misfit lies where each regime has its own beyond its end.
+        """
+        if self.rule != FRICTION or len(self.unknown) > 1:
+            return []
+        (at,) = self.unknown
+        known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
+        *_, stick = self.regimes()
+        found = []
+        for sign in (1.0, -1.0):
+
+            def beyond(*more: Any, sign: float = sign) -> Any:
+                speed_a, speed_b = (speed + change for speed, change in zip(known, more, strict=True))
+                seen = self.observe(stick, speed_a, speed_b, e)
+                return seen["tangential"] - sign * self.bound * seen["normal"]
+
+            one = [np.where(at == i, 1.0, 0.0) for i in range(2)]
+            here, by_unknown, by_known = beyond(0.0, 0.0), beyond(*one), beyond(*one[::-1])
+            slope = by_unknown - here
+            speeds = [speed + 0.0 * here for speed in known]
+            speeds[at] = np.where(np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan)
+            moved = abs((by_known - here) / slope * known[1 - at])
+            found.append((stick, *self._root(stick, speeds, e, moved), np.zeros((), dtype=bool)))
+        return found
+
+    def _root(self, regime: Any, speeds: Sequence[Any], e: Any, moved: Any) -> tuple[Root, Any]:
+        """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse."""
+        seen = self.observe(regime, speeds[0], speeds[1], e)
+        impulse = seen["normal"], seen["tangential"]
+        left = self._left(regime, speeds[0], speeds[1], e)
+        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(*impulse)
+        return Root(speeds[0], speeds[1], e, moved / abs(seen["closing"]), impulse), misfit
 
     def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
         seen = self.observe(regime, speed_a, speed_b, e)
