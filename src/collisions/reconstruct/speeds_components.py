@@ -1,9 +1,9 @@
 """The algebra of ``speeds`` from components of delta-V (``ComponentScene``): least squares, linear in each regime.
 
 Components are components of the impulse, which in each regime is linear in both speeds: each regime is one linear problem, of
-as many equations as components were given. Its answer counts if the law leads from these speeds to that regime, and where none does
-the best lies on the edge between two. Components are known relative to the impulse, so all weigh alike as momenta; a speed that
-is given is taken as exact.
+as many equations as components were given. Its answer counts if the law leads from these speeds to that regime; where none
+does, the best lies on the edge between two. Components are known relative to the impulse, so all weigh alike as momenta; a
+speed that is given is taken as exact.
 """
 
 from __future__ import annotations
