@@ -355,3 +355,14 @@ def test_nothing_is_evaluated():
     for text in ("__import__('os')", "2*3", "9**9**9 kg", "1e3+1"):
         assert problems(REAR_END.replace("1100 kg", text))[0].startswith("a.mass: ")
     assert math.isinf(solved(REAR_END.replace('"950 kg"', "inf")).b.before.mass)
+
+
+def test_every_solver_has_its_table():
+    """A solver that is added is a table of case files too; so is a study of uncertain numbers."""
+    answers_of = {"Impact", "MomentumSolution", "tuple[Impact, ...]"}
+    solvers = {name: getattr(col, name) for name in col.__all__} | {
+        f"reconstruct.{name}": getattr(reconstruct, name) for name in reconstruct.__all__
+    }
+    found = {name for name, one in solvers.items() if getattr(one, "__annotations__", {}).get("return") in answers_of}
+    assert found == set(SOLVERS)
+    assert all(SOLVERS[name] is solvers[name] for name in found)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from .directions import angle_of, direction, from_degrees
 from .document import Document
 from .errors import InputError, Status
-from .formatting import SI_UNITS, UnitSystem, decimals_of, scale_of, unit_of
+from .formatting import SI_UNITS, UnitSystem, decimals_of, scale_of, typeset, unit_of
 from .impact import Impact, build
 from .inputs import Inputs
 from .kernels.contact_laws import RULES
@@ -42,15 +42,12 @@ _DOMAINS = {
     **{name: rule.domain for name, rule in RULES.items()},
 }  # fmt: skip
 _WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
-# The rows of the table of results, of a vehicle and of both, with their kinds; and what else the drawing needs.
-_OF_EACH = {
-    "before.speed": ("speed before", "speed"), "after.speed": ("speed after", "speed"), "delta_v": ("delta-V", "speed"),
-    "pdof": ("PDOF, clockwise from ahead", "angle"), "delta_yaw_rate": ("change of yaw rate", "yaw rate"),
-}  # fmt: skip
-_OF_BOTH = {"closing_speed": ("closing speed", "speed"), "energy_loss": ("energy lost", "energy")}
-_DRAWN = ("before.x", "before.y", "before.heading", "before.vx", "before.vy", "after.vx", "after.vy", "impulse_x", "impulse_y")
-
-
+# What the page shows and draws, by its path in an Impact and in a Side; the kinds of what it shows stand in the page.
+_OF_BOTH = ("closing_speed", "energy_loss")
+_OF_EACH = (
+    "before.speed", "after.speed", "delta_v", "pdof", "delta_yaw_rate", "before.x", "before.y", "before.heading", "before.vx",
+    "before.vy", "after.vx", "after.vy", "impulse_x", "impulse_y",
+)  # fmt: skip
 _TO_DEGREES = 180.0 / math.pi
 
 
@@ -129,7 +126,7 @@ def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
     inputs = Inputs(model.name, a, b, *rest)
     raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
     answer = build(inputs, raw)
-    paths = [*_OF_BOTH, *(f"{label}.{name}" for label in "ab" for name in (*_OF_EACH, *_DRAWN))]
+    paths = [*_OF_BOTH, *(f"{label}.{name}" for label in "ab" for name in _OF_EACH)]
     found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {path: attrgetter(path)(answer) for path in paths}
     found |= {} if point is None else {"px": point[0], "py": point[1]}
     return {name: value for name, value in found.items() if value is not None}
@@ -180,122 +177,100 @@ def _kind(name: str) -> str:
 def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
     """The sliders; one error names every range that cannot be used."""
     reader, known, found = ArgumentReader(), starts(impact), []
+
+    def refuse(text: str, argument: str = "ranges", code: str = "bad_inputs") -> None:
+        reader.refuse(InputError(text, code=code, argument=argument))
+
     if not isinstance(ranges, Mapping) or not ranges:
-        raise InputError(
-            f"ranges must be a dict of (low, high) by input, such as {{'speed_a': ('40 km/h', '70 km/h')}}; "
-            f"got {shown(ranges)}",
-            code="bad_inputs",
-            argument="ranges",
-        )
+        example = "{'speed_a': ('40 km/h', '70 km/h')}"
+        refuse(f"ranges must be a dict of (low, high) by input, such as {example}, got {shown(ranges)}")
+        ranges = {}
     for name, ends in ranges.items():
         if name not in known:
-            text = f"{shown(name)} is no input of this {impact.model} that could be moved; take some of {', '.join(known)}"
-            reader.refuse(InputError(text, code="bad_inputs", argument="ranges"))
-        elif not isinstance(ends, (tuple, list)) or len(ends) != 2:
-            text = f"{name} must be a pair (low, high), got {shown(ends)}"
-            reader.refuse(InputError(text, code="bad_range", argument=name))
-        else:
-            found.append(_slider(reader, name, ends, known[name]))
+            refuse(f"{shown(name)} is no input of this {impact.model} that could be moved; take some of {', '.join(known)}")
+            continue
+        count = len(reader.problems)
+        numbers = [_end(reader, name, end) for end in ends] if isinstance(ends, (tuple, list)) else []
+        if len(reader.problems) > count:
+            continue
+        if len(numbers) != 2 or not all(isinstance(end, float) and math.isfinite(end) for end in numbers):
+            refuse(f"{name} must be a pair of finite numbers (low, high), got {shown(ends)}", name, "bad_range")
+            continue
+        (low, high), kind = numbers, _kind(name)
+        middle = 0.5 * low + 0.5 * high
+        start = middle if math.isnan(known[name]) else known[name]
+        if kind == "angle":
+            start += 360.0 * round((middle - start) / 360.0)
+        if not (low < high and low <= start <= high):
+            unit = "deg" if kind == "angle" else SI_UNITS[kind]
+            text = f"{name} is {start:.6g} {unit}, which is not from {low:.6g} to {high:.6g}; give ends in order, around it"
+            refuse(text, name, "bad_range")
+        found.append(Slider(name, kind, low, high, start))
     for label in "ab":
         moving = [name for name in ("vx", "vy", "speed", "course") if f"{name}_{label}" in ranges]
         if {"vx", "vy"} & set(moving) and {"speed", "course"} & set(moving):
-            both = " and ".join(f"{name}_{label}" for name in moving)
-            text = f"{both} say one thing in two ways; move vx and vy, or speed and course"
-            reader.refuse(InputError(text, code="speed_twice", argument="ranges"))
-        if moving == ["speed"] and math.isnan(known[f"course_{label}"]):
+            text = (
+                f"the velocity of {label} is moved in two ways, by {' and '.join(moving)}; take vx and vy, or speed and course"
+            )
+            refuse(text, code="speed_twice")
+        if moving == ["speed"] and math.isnan(known.get(f"course_{label}", 0.0)):
             text = f"{label} stands, and its course is not known; give course_{label} a range too"
-            reader.refuse(InputError(text, code="missing_course", argument=f"course_{label}"))
+            refuse(text, f"course_{label}", "missing_course")
     reader.close()
     return found
 
 
-def _slider(reader: ArgumentReader, name: str, ends: Any, start: float) -> Slider:
-    kind, count = _kind(name), len(reader.problems)
-    numbers: list[Any] = []
-    for end in ends:
-        if kind == "angle":
-            value, in_degrees = reader.angle(end, name)
-            numbers.append(value if in_degrees else _TO_DEGREES * value)
-        else:
-            numbers.append(
-                reader.number(end, SI_UNITS[kind], name, _DOMAINS.get(name.removesuffix("_a").removesuffix("_b"), FINITE))
-            )
-    if len(reader.problems) == count:
-        low, high = numbers
-        if not all(isinstance(end, float) and math.isfinite(end) for end in numbers) or not low < high:
-            text = f"{name} must be two finite numbers in order, (low, high), got {shown(ends)}"
-            reader.refuse(InputError(text, code="bad_range", argument=name))
-        else:
-            middle = 0.5 * low + 0.5 * high
-            start = middle if math.isnan(start) else start
-            start = (
-                start + 360.0 * round((middle - start) / 360.0) if kind == "angle" and math.isfinite(middle - start) else start
-            )
-            if low <= start <= high:
-                return Slider(name, kind, low, high, start)
-            unit = "deg" if kind == "angle" else SI_UNITS[kind]
-            text = f"{name} of the impact is {start:.6g} {unit}, outside of {low:.6g} to {high:.6g} {unit}; give ends around it"
-            reader.refuse(InputError(text, code="bad_range", argument=name))
-    return Slider(name, kind, math.nan, math.nan, math.nan)
+def _end(reader: ArgumentReader, name: str, given: Any) -> Any:
+    """One end of a range, in degrees or SI."""
+    kind = _kind(name)
+    if kind == "angle":
+        value, in_degrees = reader.angle(given, name)
+        return value if in_degrees else _TO_DEGREES * value
+    domain = _DOMAINS.get(name if name in _CONTACT else name[:-2], FINITE)
+    return reader.number(given, SI_UNITS[kind], name, domain)
 
 
 def _written(impact: Impact, sliders: list[Slider], printed: str, system: str) -> str:
-    """The page: the sliders and the empty table as HTML, what the script needs as JSON, and the printed kernel."""
+    """The page: its sliders as HTML, what else the script needs as JSON, and the printed kernel."""
     from . import __version__
 
-    names = {label: plain(who(at, body)) for at, (label, body) in enumerate((("a", impact.inputs.a), ("b", impact.inputs.b)))}
-    units = {}
-    for kind in {*(slider.kind for slider in sliders), *(kind for _, kind in (_OF_EACH | _OF_BOTH).values())}:
-        label = unit_of(kind, system).replace("**2", "²").replace("*", "·")
-        units[kind] = {"unit": label, "scale": scale_of(kind, system), "decimals": decimals_of(kind, system)}
-    rows = []
-    known = results(impact, {slider.name: slider.start for slider in sliders})
-    for name, (words, _) in _OF_EACH.items():
-        cells = "".join(f'<td id="{label}.{name}"></td>' for label in "ab")
-        rows += [f'<tr><th scope="row">{words}</th>{cells}</tr>'] if {f"a.{name}", f"b.{name}"} & known.keys() else []
-    rows += [f'<tr><th scope="row">{words}</th><td colspan="2" id="{name}"></td></tr>' for name, (words, _) in _OF_BOTH.items()]
+    bodies = {"a": impact.inputs.a, "b": impact.inputs.b}
+    names = {label: plain(who(at, body)) for at, (label, body) in enumerate(bodies.items())}
+    units = {
+        kind: {
+            "unit": typeset(unit_of(kind, system)),
+            "scale": scale_of(kind, system),
+            "decimals": decimals_of(kind, system),
+        }
+        for kind in SI_UNITS
+    }
     inputs = []
-    for slider in sliders:
-        own, label = (slider.name, "") if slider.name in _CONTACT else (slider.name[:-2], slider.name[-1])
+    for name, kind, *numbers in sliders:
+        own, label = (name, "") if name in _CONTACT else (name[:-2], name[-1])
         words = escape(_WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else ""))
-        scale = _scale(slider.kind, system)
-        ends = " ".join(
-            f'{key}="{end * scale!r}"' for key, end in (("min", slider.low), ("max", slider.high), ("value", slider.start))
-        )
+        scale = scale_of(kind, system) / (_TO_DEGREES if kind == "angle" else 1.0)
+        low, high, start = (repr(number * scale) for number in numbers)
         inputs.append(
-            f'<p><label for="{slider.name}">{words}</label><output for="{slider.name}" id="{slider.name}-value"></output>'
-            f'<input type="range" id="{slider.name}" {ends} step="any"></p>'
+            f'<p><label for="{name}">{words}</label><output for="{name}" id="{name}-value"></output><input type="range" '
+            f'id="{name}" min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" data-start="{numbers[2]!r}" '
+            f'data-factor="{1.0 / scale!r}"></p>'
         )
     data = {
-        "sliders": [
-            {"name": s.name, "kind": s.kind, "start": s.start, "factor": 1.0 / _scale(s.kind, system)} for s in sliders
-        ],
-        "kinds": {
-            **{f"{label}.{name}": kind for label in "ab" for name, (_, kind) in _OF_EACH.items()},
-            **{n: k for n, (_, k) in _OF_BOTH.items()},
-        },
         "units": units,
         "sentences": {int(status): status.sentence for status in Status},
         "names": names,
-        "fixed": {label: math.isinf(getattr(impact.inputs, label).mass) for label in "ab"},
+        "fixed": {label: math.isinf(body.mass) for label, body in bodies.items()},
     }
-    parts = {
+    text = _PAGE.read_text(encoding="utf-8")
+    for name, part in {
         "title": escape(f"What if: {names['a']} and {names['b']}"),
         "model": escape(BY_NAME[impact.model].assumptions),
         "inputs": "\n".join(inputs),
         "a": escape(names["a"]),
         "b": escape(names["b"]),
-        "rows": "\n".join(rows),
-        "data": json.dumps(data).replace("<", "\\u003c"),
-        "kernel": printed,
         "version": __version__,
-    }
-    text = _PAGE.read_text(encoding="utf-8")
-    for name, part in parts.items():
+        "kernel": printed,
+        "data": json.dumps(data).replace("<", "\\u003c"),
+    }.items():
         text = text.replace(f"<!--{name}-->", part)
     return text
-
-
-def _scale(kind: str, system: str) -> float:
-    """The factor from the number of a slider, degrees or SI, to the unit that the page shows."""
-    return scale_of(kind, system) / (_TO_DEGREES if kind == "angle" else 1.0)
