@@ -45,7 +45,8 @@ def posterior(
     Bayes' theorem by sampling: whatever the priors, however the model turns, and with as many answers as there are. Tempered
     sequential Monte Carlo takes the samples from the priors to the posterior, in eight islands that know nothing of each other
     and whose differences give the errors of sampling. All figures are given the model, the priors and the stated errors of the
-    observations, which are taken as normal and independent.
+    observations, which are taken as normal and independent. In this field: G. A. Davis, "Bayesian reconstruction of traffic
+    accidents", Law, Probability and Risk 2 (2003) 69-89.
 
     Parameters
     ----------
@@ -91,12 +92,6 @@ def posterior(
         The evidence contradicts itself or the priors: a misfit this large has a chance below 0.01.
     IllConditionedWarning
         The evidence says nothing of an unknown with a uniform prior; or the islands disagree, or the sample collapsed.
-
-    References
-    ----------
-    .. [1] P. Del Moral, A. Doucet and A. Jasra, "Sequential Monte Carlo samplers", Journal of the Royal Statistical Society B
-       68 (2006) 411-436.
-    .. [2] G. A. Davis, "Bayesian reconstruction of traffic accidents", Law, Probability and Risk 2 (2003) 69-89.
 
     Examples
     --------

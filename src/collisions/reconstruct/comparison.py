@@ -80,7 +80,8 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     The evidence of each account is how probable its model and its priors made what was observed. The ratio of two is the Bayes
     factor, or likelihood ratio: what the evidence is worth, whatever was thought before. An account with wide priors spreads
     its predictions thin and loses by it; so the priors belong to the result and are printed with it. A question within one
-    model, such as on which side of a line, is a ``Posterior.probability``, not a comparison.
+    model, such as on which side of a line, is a ``Posterior.probability``, not a comparison. See R. E. Kass and A. E. Raftery,
+    "Bayes factors", Journal of the American Statistical Association 90 (1995) 773-795.
 
     Parameters
     ----------
@@ -104,10 +105,6 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     -----
     CollisionsWarning
         The evidence contradicts every account (code "contradictory"): the best of them need not be good.
-
-    References
-    ----------
-    .. [1] R. E. Kass and A. E. Raftery, "Bayes factors", Journal of the American Statistical Association 90 (1995) 773-795.
 
     Examples
     --------

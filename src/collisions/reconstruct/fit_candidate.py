@@ -16,6 +16,7 @@ SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 
 _TWO_ERRORS = 2.0
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
+_NEAR = 1e-2  # standard errors: where the others end when one unknown is moved
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _STEP_ROUNDS = 4
 _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
@@ -75,21 +76,19 @@ class Candidate:
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
         which, covariance = np.flatnonzero(self.free)[known], covariance[np.ix_(known, known)]
+        if not which.size:
+            return np.zeros((2, 0)), np.zeros((2, 0))
         errors = np.sqrt(np.diagonal(covariance))
         ways = np.zeros((len(which), len(self.point)))
-        # The others move along as they would in a straight model.
+        # The others start from where they would be in a straight model, and are fitted again.
         ways[:, which] = covariance / errors[:, np.newaxis]
         room = np.stack([self.problem.high[which] - self.point[which], self.point[which] - self.problem.low[which]])
         far = np.minimum(room / errors, _TWO_ERRORS)
-        points = self.point + (far * np.array([[1.0], [-1.0]]))[..., np.newaxis] * ways
-        points = np.clip(points.reshape(-1, len(self.point)), self.problem.low, self.problem.high)
-        misfit = self.problem.misfit(self.problem.evaluate(points)).reshape(2, len(which), len(self.outputs))
-        for i, j in enumerate(which):
-            # What the others would take away again, by their slopes at the answer.
-            rest = np.linalg.qr((self.slopes * self.problem.scale)[:, which[which != j]])[0]
-            misfit[:, i] -= misfit[:, i] @ rest @ rest.T
-        rise = np.maximum(np.sum(misfit**2, axis=2) - self.chi_squared, 0.0)
-        return far, np.sqrt(rise)
+        starts = (self.point + (far * np.array([[1.0], [-1.0]]))[..., np.newaxis] * ways).reshape(-1, len(self.point))
+        movable = np.tile(np.arange(len(self.point)) != which[:, np.newaxis], (2, 1))
+        ends = minimise(self.problem, starts, movable, close=_NEAR)
+        rise = np.where(ends.state == REFUSED, np.nan, np.maximum(ends.chi_squared - self.chi_squared, 0.0))
+        return far, np.sqrt(rise).reshape(2, -1)
 
     @property
     def nonlinearity(self) -> float:

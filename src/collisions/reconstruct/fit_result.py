@@ -156,7 +156,7 @@ class Fit(Shown):
     the observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
-    the others along with it as in a straight model (where a bound is nearer, to there); NaN if the model refuses there.
+    the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there.
     ``searches`` counts the starts by how they ended; ``around`` are those that were added around an answer that few found.
     """
 

@@ -126,13 +126,14 @@ def spread(count: int, low: Any, high: Any) -> Any:
     return low + (high - low) * share
 
 
-def minimise(problem: Problem, starts: Any) -> Ends:
+def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = _CLOSE) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, seen in the metric of
     the standard errors, is rounding; it stalls where no step however short lowers the misfit, which a smooth model does only
-    there.
+    there. Where ``movable`` (k, n) is given, each search leaves the other unknowns as they start.
     """
+    movable = np.ones(starts.shape, dtype=bool) if movable is None else movable
     points = np.clip(starts, problem.low, problem.high)
     outputs, slopes = problem.with_slopes(points)
     misfit = problem.misfit(outputs)
@@ -141,12 +142,12 @@ def minimise(problem: Problem, starts: Any) -> Ends:
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
     for _ in range(_ROUNDS):
-        arrived = _left_to_go(problem, points, misfit, slopes, state == SEARCHING) <= _CLOSE
+        arrived = _left_to_go(problem, points, misfit, slopes, movable, state == SEARCHING) <= close
         state = np.where(arrived, CONVERGED, state)
         live = np.flatnonzero(state == SEARCHING)
         if not live.size:
             break
-        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], damping[live])
+        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], movable[live], damping[live])
         found, steep = problem.with_slopes(trial)
         rest = problem.misfit(found)
         new = _cost(problem, rest, steep)
@@ -165,7 +166,7 @@ def minimise(problem: Problem, starts: Any) -> Ends:
         state[live[stuck]] = np.where(np.isfinite(new[stuck]), STALLED, AT_REFUSAL)
 
     short_of_it = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
-    near = _left_to_go(problem, points, misfit, slopes, short_of_it) <= _CLOSE_ENOUGH
+    near = _left_to_go(problem, points, misfit, slopes, movable, short_of_it) <= _CLOSE_ENOUGH
     return Ends(points, outputs, slopes, cost, np.where(near, CONVERGED, state))
 
 
@@ -181,19 +182,19 @@ def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
     return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
 
 
-def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any) -> tuple[Any, Any]:
-    """Gradient and curvature in scaled unknowns, with those held by a bound left out."""
+def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
+    """Gradient and curvature in scaled unknowns, with those held by a bound or not movable left out."""
     scaled = slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
     held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
-    free = ~held
+    free = movable & ~held
     curvature = np.einsum("kmi,kmj->kij", scaled, scaled) * (free[:, :, np.newaxis] & free[:, np.newaxis, :])
     return np.where(free, gradient, 0.0), curvature
 
 
-def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, damping: Any) -> tuple[Any, Any]:
+def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, damping: Any) -> tuple[Any, Any]:
     """The damped step within the bounds, and the predicted fall of chi-squared."""
-    gradient, curvature = _normal_equations(problem, points, misfit, slopes)
+    gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
     weight = np.einsum("kii->ki", curvature)
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
 
@@ -210,13 +211,13 @@ def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, damping: Any)
     return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)
 
 
-def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, wanted: Any) -> Any:
+def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, wanted: Any) -> Any:
     """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not wanted."""
     left = np.full(len(points), np.inf)
     rows = np.flatnonzero(wanted)
     if rows.size:
         points, misfit = points[rows], misfit[rows]
-        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows])
+        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows], movable[rows])
         size, direction = np.linalg.eigh(curvature)
         along = np.einsum("kij,ki->kj", direction, gradient)
         # With bounds, directions that are too flat do not count either.
