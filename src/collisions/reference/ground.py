@@ -53,7 +53,6 @@ def _rows(surface: str, ends: tuple[float, ...]) -> tuple[Published, Published]:
             name=f"drag factor, {surface}, {which} 30 mph",
             low=low,
             high=high,
-            unit="",
             source=_BAKER if dry_asphalt else _TABLE,
             domain=f"locked wheels of cars on level, {surface}, {which} 30 mph (13.4 m/s)",
             quality=_HOW_GOOD_DRY if dry_asphalt else _HOW_GOOD,
@@ -76,7 +75,6 @@ def _rolling(what: str, low: float, high: float) -> Published:
         name=f"drag factor, {what}",
         low=low,
         high=high,
-        unit="",
         source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, NHTSA, 1978)",
         domain="cars on pavement; the table divides it by the friction, to give a share of it",
         quality=_HOW_GOOD,
@@ -90,7 +88,6 @@ _STATUTE = Published(
     name="drag factor behind a statutory table of stopping distances",
     low=0.70,
     high=0.70,
-    unit="",
     source=(
         "Code of Virginia, section 46.2-880, as quoted at "
         "https://www.lawserver.com/law/state/virginia/va-code/virginia_code_46-2-880"

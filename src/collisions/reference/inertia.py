@@ -47,7 +47,6 @@ YAW_INERTIA_INDEX = Published(
     name="yaw inertia over mass times the distances of both axles from the centre of mass",
     low=0.89,
     high=1.13,
-    unit="",
     source=(
         "Heydinger and others, SAE 1999-01-1336 (NHTSA's measurements until 1998), of seven vehicles as quoted in the program "
         "OpenFPS (OpenFPS.Common, RunningGear)"

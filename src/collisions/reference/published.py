@@ -28,7 +28,7 @@ class Published:
         Ends of the published range; equal for a single value.
     typical : float, optional
         The value named as usual, where there is one.
-    unit : str
+    unit : str, optional
         SI unit, "" for a plain number.
     source : str
         Where it was published and where it was read.
@@ -49,7 +49,7 @@ class Published:
     low: float
     high: float
     typical: float | None = None
-    unit: str
+    unit: str = ""
     source: str
     domain: str
     quality: str
