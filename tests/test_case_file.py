@@ -239,6 +239,7 @@ def test_two_answers_are_told_apart():
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n', "normal: is no number of the answer"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
         ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
+        ("0.4\n", f"0.4\n[propagate]\nseed = {2**63}\n", "propagate.seed: is a whole number of more than 64 bits"),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
     ],
 )  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -212,6 +212,15 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
 
 
+def _values(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Every value of a document with its key."""
+    parts = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+    for name, part in parts:
+        yield from _values(part, f"{key}.{name}".lstrip("."))
+    if not isinstance(node, (dict, list)):
+        yield key, node
+
+
 def _tuples(value: Any) -> Any:
     """A value of TOML with its lists as tuples."""
     return tuple(map(_tuples, value)) if isinstance(value, list) else value
@@ -234,6 +243,11 @@ class _Reader:
 
     def case(self) -> Case:
         """The whole case."""
+        for key, value in _values(self.document):
+            if type(value) is int and not -(2**63) <= value < 2**63:
+                self.refuse(
+                    key, "is a whole number of more than 64 bits, which TOML has not; write it with a point, such as 1.0e30"
+                )
         name = self.solver()
         bodies = vehicles(SOLVERS[name])
         self.known(self.document, "", [name.partition(".")[0], *bodies, *STUDIES, *OTHERS])
