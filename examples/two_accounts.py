@@ -64,7 +64,7 @@ def account(speed_a, seed=1):
 # %%
 driver_a, driver_b = account(said_by_a), account(said_by_b)
 found = compare({"driver of A": driver_a, "driver of B": driver_b})
-print(found.sentence)
+print(found.summary())
 
 # %% [markdown]
 # ## How the answer moves with the priors

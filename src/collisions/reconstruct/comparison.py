@@ -62,7 +62,7 @@ class Comparison(Summarized):
             (name, f"{value:.3g} ± {self.probability_error[name]:.1g}", f"{self.prior[name]:.3g}")
             for name, value in self.probability.items()
         ]
-        stated = [(name, ", ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
+        stated = [(name, "; ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
         parts = [Part(rows, "Account", ("probability", "before the evidence")), Part(stated, "Priors")]
         return Summary("Accounts compared, given the evidence and the priors", parts, (self.sentence,))
 
@@ -71,7 +71,7 @@ class Comparison(Summarized):
         for name, value in self.probability.items():
             yield name, f"probability {value:.3g} ± {self.probability_error[name]:.1g}, before {self.prior[name]:.3g}"
         for name, priors in self.priors.items():
-            yield f"priors of {name}", ", ".join(f"{unknown} {prior}" for unknown, prior in priors.items())
+            yield f"priors of {name}", "; ".join(f"{unknown} {prior}" for unknown, prior in priors.items())
 
 
 def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None) -> Comparison:
@@ -146,7 +146,7 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
         prior=before,
         log_bayes_factors={(one, other): logs[one] - logs[other] for one, other in pairs},
         log_bayes_factor_errors={(one, other): math.hypot(errors[one], errors[other]) for one, other in pairs},
-        priors={name: {unknown: shown(one, 1000) for unknown, one in each.priors.items()} for name, each in posteriors.items()},
+        priors={name: {unknown: str(one) for unknown, one in each.priors.items()} for name, each in posteriors.items()},
         sentence=_sentence(before, after, logs, errors),
     )
     if all(one.consistent is False for one in posteriors.values()):

@@ -247,9 +247,7 @@ def notes_of(found: Posterior) -> Iterator[Note]:
     if found.consistent is not None:
         yield agreement(found.p_value, found.residuals)
     for name in found.prior_only:
-        sentence = (
-            f"the evidence says next to nothing of {name}: what is given of it rests on its prior, {found.priors[name]!r}"
-        )
+        sentence = f"the evidence says next to nothing of {name}: what is given of it rests on its prior, {found.priors[name]}"
         if isinstance(found.priors[name], Uniform):
             yield Note(IllConditionedWarning, sentence, "; give an observation that says more, or a prior", "undetermined")
         else:
