@@ -226,6 +226,7 @@ def test_two_answers_are_told_apart():
         ("linear_central", "linear_centrl", "linear_centrl: is not known here; did you mean linear_central?"),
         ("linear_central", "reconstruct.centrall", "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
         ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
+        ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass [m/s]"),
         ("1100 kg", "1100 kgg", "a.mass: mass: '1100 kgg' cannot be taken as kg"),
         ('"1100 kg"', "1100 kg", ": is not TOML: "),
         ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart"),

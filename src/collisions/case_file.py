@@ -163,7 +163,10 @@ def vehicles(function: Callable[..., Any]) -> list[str]:
 def descriptions(function: Callable[..., Any]) -> dict[str, str]:
     """By argument, its unit and what its docstring says of it."""
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
-    found: dict[str, str] = descriptions(Vehicle) if function == Vehicle.from_speed else {}
+    found: dict[str, str] = {}
+    if function == Vehicle.from_speed:
+        moving = {name: (getdoc(getattr(Vehicle, name)) or "").rstrip(".") for name in ("speed", "course")}
+        found = descriptions(Vehicle) | moving
     for names, kind, text in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE):
         unit = (re.search(r" ?\[\S+?\]", kind) or [""])[0].replace(" [1]", "").replace(" [-]", "")
         found = found | dict.fromkeys(names.split(", "), f"{' '.join(text.split()).rstrip('.')}{unit}")
@@ -324,8 +327,7 @@ class _Reader:
         for name, one in takes.items():
             # What may be None is not known, which a file says by leaving it out.
             if one.default is Parameter.empty and name not in given and "None" not in str(one.annotation):
-                text = descriptions(function).get(name) or (getdoc(getattr(Vehicle, name, None)) or name).rstrip(".")
-                self.refuse(f"{key}.{name}", f"is missing; give it: {text}")
+                self.refuse(f"{key}.{name}", f"is missing; give it: {descriptions(function).get(name, name)}")
         prefix = "" if key in SOLVERS else f"{key}."
         read = {
             name: _tuples(value) if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
