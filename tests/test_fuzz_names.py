@@ -147,6 +147,7 @@ def impact_of(case: Case, model: str | None = None) -> Any:
     a, b, keywords = meeting(case, model)
     if model == "solve":
         keywords["tolerance"] = case.value("tolerance")
+        keywords |= {name: case.value(name) for name in ("duration", "drag") if case.maybe(0.2)}
         if case.maybe(0.05):
             keywords["point"] = None
     if case.maybe(0.3):

@@ -817,3 +817,127 @@ def test_bodies_that_cannot_move_or_turn():
         assert impact.separation_speed > 0.0
     wanted, _ = by_events(t_bone().a.before, b, 0.1, 0.0, (0.0, 0.0), 50.0)
     assert off(change(t_bone(friction=math.inf, geometry="fixed", drag=0.0, steps=400)), wanted) < 1e-2
+
+
+# The least model, with a duration
+
+
+def off_by(answer, other):
+    """How far two answers are apart for the worse vehicle, in m/s: delta-V, and radius of gyration times yaw rate."""
+    difference = change(answer) - change(other)
+    return max(np.linalg.norm(difference[:3]), np.linalg.norm(difference[3:]))
+
+
+def test_the_least_model_with_a_duration():
+    """The errors are those against a contact in 25 steps; the least model within 1 / 1.15 of the tolerance; 0 is the fullest."""
+    a, b = col.Vehicle(**A), col.Vehicle(**B)
+    time = {"duration": "100 ms", "drag": 0.7}
+    rough = t_bone(steps=25)
+    eccentric, central = col.eccentric(a, b, 0.1, **STRAIGHT), col.oblique_central(a, b, 0.1, normal=0.0, friction=0.5)
+    choice = col.required_model(a, b, 0.1, **STRAIGHT, **time)
+    assert choice.model == "time_resolved"
+    assert "tolerance of 0" in choice.reason
+    error = off_by(eccentric, rough)
+    assert choice.errors["eccentric"] == pytest.approx(error, rel=1e-9)
+    assert choice.errors["oblique_central"] == pytest.approx(off_by(central, rough), rel=1e-9)
+    assert list(choice.missing) == ["linear_central", "oblique_central", "eccentric", "time_resolved"]
+    for tolerance, model in ((1.16 * error, "eccentric"), (1.14 * error, "time_resolved"), (100.0, "linear_central")):
+        assert col.required_model(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerance).model == model
+        impact = col.solve(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerance)
+        assert impact.model == model
+        if model == "time_resolved":
+            assert change(impact) == pytest.approx(change(t_bone()), rel=1e-12)
+            assert impact.pulse == t_bone().pulse
+            assert "would err by 1.2 m/s in this duration" in impact.choice.reason
+        elif model == "eccentric":
+            assert impact == col.solve(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerance)
+            assert change(impact) == pytest.approx(change(eccentric), rel=1e-12)
+            assert impact.pulse is None
+    # Without a duration nothing changes, and without a drag there are no tyres.
+    assert col.required_model(a, b, 0.1, **STRAIGHT).model == "eccentric"
+    free = col.solve(a, b, 0.1, **STRAIGHT, duration=0.1)
+    assert change(free) == pytest.approx(change(t_bone(drag=0.0)), rel=1e-12)
+
+
+def test_a_low_speed_impact_requires_time():
+    """Brakes at 2 m/s take half of the delta-V; at 20 m/s an impulse in line is enough for 2 m/s."""
+    for speed, model in ((2.0, "time_resolved"), (20.0, "linear_central")):
+        a, b = (col.Vehicle(**A | {"vx": vx, "x": x}) for vx, x in ((speed, -2.2), (0.0, 2.2)))
+        tolerance = 0.5 if speed == 2.0 else 2.0
+        choice = col.required_model(a, b, 0.4, **STRAIGHT, tolerance=tolerance, duration=0.1, drag=0.7)
+        assert choice.model == model
+        assert choice.errors["linear_central"] == pytest.approx(0.69, abs=0.05)
+
+
+def test_where_time_is_no_candidate():
+    """A ratio, a fraction, a pivot, what is missing: the reason says so. Where a rough run has no answer, more steps are taken."""
+    a, b = col.Vehicle(**A), col.Vehicle(**B)
+    where, time = {"normal": 0.0, "point": (0.0, 0.0)}, {"duration": 0.1, "tolerance": 0.5}
+    for rule in ("impulse_ratio", "critical_fraction"):
+        choice = col.required_model(a, b, 0.1, **where, **time, **{rule: 0.1})
+        assert choice.model == "eccentric"
+        assert choice.reason.endswith(f"; time_resolved takes friction, and {rule} was given")
+        assert list(choice.errors) == ["linear_central", "oblique_central"]
+    pinned = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=0.5, y=2.0, pivot=(0.5, -2.0))
+    assert "takes no body with a pivot" in col.required_model(a, pinned, 0.1, **where, **time, friction=0.5).reason
+    unknown = col.required_model(a, b.replace(yaw_inertia=None), 0.1, **where, **time, friction=0.5)
+    assert "time_resolved needs b.yaw_inertia" in unknown.reason
+    with pytest.raises(col.MissingInputError):
+        col.solve(a, b.replace(yaw_inertia=None), 0.1, **where, **time, friction=0.5)
+    spinning = col.Vehicle(**A | {"vx": 3.0, "yaw_rate": 15.0}), col.Vehicle(**B | {"vy": 0.0})
+    choice = col.required_model(*spinning, 0.1, **where, friction=0.5, duration=0.5, tolerance=1.0)
+    assert choice.model == "time_resolved"
+    assert "not known" in choice.reason
+    with pytest.raises(col.NoSolutionError, match="no start"):
+        col.solve(*spinning, 0.1, **where, friction=0.5, duration=0.5, tolerance=1.0)
+    with pytest.raises(col.NoImpactError):
+        col.solve(a, b, 0.1, normal=math.pi, point=(0.0, 0.0), friction=0.5, **time)
+    with pytest.raises(col.InputError, match=r"drag = 0\.7 needs a duration"):
+        col.required_model(a, b, 0.1, **where, friction=0.5, drag=0.7)
+    with pytest.raises(col.InputError, match="duration must be > 0"):
+        col.solve(a, b, 0.1, **where, friction=0.5, duration=0)
+
+
+def test_a_batch_of_solve_with_a_duration():
+    """Each case by its own model, as by itself; a record is solved again."""
+    speeds, tolerances = np.array([20.0, 3.0, -4.0, 8.0]), np.array([5.0, 0.1, 1.0, 1.0])
+    a, b = col.Vehicle(**A | {"vx": speeds}), col.Vehicle(**B)
+    time = {"duration": "100 ms", "drag": 0.7}
+    many = col.solve(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerances, on_failure="nan")
+    assert many.model.tolist() == ["eccentric", "time_resolved", "eccentric", "eccentric"]
+    assert many.status.tolist() == [0, 0, col.Status.SEPARATING, 0]
+    assert np.isfinite(many.pulse.duration).tolist() == [False, True, False, False]
+    for case in (0, 1, 3):
+        one = many.case(case)
+        assert one.model == many.model[case]
+        assert one.regime == many.regime[case]
+        for name in FIELDS[:-1]:
+            assert getattr(many, name)[case] == pytest.approx(getattr(one, name), rel=1e-9, abs=1e-9), name
+        for label in "ab":
+            got, wanted = getattr(many, label), getattr(one, label)
+            assert got.at_compression.vx[case] == pytest.approx(wanted.at_compression.vx, rel=1e-9, abs=1e-9)
+            assert got.kinetic_energy_change[case] == pytest.approx(wanted.kinetic_energy_change, rel=1e-9)
+            assert got.tyre_loss[case] == pytest.approx(wanted.tyre_loss, rel=1e-9)
+    assert many.momentum_residual[[0, 1, 3]] == pytest.approx(0.0, abs=1e-9)
+    record = json.loads(json.dumps(many.to_dict(), allow_nan=False))
+    assert col.Impact.from_dict(record) == many
+    assert pickle.loads(pickle.dumps(many)) == many
+    assert len(many.to_columns()["pulse.duration"]) == 4
+    one = col.solve(col.Vehicle(**A), b, 0.1, **STRAIGHT, **time)
+    assert col.Impact.from_dict(json.loads(json.dumps(one.to_dict()))) == one
+    assert one.again(drag=0.0).a.tyre_loss == 0.0
+    page = col.report(one, form="markdown")
+    assert "the contact followed in time" in page
+    assert "law of restitution" not in page
+    stray = json.loads(json.dumps(col.eccentric(col.Vehicle(**A), b, 0.1, **STRAIGHT).to_dict()))
+    stray["inputs"]["duration"] = 0.1
+    with pytest.raises(col.InputError, match="only time_resolved has duration"):
+        col.Impact.from_dict(stray)
+
+
+def test_a_moving_wall_does_its_work():
+    """In a frame in which the wall moves, it does what the car gains and both lose."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=-2.0, y=0.0)
+    impact = col.time_resolved(car, col.Vehicle.barrier(vx=-10.0), 0.2, **STRAIGHT, duration=0.1)
+    assert impact.a.delta_vx == pytest.approx(-12.0, rel=1e-3)
+    assert impact.b.kinetic_energy_change == pytest.approx(impact.b.impulse_x * -10.0, rel=1e-9)

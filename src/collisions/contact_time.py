@@ -35,6 +35,7 @@ DOMAINS = {
 _FEWEST, _MOST = 10, 100_000
 _KINDS = ("duration", "stiffness", "crush_a", "crush_b")
 _STEPS = 100
+WHEELBASE, TRACK = 2.7, 1.5
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
 _STIFFNESS = "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') with or without crush_b"
@@ -70,14 +71,33 @@ def read_contact_time(
     return replace(inputs, given=given, **found), plain and not any(isinstance(one, np.ndarray) for one in _numbers(found))
 
 
+def read_least_time(reader: ArgumentReader, duration: Any, drag: Any) -> dict[str, Any]:
+    """Duration and drag as ``solve`` takes them, both optional: without a duration there is no contact that takes time."""
+    if duration is None and drag is not None:
+        text = f"drag = {shown(drag)} needs a duration, in which the tyres slide; write duration='100 ms', or leave drag out"
+        reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
+    given = {name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None}
+    return read_times(reader, given) if "duration" in given else {}
+
+
+def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
+    """What ``solve`` was given as inputs of ``time_resolved``."""
+    drag: Any = 0.0 if inputs.drag is None else inputs.drag
+    own: dict[str, Any] = {"law": None, "tolerance": None, "given": None, "contact_velocity": None}
+    own |= {"wheelbase": WHEELBASE, "track": TRACK, "geometry": "maximum_engagement"}
+    return replace(inputs, model="time_resolved", drag=drag, steps=steps, **own)
+
+
 def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
     """The numbers in ``extra`` that say how a contact passes; one kind of stiffness has to be among them."""
-    found: dict[str, Any] = dict.fromkeys(DOMAINS)
-    kinds = [name for name in _KINDS if extra[name] is not None]
+    found: dict[str, Any] = dict.fromkeys(extra.keys() & DOMAINS.keys())
+    kinds = [name for name in _KINDS if extra.get(name) is not None]
     if not kinds or (len(kinds) > 1 and kinds != ["crush_a", "crush_b"]):
         text = f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long the contact takes"
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     for name, domains in DOMAINS.items():
+        if name not in extra:
+            continue
         value = extra[name]
         if value is None and name in _KINDS:
             continue

@@ -133,8 +133,7 @@ class Impact(Frozen, Summarized):
 
         Of a time-resolved impact as it came about.
         """
-        passed = self._passed
-        return self.restitution * self.closing_speed if passed is None else passed.separation_speed
+        return self.restitution * self.closing_speed if self._passed is None else self._output("separation_speed")
 
     @derived("m/s")
     def slip_before(self) -> Value:
@@ -192,9 +191,8 @@ class Impact(Frozen, Summarized):
 
         Of a central model that of the centres of mass, as for ``closing_speed``.
         """
-        if self._passed is not None:
-            common_then: Value = self._passed.common_velocity
-            return common_then
+        if self.inputs.model == "time_resolved":
+            return self._output("common_velocity")
         nx, ny = self.normal
         found = []
         for side in (self.a, self.b):
@@ -203,6 +201,8 @@ class Impact(Frozen, Summarized):
         # From the body whose velocity changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
         common: Value = select(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)
+        if self._passed is not None:
+            common = select(self._followed, self._passed.common_velocity, common)
         return common
 
     @derived("kg")
@@ -229,8 +229,7 @@ class Impact(Frozen, Summarized):
     def energy_absorbed(self) -> Value:
         """Energy taken up along the normal at the end of compression [J], part of which restitution gives back."""
         if self._passed is not None:
-            absorbed: Value = self._passed.energy_absorbed
-            return absorbed
+            return self._output("energy_absorbed")
         return 0.5 * (self.closing_speed * self.compression_impulse)
 
     @returns("m/s")
@@ -315,7 +314,7 @@ class Impact(Frozen, Summarized):
                 moving = np.where(np.equal(value, 0.0), "frictionless", "sliding")
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
                 if self._passed is not None:
-                    found = np.where((found == "sliding") & self._reverses, "reversing", found)
+                    found = np.where((found == "sliding") & self._followed & self._reverses, "reversing", found)
             if self.choice is not None:
                 found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
             return np.where(self.refused, "", found)
@@ -359,6 +358,11 @@ class Impact(Frozen, Summarized):
     def _passed(self) -> Any:
         """The kernel's answer where the contact took time, else None."""
         return self._answer if isinstance(self._answer, Passed) else None
+
+    @property
+    def _followed(self) -> Any:
+        """Which cases were followed in time: in a batch of ``solve`` not all need be."""
+        return self._answer.duration == self._answer.duration
 
     @property
     def _reverses(self) -> Any:
@@ -407,7 +411,7 @@ class Impact(Frozen, Summarized):
         inputs, rules = self.inputs, [name for name in RULES if name in changes]
         takes = {"a", "b", "restitution", "normal"}
         takes |= {"law", *RULES} if inputs.model != "linear_central" else set()
-        takes |= {"eccentric": {"point"}, "solve": {"point", "tolerance"}}.get(inputs.model, set())
+        takes |= {"eccentric": {"point"}, "solve": {"point", "tolerance", "duration", "drag"}}.get(inputs.model, set())
         if inputs.model == "time_resolved":
             takes = takes - {"law", *RULES} | {"point", "friction", *TIME_DOMAINS, "geometry", "steps"}
         unknown = changes.keys() - takes

@@ -10,20 +10,28 @@ from typing import Any
 
 import numpy as np
 
+from .contact_time import timed
 from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
-from .kernels.elementwise import select
+from .kernels.contact_laws import FRICTION
+from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
-from .kernels.status import EPS
-from .models import MODELS, read_again
+from .kernels.status import EPS, Status
+from .kernels.time_resolved import Passed
+from .models import MODELS, TIME_RESOLVED, read_again
 from .progress import halves, reporter
-from .quantities import Shown, derived, lock, same
+from .quantities import Shown, derived, lock, numeric, same
 from .reading import ArgumentReader, broadcast
 from .solving import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
 from .units import Value, to_quantity
+from .warning import quietly
 
-_NAMES = tuple(model.name for model in MODELS)
-_LINEAR, _OBLIQUE, _ECCENTRIC = _NAMES
+_NAMES = (*(model.name for model in MODELS), TIME_RESOLVED.name)
+_LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
+# The number of the model that takes time, and the steps in which it is followed to tell what the others leave out.
+_LAST, _ROUGH = len(MODELS), 25
+# Safety factor on an error against that.
+_MARGIN = 1.15
 
 
 class ByModel(Mapping[str, Any]):
@@ -68,7 +76,7 @@ class ModelChoice(Shown):
     Attributes
     ----------
     model : str or array of str
-        "linear_central", "oblique_central" or "eccentric"; the last also where the case is refused.
+        "linear_central", "oblique_central", "eccentric" or, with a duration, "time_resolved"; of a refused case "eccentric".
     tolerance : float or array [m/s]
         What was accepted.
     """
@@ -78,16 +86,19 @@ class ModelChoice(Shown):
     tolerance: Value = field(metadata={"unit": "m/s"})
     # The number of the model chosen, the errors of the central ones, and what the eccentric one lacks.
     _which: Any
-    _predicted: tuple[Any, Any]
+    _predicted: tuple[Any, ...]
     _missing: tuple[str, ...]
     # Whether that lack left the errors unknown, whether a body has a pivot, and which cases were refused.
     _lacks: bool
     _pinned: bool
     _refused: Any = False
+    # Where the errors are those against a contact that takes time; and why it is no candidate.
+    _timed: Any = False
+    _untimed: str = ""
 
     def __post_init__(self) -> None:
         if isinstance(self._which, np.ndarray):
-            lock((self._which, self._predicted, self._refused))
+            lock((self._which, self._predicted, self._refused, self._timed))
 
     @property
     def model(self) -> Any:
@@ -112,7 +123,8 @@ class ModelChoice(Shown):
     @derived()
     def missing(self) -> Mapping[str, tuple[str, ...]]:
         """By model, what it still needs, such as "a.yaw_inertia" or "point"."""
-        return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing})
+        last = {_IN_TIME: self._missing} if len(self._predicted) == _LAST else {}
+        return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing, **last})
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         yield prefix + "model", self.model, None
@@ -139,7 +151,60 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
         _lacks=bool(np.any(lacks)) if shape else lacks,
         _pinned=a.pivot is not None or b.pivot is not None,
     )
-    return choice, lacks
+    return (choice, lacks) if inputs.duration is None else _with_time(inputs, choice, lacks)
+
+
+def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelChoice, Any]:
+    """The choice with a contact that takes time as the last candidate, and the errors of the others against it."""
+    why = ""
+    if inputs.rule != FRICTION:
+        why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
+    elif choice._pinned:
+        why = f"{_IN_TIME} takes no body with a pivot"
+    elif np.all(lacks):
+        why = f"{_IN_TIME} needs {', '.join(choice._missing)}"
+    if why:
+        return replace(choice, _untimed=why), lacks
+    with quietly():
+        rough = solve_inputs(TIME_RESOLVED, timed(inputs, _ROUGH), on_failure="nan")
+        answers = [solve_inputs(model, inputs, on_failure="nan", carrying=True) for model in MODELS]
+    with np.errstate(all="ignore"):
+        errors = tuple(_apart(inputs, answer, rough) for answer in answers)
+        # Followed roughly it may have no answer where in more steps it has one; then nothing is known of the others.
+        unsure = (rough.status == Status.NO_START) | (rough.status == Status.ENDLESS_CONTACT)
+        answered = ((rough.status <= Status.ENERGY_GAIN) | unsure) & (lacks ^ True)
+        tolerance: Any = inputs.tolerance
+        which: Any = _LAST
+        for number, error in reversed(tuple(enumerate(errors))):
+            which = select((tolerance > 0.0) & (_MARGIN * error <= tolerance), number, which)
+        which = select(answered, select(unsure, _LAST, which), choice._which)
+        errors = tuple(select(unsure, math.nan, error) for error in errors)
+        # Where it has no answer the errors are those of the central models, against the eccentric one.
+        known = (*choice._predicted, math.nan)
+        errors = tuple(select(answered, new, old) for new, old in zip(errors, known, strict=True))
+    if isinstance(choice._which, np.ndarray):
+        shape = choice._which.shape
+        which, *errors_of = (np.broadcast_to(one, shape).copy() for one in (which, *errors))
+        which, errors = which.astype(np.uint8), tuple(errors_of)
+    unknown = (which == _LAST) if choice._missing else False
+    untimed = "" if answered is not False else f"{_IN_TIME} has no answer: {Status(rough.status).sentence}"
+    return replace(choice, _which=which, _predicted=errors, _timed=answered, _untimed=untimed), lacks | unknown
+
+
+def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
+    """How far two answers are apart, in m/s, for the worse of both bodies; infinite where the first is none."""
+    worst: Any = 0.0
+    for label, body in (("a", inputs.a), ("b", inputs.b)):
+        dx, dy, dw = (
+            getattr(answer, name) - getattr(other, name)
+            for name in (f"delta_vx_{label}", f"delta_vy_{label}", f"delta_yaw_rate_{label}")
+        )
+        inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+        moves = (dw != 0.0) & (numeric(body.mass).isfinite(body.mass))
+        radius = select(moves, inertia / select(moves, body.mass, 1.0), 0.0) ** 0.5
+        turning = select(moves, radius * dw, 0.0)
+        worst = larger(worst, (dx * dx + dy * dy + turning * turning) ** 0.5)
+    return select((answer.status <= Status.ENERGY_GAIN) & (worst == worst), worst, math.inf)
 
 
 def where_answered(choice: ModelChoice, refused: Any) -> ModelChoice:
@@ -183,11 +248,16 @@ def solve_least(
             refuse_incomplete(inputs, lacks)
     which = choice._which
     if not isinstance(which, np.ndarray):
+        if which == _LAST:
+            return solve_inputs(TIME_RESOLVED, timed(inputs), False, on_failure, threads, report), choice
         return solve_inputs(MODELS[which], inputs, plain, on_failure, threads, report, carrying=True), choice
     shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
+    late, which = which == _LAST, np.minimum(which, ECCENTRIC)
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
     models, numbers = (used, None) if len(used) == 1 else (MODELS, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
+    if np.any(late):
+        raw = _in_time(inputs, raw, np.broadcast_to(late, shape), threads)
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
@@ -196,6 +266,26 @@ def solve_least(
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)
     return raw, choice
+
+
+def _in_time(inputs: Inputs, raw: Any, late: Any, threads: int) -> Passed:
+    """The answers of a batch with those of its late cases followed in time; the others have no duration, force or crush."""
+    some = part_of_inputs(timed(inputs), lambda value: np.broadcast_to(value, late.shape)[late])
+    passed = solve_inputs(TIME_RESOLVED, some, False, "nan", threads)
+    e, whole = inputs.restitution, 1.0 + inputs.restitution
+    found: dict[str, Any] = {
+        "separation_speed": e * raw.closing_speed,
+        "energy_absorbed": 0.5 * raw.closing_speed * raw.compression_impulse,
+    }
+    for name in ("vx_a", "vy_a", "yaw_rate_a", "vx_b", "vy_b", "yaw_rate_b"):
+        found[f"compression_{name}"] = getattr(raw, f"delta_{name}") / whole
+    found |= {name: 0.0 * raw.normal_impulse for name in Passed._fields if name.startswith("tyre")}
+    for name in Passed._fields[:-1]:
+        value = found.get(name, getattr(raw, name, math.nan))
+        kind = raw.status.dtype if name == "status" else np.bool_ if name == "sticks" else raw.closing_speed.dtype
+        found[name] = np.array(np.broadcast_to(value, late.shape), dtype=kind)
+        found[name][late] = getattr(passed, name)
+    return Passed(**lock(found))
 
 
 @lru_cache(maxsize=64)
@@ -234,6 +324,20 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
     return least_models((inputs.rule, inputs.law, known, eps), (*numbers, limit), cases, progress)
 
 
+def _reason_in_time(which: int, errors: tuple[Any, ...], tolerance: float) -> str:
+    """The same where a contact that takes time was a candidate."""
+    if which < _LAST:
+        text = f"{_NAMES[which]}: with what an impulse leaves out of this duration it errs by {errors[which]:.3g} m/s"
+        return f"{text}, and {tolerance:.3g} m/s are accepted"
+    if tolerance == 0.0:
+        return f"{_IN_TIME}: a tolerance of 0 asks for the fullest model"
+    error = errors[_LAST - 1]
+    if math.isnan(error):
+        return f"{_IN_TIME}: in {_ROUGH} steps it has no answer, so what the others err by is not known"
+    text = f"{_ECCENTRIC} has no answer" if error == math.inf else f"{_ECCENTRIC} would err by {error:.3g} m/s in this duration"
+    return f"{_IN_TIME}: {text}, and {tolerance:.3g} m/s are accepted"
+
+
 def _reason(choice: ModelChoice) -> str:
     """The reason for the choice, in a sentence."""
     which, errors, tolerance = choice._which, choice._predicted, choice.tolerance
@@ -241,6 +345,11 @@ def _reason(choice: ModelChoice) -> str:
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
+    if choice._timed:
+        return _reason_in_time(which, errors, tolerance)
+    if choice._untimed:
+        bare = replace(choice, _untimed="", _predicted=errors[:2])
+        return f"{_reason(bare)}; {choice._untimed}"
     model, oblique = _NAMES[which], errors[_NAMES.index(_OBLIQUE)]
     predicted = [
         f"{name} has no answer" if error == math.inf else f"{name} would err by {error:.3g} m/s"

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .contact_time import DOMAINS, read_contact_time
+from .contact_time import DOMAINS, read_contact_time, read_least_time
 from .errors import InputError
 from .inputs import Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
@@ -144,16 +144,21 @@ def read(
     tangential: tuple[Any, ...],
     law: Any,
     tolerance: Any = None,
+    duration: Any = None,
+    drag: Any = None,
 ) -> tuple[Inputs, bool]:
-    """Read a solver's arguments, for ``solve`` with the tolerance; see ``read_inputs``."""
+    """Read a solver's arguments, for ``solve`` with tolerance, duration and drag; see ``read_inputs``."""
     reader = ArgumentReader()
+    times = {} if duration is None and drag is None else read_least_time(reader, duration, drag)
     if model == "solve" and not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
     inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
     if model == "solve":
         # Nobody else has these inputs yet.
         vars(inputs)["tolerance"] = tolerance
-        plain = plain and isinstance(tolerance, float)
+        if times:
+            vars(inputs).update(times, given={**(inputs.given or {}), **reader.texts} or None)
+        plain = plain and all(isinstance(one, float) for one in (tolerance, *times.values()))
     return inputs, plain
 
 
@@ -166,12 +171,13 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
+    times = inputs.duration, inputs.drag
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
             again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
             return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance)
+        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance, *times)
     return replace(
         again,
         restitution=e if unknown else again.restitution,

@@ -123,6 +123,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         if model != "solve" and found["tolerance"] is not None:
             raise bad_record(f"only solve has a tolerance, and its model is {shown(model)}")
         stray = [name for name in (*TIME_DOMAINS, *_OPTIONS) if found[name] is not None]
+        stray = [name for name in stray if model != "solve" or name not in ("duration", "drag")]
         if model != TIME_RESOLVED.name and stray:
             raise bad_record(f"only time_resolved has {stray[0]}, and its model is {shown(model)}")
         status = record["results"]["status"]

@@ -229,15 +229,21 @@ class Side(Frozen, Summarized):
         return value
 
     def _work(self) -> Value:
-        """Change of kinetic energy by the contact: that of the motion and what the tyres took of it."""
-        (dvx, dvy, dw), before = self._change(), self.before
-        vx, vy, spin = widened((before.vx, before.vy, before.yaw_rate), (self.delta_vx,))
-        mass = select(numeric(before.mass).isfinite(before.mass), before.mass, 0.0)
+        """Work of a contact that took time; of a body without a finite energy what the other one and the losses leave."""
+        own, other = (self._gain(index) for index in (self._index, 1 - self._index))
+        work: Value = select(own == own, own, -self._answer.energy_loss - other)
+        return work
+
+    def _gain(self, index: int) -> Any:
+        """Change of kinetic energy by the contact, without what the tyres took; NaN where it is not finite."""
+        label, before, answer = "ab"[index], self._inputs.b if index else self._inputs.a, self._answer
+        dvx, dvy, dw = (getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate"))
+        vx, vy, spin = widened((before.vx, before.vy, before.yaw_rate), (dvx,))
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
-        inertia = select(numeric(inertia).isfinite(inertia), inertia, 0.0)
-        gain: Value = mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy)) + inertia * dw * (spin + 0.5 * dw)
-        gain = gain + self.tyre_loss
-        return gain
+        moving = before.mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy))
+        turning = inertia * dw * (spin + 0.5 * dw)
+        rests = numeric(inertia).isinf(inertia) & (spin == 0.0)
+        return moving + select(rests, 0.0, turning) + getattr(answer, f"tyre_loss_{label}")
 
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._answer.impulse_x, self._answer.impulse_y

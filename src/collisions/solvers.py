@@ -355,6 +355,8 @@ def required_model(
     critical_fraction: Input | None = None,
     law: Law = "brach",
     tolerance: Input = 0.0,
+    duration: Input | None = None,
+    drag: Input | None = None,
 ) -> ModelChoice:
     """The least model whose answer stays within a tolerance of the eccentric one.
 
@@ -365,12 +367,19 @@ def required_model(
     does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error. A lever
     of 16 eps of the coordinates, and of 0.1 mm at most, is rounding, and does not matter.
 
+    With a duration the contact that takes so long, with tyres of this drag, is a fourth candidate, and what all are compared
+    with: ``time_resolved``, followed roughly for this, in 25 steps. The models that take no time then err by what they leave
+    out as well. It takes friction, and bodies without a pivot; else it is no candidate, and the reason says so, as it does
+    where it has no answer.
+
     Parameters
     ----------
     a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law
         As for ``eccentric``; yaw inertias, positions and the point may be left None.
     tolerance : float, str, Quantity or array [m/s]
-        Largest error that is accepted, >= 0; 0 is always the eccentric model.
+        Largest error that is accepted, >= 0; 0 is always the fullest model.
+    duration, drag
+        As for ``time_resolved``, optional; without a drag no tyres.
 
     Returns
     -------
@@ -394,7 +403,7 @@ def required_model(
     ('eccentric', 2.14)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance)
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag)
     return choose(inputs, plain)[0]
 
 
@@ -410,6 +419,8 @@ def solve(
     critical_fraction: Input | None = None,
     law: Law = "brach",
     tolerance: Input = 0.0,
+    duration: Input | None = None,
+    drag: Input | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -426,6 +437,8 @@ def solve(
         As for ``eccentric``; what the required model does not need may be left None.
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, as for ``required_model``.
+    duration, drag : float, str, Quantity or array [s], [-], optional
+        Of the contact and its tyres, as for ``required_model``; where that takes time, it is solved in 100 steps.
 
     Returns
     -------
@@ -448,5 +461,5 @@ def solve(
     ('linear_central', 6.667)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance)
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag)
     return solved(inputs, plain, on_failure, threads, progress)

@@ -248,7 +248,7 @@ def _inputs(page: Page, impact: Impact) -> None:
             text += f", given as {bare:.6g} without a unit"
         name = vehicles.get(of, "")
         rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
-    if impact.law is not None and impact.model != "linear_central":
+    if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     page.table(rows)
 

@@ -36,9 +36,12 @@ def why_this_model(page: Page, impact: Impact) -> None:
         return
     page.heading("Why this model")
     limit = page.number(choice.tolerance, "speed")
+    full = (
+        "the contact followed in time" if len(choice.errors) > 2 and "no answer" not in choice.reason else "the eccentric model"
+    )
     page.say(
-        f"The least model was taken whose predicted error, times 1.15, is within the accepted {limit}, against the eccentric "
-        f"model. The error is that of the delta-V vector together with radius of gyration times yaw rate, for the worse of "
+        f"The least model was taken whose predicted error, times 1.15, is within the accepted {limit}, against {full}. "
+        f"The error is that of the delta-V vector together with radius of gyration times yaw rate, for the worse of "
         f"both vehicles. Taken: {choice.model}."
     )
     if choice.tolerance == 0.0 or " m/s" not in choice.reason:

@@ -109,7 +109,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
-    if impact.law is not None and impact.model != "linear_central":
+    if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.say(
