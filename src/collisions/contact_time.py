@@ -35,7 +35,7 @@ DOMAINS = {
 _FEWEST, _MOST = 10, 100_000
 _KINDS = ("duration", "stiffness", "crush_a", "crush_b")
 _STEPS = 100
-WHEELBASE, TRACK = 2.7, 1.5
+_SIZES = {"wheelbase": 2.7, "track": 1.5}
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
 _STIFFNESS = "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '700 kN/m**2', '1.5 m') with or without crush_b"
@@ -63,7 +63,8 @@ def read_contact_time(
         reader.refuse(InputError(text, code="bad_option", argument="steps"))
     else:
         found["steps"] = int(found["steps"])
-    found |= read_times(reader, extra)
+    found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
+    found = _SIZES | found
     inputs, plain = read_inputs(
         "time_resolved", a, b, restitution, normal, point, (friction, None, None), "brach", reader.problems, _numbers(found)
     )
@@ -84,7 +85,7 @@ def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
     """What ``solve`` was given as inputs of ``time_resolved``."""
     drag: Any = 0.0 if inputs.drag is None else inputs.drag
     own: dict[str, Any] = {"law": None, "tolerance": None, "given": None, "contact_velocity": None}
-    own |= {"wheelbase": WHEELBASE, "track": TRACK, "geometry": "maximum_engagement"}
+    own |= {**_SIZES, "geometry": "maximum_engagement"}
     return replace(inputs, model="time_resolved", drag=drag, steps=steps, **own)
 
 

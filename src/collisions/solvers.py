@@ -242,8 +242,8 @@ def time_resolved(
     drag: Input = 0.0,
     geometry: Geometry = "maximum_engagement",
     steps: int = 100,
-    wheelbase: Input = 2.7,
-    track: Input = 1.5,
+    wheelbase: Input | None = None,
+    track: Input | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -287,8 +287,8 @@ def time_resolved(
         searched for. "fixed" leaves all where it is.
     steps : int
         Per nominal duration, which is that of a linear spring with the same largest force.
-    wheelbase, track : float, str, Quantity or array [m]
-        Of both vehicles, with the centre of mass in the middle.
+    wheelbase, track : float, str, Quantity or array [m], optional
+        Of both vehicles, with the centre of mass in the middle; 2.7 m and 1.5 m if not given.
     on_failure, threads, progress
         As for ``linear_central``.
 

@@ -33,6 +33,8 @@ _CORRECTIONS, _NEAR = 20, 1e-6
 _COARSE, _ROUGHLY = 0.08, 3e-3
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
+# Blocks of fewer cases are not made smaller.
+_LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 _ONE: Wheels = ((0.0, 0.0),)
 _FIXED = (Spring, Contact, Body, Body)
@@ -330,24 +332,57 @@ def _start(
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
     guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
-    coarse = select(contact.step < _COARSE, _COARSE, contact.step)
-    for step, enough in ((coarse, _ROUGHLY), (contact.step, _NEAR)):
-        older: Any = None
+    # Of a block only the cases that have not arrived are followed again.
+    rest = np.flatnonzero(usable & (passing.closing == passing.closing)) if isinstance(passing.closing, np.ndarray) else None
+    near = np.zeros(passing.closing.shape, dtype=bool) if rest is not None else False
+    for step, enough in ((max(_COARSE, contact.step), _ROUGHLY), (contact.step, _NEAR)):
+        some, older = rest, None
+        part, now = kept((contact._replace(step=step), a, b, spring, moving), some), kept(guess, some)
         for _ in range(_CORRECTIONS):
-            start = _moved_back(contact._replace(step=step), a, b, guess)
-            closing, _ = approach(place_of(*start, *moving), on_a, on_b)
-            end = run((spring, *start), (on_a, on_b, passing._replace(closing=closing, active=closing > 0.0)), True, None)
+            start = _moved_back(part[0], part[1], part[2], now)
+            first_a, first_b, first = part[4]
+            closing, _ = approach(place_of(*start, *part[4]), first_a, first_b)
+            begun = first_a, first_b, first._replace(closing=closing, active=closing > 0.0)
+            end = run((part[3], *start), begun, True, None)
             reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
-            off = [new - old for new, old in zip(reached, guess, strict=True)]
-            far: Any = sum(abs(part) for part in off)
-            near = (far <= enough) & (closing > 0.0)
-            if np.all(near | (usable ^ True)):
+            off = [new - old for new, old in zip(reached, now, strict=True)]
+            far: Any = sum(abs(one) for one in off)
+            arrived = (far <= enough) & (closing > 0.0)
+            guess, near = put(guess, some, now), put(near, some, arrived)
+            if np.all(arrived):
                 break
-            newer = reached if older is None else _secant(reached, off, *older)
+            now = reached if older is None else _secant(reached, off, *older)
+            if some is not None:
+                left = np.logical_not(arrived)
+                some, part, now, off, reached = kept((some, part, now, off, reached), left)
             older = off, reached
-            # A case that has arrived stays where it is, however many others go on.
-            guess = [select(near, old, new) for old, new in zip(guess, newer, strict=True)]
-    return start, near
+    return _moved_back(contact, a, b, guess), near
+
+
+def kept(parts: Any, some: Any) -> Any:
+    """Some cases of arrays, also of those in tuples and lists; all where there is nothing to choose."""
+    if some is None:
+        return parts
+    if isinstance(parts, np.ndarray):
+        return parts[some]
+    if isinstance(parts, list):
+        return [kept(part, some) for part in parts]
+    if isinstance(parts, tuple):
+        values = (kept(part, some) for part in parts)
+        return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
+    return parts
+
+
+def put(parts: Any, some: Any, new: Any) -> Any:
+    """The same with some cases replaced."""
+    if some is None:
+        return new
+    if isinstance(parts, np.ndarray):
+        whole = parts.copy()
+        whole[some] = new
+        return whole
+    values = [put(part, some, one) for part, one in zip(parts, new, strict=True)]
+    return type(parts)(*values) if hasattr(parts, "_fields") else type(parts)(values)
 
 
 def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]) -> list[Any]:
@@ -418,8 +453,14 @@ def block_run(settings: Settings) -> Run:
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         for _ in range(40 * settings.steps):
-            if not np.any(moving[2].active):
+            active = moving[2].active
+            count = np.count_nonzero(active)
+            if not count:
                 break
+            if 2 * count < active.size and active.size > _LEAST:
+                # Most have ended: go on without them.
+                whole: Moving = put(moving, active, run(kept(fixed, active), kept(moving, active), engaging, note))
+                return whole
             moving = advance(*fixed, *moving, engaging, moves, settings.wheels_a, settings.wheels_b)
         return moving
 
