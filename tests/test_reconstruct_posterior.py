@@ -333,6 +333,22 @@ def test_a_rare_answer_is_found():
     assert any("no answer for 99% of the prior" in one for one in found.statements)
 
 
+def test_answers_too_rare_to_be_found_say_so():
+    """The first island draws 4,096 points and finds 1 or 2 of the share 1/4096 that has an answer; the next by chance none."""
+
+    def model(x):
+        return {"x": np.where((x > 0.0) & (x < 1.0 / 4096.0), x, np.nan)}
+
+    outcomes = set()
+    for seed in range(4):
+        try:
+            outcomes.add(sampled(model, {"x": Uniform(0, 1)}, {"x": (0.0, 1.0)}, samples=512, seed=seed)[0].refused > 0.99)
+        except col.NoSolutionError as refused:
+            seldom = str(refused).startswith("the model answers so seldom that none of 4096 points")
+            outcomes.add(seldom and refused.code == "refused")
+    assert outcomes == {True}
+
+
 def test_a_sample_that_cannot_be_moved_says_so():
     """Three values as a prior, and a reading that leaves one: every sample is the same."""
     found, codes = sampled(lambda x: {"x": x}, {"x": Samples([1.0, 2.0, 3.0])}, {"x": (2.0, 1e-3)})

@@ -145,7 +145,7 @@ class _Problem:
 
     def __init__(self, model: Model, joint: Joint, rows: list[Observation]) -> None:
         self.model, self.joint, self.rows = model, joint, rows
-        self.answered = False
+        self.answered = self.possible = False
 
     def computed(self, scores: Any, check: bool) -> tuple[dict[str, Any], dict[str, Any]]:
         """The unknowns at these scores (cases, dimensions), and the outputs of the model."""
@@ -168,6 +168,7 @@ class _Problem:
             missed += row.missed(column, angle)
         self.answered |= bool(np.any(answered))
         possible = np.isfinite(likelihood) & np.isfinite(missed)
+        self.possible |= bool(np.any(possible))
         return np.where(possible, likelihood, -np.inf), np.where(possible, missed, np.inf)
 
     def islands(self, count: int, seed: int, threads: int, report: Callable[[int, int], None] | None) -> list[Island]:
@@ -200,6 +201,13 @@ class _Problem:
     def _no_solution(self, problem: UnreachableError) -> NoSolutionError:
         """Why no point of the priors explains what was observed."""
         at = {name: float(prior.quantile(0.5)) for name, prior in self.joint.inputs.items()}
+        if math.isinf(problem.missed) and self.possible:
+            return NoSolutionError(
+                f"the model answers so seldom that none of {problem.draws} points drawn from the priors was usable; give "
+                f"priors within which the impact happens",
+                code="refused",
+                points=problem.draws,
+            )
         if not self.answered:
             return NoSolutionError(
                 f"the model refuses all {problem.draws} points drawn from the priors, as it does their medians, {listed(at)}"

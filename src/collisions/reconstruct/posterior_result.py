@@ -87,6 +87,8 @@ class Posterior(Summarized):
         of its prior; NaN if every observation has sharp bounds.
     refused : float
         Share of the prior that the model has no answer for; there the evidence is impossible.
+    moved : float
+        Share of the samples that the last steps of the sampling moved, in the island where it is the least.
     samples : int
         How many samples there are.
     seed : int
