@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -215,47 +215,44 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
 
 
-def _values(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Every value of a document with its key."""
-    parts = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
-    for name, part in parts:
-        yield from _values(part, f"{key}.{name}".lstrip("."))
-    if not isinstance(node, (dict, list)):
-        yield key, node
-
-
-def _tuples(value: Any) -> Any:
-    """A value of TOML with its lists as tuples."""
-    return tuple(map(_tuples, value)) if isinstance(value, list) else value
-
-
 class _Reader:
     """Reads one document, and collects what is wrong with it."""
 
     def __init__(self, document: dict[str, Any]) -> None:
-        self.document = document
         self.problems: list[tuple[str, str]] = []
         self.uncertain: dict[str, Uncertain] = {}
+        self.document: dict[str, Any] = self.plain(document)
+        # The reverse solvers under their names, as the others are.
+        if isinstance(inside := self.document.get("reconstruct"), dict):
+            del self.document["reconstruct"]
+            self.document |= {f"reconstruct.{name}": table for name, table in inside.items()}
+
+    def plain(self, node: Any, key: str = "") -> Any:
+        """A part of the document with its lists as tuples; whole numbers that TOML has not are refused."""
+        if isinstance(node, dict):
+            return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in node.items()}
+        if isinstance(node, list):
+            return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
+        if type(node) is int and not -(2**63) <= node < 2**63:
+            self.refuse(key, "is a whole number of more than 64 bits, which TOML has not; write it with a point: 1.0e30")
+        return node
 
     def refuse(self, key: str, text: str) -> None:
         self.problems.append((key, text))
 
-    def close(self) -> None:
-        if self.problems:
-            raise CaseError(*self.problems)
-
     def case(self) -> Case:
         """The whole case."""
-        for key, value in _values(self.document):
-            if type(value) is int and not -(2**63) <= value < 2**63:
-                self.refuse(
-                    key, "is a whole number of more than 64 bits, which TOML has not; write it with a point, such as 1.0e30"
-                )
-        name = self.solver()
-        bodies = vehicles(SOLVERS[name])
-        self.known(self.document, "", [name.partition(".")[0], *bodies, *STUDIES, *OTHERS])
-        call = self.call(name, SOLVERS[name], self.table(name), {label: self.vehicle(label) for label in bodies})
-        studies = [study for study in STUDIES if study in self.document]
+        solvers_of, studies = ([name for name in names if name in self.document] for names in (SOLVERS, STUDIES))
+        asked = solvers_of if len(solvers_of) == 1 else list(SOLVERS)
+        bodies = list(dict.fromkeys(label for name in asked for label in vehicles(SOLVERS[name])))
+        self.known(self.document, "", [*asked, *bodies, *STUDIES, *OTHERS])
+        if len(solvers_of) != 1:
+            tables = ", ".join(f"[{name}]" for name in solvers_of or SOLVERS)
+            what = "has the tables {}; leave one of them" if solvers_of else "has no table of a solver; write one of {}"
+            self.refuse("", what.format(tables))
+            raise CaseError(*self.problems)
+        (name,) = solvers_of
+        call = self.call(name, SOLVERS[name], self.document[name], {label: self.vehicle(label) for label in bodies})
         if len(studies) > 1:
             self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
         study = studies[0] if studies else "propagate" if self.uncertain else ""
@@ -263,31 +260,14 @@ class _Reader:
         answer = self.document.get("answer")
         if answer is not None and not (type(answer) is int and answer > 0):
             self.refuse(
-                "answer", f"must be a whole number from 1, got {shown(answer)}: it says which of several answers to take"
+                "answer", f"must be a whole number from 1, which of several answers to take, got {shown(answer)}; write 1"
             )
-        page = self.table("report")
+        page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
         self.known(self.table("what_if"), "what_if", ["ranges"])
-        ranges = {key: _tuples(value) for key, value in self.table("what_if.ranges").items()}
-        self.close()
-        page = {key: _tuples(value) for key, value in page.items()}
+        if self.problems:
+            raise CaseError(*self.problems)
         return Case(name, call, self.uncertain, study, options, page, ranges, answer)
-
-    def solver(self) -> str:
-        """The one solver that the file has a table of."""
-        inside = self.document.get("reconstruct")
-        reverse = [f"reconstruct.{key}" for key in inside] if isinstance(inside, dict) else []
-        self.known(reverse, "", SOLVERS)
-        found = [name for name in SOLVERS if name in self.document or name in reverse]
-        if len(found) != 1 and not self.problems:
-            bodies = dict.fromkeys(label for function in SOLVERS.values() for label in vehicles(function))
-            self.known(self.document, "", [*FORWARD, "reconstruct", *bodies, *STUDIES, *OTHERS])
-            some, every = (", ".join(f"[{name}]" for name in names) for names in (found, SOLVERS))
-            self.refuse(
-                "", f"has the tables {some}; leave one of them" if found else f"has no table of a solver; write one of {every}"
-            )
-        self.close()
-        return found[0]
 
     def known(self, table: Iterable[str], place: str, names: Iterable[str]) -> None:
         """Refuse the keys of a table that are not among these names."""
@@ -330,7 +310,7 @@ class _Reader:
                 self.refuse(f"{key}.{name}", f"is missing; give it: {descriptions(function).get(name, name)}")
         prefix = "" if key in SOLVERS else f"{key}."
         read = {
-            name: _tuples(value) if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
+            name: value if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
             for name, value in given.items()
             if name in takes
         }
@@ -340,10 +320,10 @@ class _Reader:
     def value(self, key: str, value: Any, kind: str) -> Any:
         """An argument: a number or a text as it is, or what stands there in place of a number."""
         if not any(name in kind for name in ("Input", "Pair", "Segments")):
-            return _tuples(value)
+            return value
         if isinstance(value, dict):
             return self.function(key, value)
-        if isinstance(value, list):
+        if isinstance(value, tuple):
             if any(name in kind for name in ("Pair", "Segments", "Sequence", "tuple")):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
             self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
@@ -382,7 +362,7 @@ class _Reader:
         given = self.table(name)
         takes = parameters(STUDIES[name])
         self.known(given, name, [*takes, *(() if "observed" in takes else ("outputs",))])
-        found = {key: _tuples(value) for key, value in given.items()}
+        found = dict(given)
         if name == "propagate":
             bounds_only = all(isinstance(one.stated, uncertainty.Interval) for one in self.uncertain.values())
             found = ({"method": "interval"} if bounds_only else _PROPAGATE) | found
@@ -405,7 +385,7 @@ class _Reader:
 
     def _observed(self, key: str, value: Any) -> Any:
         """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
-        found = self.value(key, value, "Pair") if isinstance(value, (str, dict)) else _tuples(value)
+        found = self.value(key, value, "Pair") if isinstance(value, (str, dict)) else value
         self.uncertain.pop(key, None)
         found = found.stated if isinstance(found, Uncertain) else found
         # Of an observation two dots say that it lies between, not how likely it is where.
