@@ -174,9 +174,9 @@ def scale(axes, what):
 def test_every_picture_of_every_impact_has_its_units_on_its_axes(picture, case):
     axes, system = drawn(picture, case), UNITS[case]
     kinds = {"scene": "length", "momentum": "impulse", "impulse_plane": "impulse", "force_time": "time", "energy": "energy"}
-    unit = SHOWN[system][kinds[picture]].replace("*", " ")
+    unit = SHOWN[system][kinds[picture]].replace("*", "·")
     if (picture, system) == ("momentum", "si"):
-        unit = "kg m/s"
+        unit = "kg·m/s"
     assert f"[{unit}]" in axes.get_xlabel()
     if picture == "force_time":
         assert axes.get_ylabel() == f"normal force [{SHOWN[system]['force']}]"
@@ -298,7 +298,7 @@ def test_units_of_labels_are_those_of_pint(system):
     for kind, unit in SHOWN["si"].items():
         asked = "duration" if kind == "time" else unit  # a contact is in ms, any other time in s
         assert labels.factor(asked) == pytest.approx(factor(system, kind), rel=ROUNDING)
-        assert labels.name(asked) == SHOWN[system][kind].replace("*", " ")
+        assert labels.name(asked) == SHOWN[system][kind].replace("*", "·")
 
 
 @pytest.mark.parametrize(
@@ -344,12 +344,12 @@ def test_a_number_is_rounded_once(value, decimals, text):
         ("metric", 0.001 / 3.6, "m/s", "0.001000 km/h"),
         ("metric", math.radians(157.4), "rad", "157°"),
         ("us", 2.5, "s", "2.500 s"),
-        ("us", 2800.0, "kg*m**2", "66\u2009450 lb ft²"),
-        ("metric", 4500.0, "kg*m**2/s", "4.500 kN m s"),
+        ("us", 2800.0, "kg*m**2", "66\u2009450 lb·ft²"),
+        ("metric", 4500.0, "kg*m**2/s", "4.500 kN·m·s"),
         ("us", 1.0, "N/m**2", "1.000 N/m²"),
         ("us", math.radians(157.4), "rad/s", "157°/s"),
         ("us", 1.0, "kg", "2.205 lb"),
-        ("si", 13356.0, "N*s", "13\u2009360 N s"),
+        ("si", 13356.0, "N*s", "13\u2009360 N·s"),
     ],
 )
 def test_numbers_are_shown_with_units_as_well_as_they_can_be_known(system, value, unit, text):
@@ -631,7 +631,7 @@ def test_the_impulse_of_the_pivot_is_drawn_at_the_pivot(case):
     per_impulse = scale(axes, "impulses") * 1e3
     assert (tip - start) * per_impulse == pytest.approx((side.pivot_impulse_x, side.pivot_impulse_y), rel=1e-9, abs=1e-6)
     size = math.hypot(side.pivot_impulse_x, side.pivot_impulse_y)
-    assert f"impulse of the pivot on B\n{number(size / 1e3)} kN s" in [text.get_text() for text in axes.texts]
+    assert f"impulse of the pivot on B\n{number(size / 1e3)} kN·s" in [text.get_text() for text in axes.texts]
     assert not [name for name in arrows(plot.scene(IMPACTS[case], moment="before")) if "impulse" in name]
     assert "pivot_impulse.b" not in arrows(drawn("scene", "sticking"))
 
@@ -1163,7 +1163,7 @@ def test_bars_are_the_contributions():
     assert axes.get_xlabel() == "share of the variance [%]"
 
 
-@pytest.mark.parametrize(("system", "unit"), [("si", "J"), ("metric", "kJ"), ("us", "ft lbf")])
+@pytest.mark.parametrize(("system", "unit"), [("si", "J"), ("metric", "kJ"), ("us", "ft·lbf")])
 def test_pictures_of_an_output_have_its_unit(system, unit):
     spread = RESULT["energy"].std * factor(system, "energy")
     title = plot.contributions(RESULT, "energy", units=system).get_title()

@@ -212,12 +212,15 @@ def _html(title: str, parts: Sequence[Part], span: int) -> str:
         if part.heading or part.columns != columns:
             heads = part.columns if part.columns != columns else ()
             columns = part.columns
-            cells = "".join(f"<th style='text-align:right'>{escape(head)}</th>" for head in heads)
+            cells = "".join(f"<th style='text-align:right;padding-left:1em'>{escape(head)}</th>" for head in heads)
             rest = "" if heads else f" colspan='{span}'"
             if part.heading or heads:
                 lines.append(f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>")
         for label, *texts in part.rows:
-            side = "right" if len(texts) > 1 or part.columns else "left"
-            tds = "".join(f"<td style='text-align:{'left' if len(text) > 30 else side}'>{escape(text)}</td>" for text in texts)
+            side = "right" if span > 2 else "left"
+            tds = "".join(
+                f"<td style='text-align:{'left' if len(text) > 30 else side};padding-left:1em'>{escape(text)}</td>"
+                for text in texts
+            )
             lines.append(f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>")
     return "".join([*lines, "</tbody></table>"])

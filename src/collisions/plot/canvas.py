@@ -7,7 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
-from ..formatting import KIND_OF, SI_UNITS, bad_system, decimals_of, in_words, places, scale_of, unit_of, with_decimals
+from ..formatting import KIND_OF, SI_UNITS, bad_system, decimals_of, in_words, places, scale_of, typeset, unit_of, with_decimals
 from ..impact import Impact
 from ..reading import need_one_case
 from ..units import shown
@@ -44,7 +44,7 @@ class Units:
         """The name of the unit shown for this SI unit."""
         kind = _kind(unit)
         printed = unit if kind is None else unit_of(kind, self._system)
-        return printed.replace("**2", "²").replace("*", " ").replace("deg", "°")
+        return typeset(printed)
 
     def label(self, what: str, unit: str) -> str:
         """The label of an axis: its quantity and unit."""

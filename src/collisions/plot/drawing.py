@@ -81,9 +81,9 @@ class Drawing:
         """Extend the limits to include these points."""
         self._seen.extend(places)
 
-    def avoid(self, one: Place, other: Place) -> None:
+    def avoid(self, one: Place, other: Place, weight: int = 1) -> None:
         """No label shall cover the line between these."""
-        self._taken.append(np.linspace(one, other, 60))
+        self._taken.extend([np.linspace(one, other, 60)] * weight)
 
     def area(self, index: int, corners: list[Place]) -> None:
         """The convex outline of a vehicle, anticlockwise, which no label of the other one shall stand on."""

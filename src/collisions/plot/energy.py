@@ -28,7 +28,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
     units : "si", "metric" or "us"
-        J, kJ or ft lbf.
+        J, kJ or ft·lbf.
 
     Returns
     -------

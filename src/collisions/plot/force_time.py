@@ -41,7 +41,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
     units : "si", "metric" or "us"
-        s, N and N s; ms, kN and kN s; ms, lbf and lbf s.
+        s, N and N·s; ms, kN and kN·s; ms, lbf and lbf·s.
 
     Returns
     -------

@@ -37,7 +37,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
     units : "si", "metric" or "us"
-        N s, kN s or lbf s.
+        N·s, kN·s or lbf·s.
 
     Returns
     -------
@@ -62,8 +62,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     >>> b = col.Vehicle(mass=1200, yaw_inertia=2000, vy="30 km/h", x=0.9, y=-0.8)
     >>> impact = col.eccentric(a, b, 0.1, normal=0, point=(0, 0), friction=0.5)
     >>> axes = plot.impulse_plane(impact, units="metric")
-    >>> axes.get_xlabel()
-    'normal impulse Pn on B [kN s]'
+    >>> axes.get_ylabel()
+    'tangential impulse Pt on B [kN·s]'
     """
     labels = Units(units)
     impact = answered(impact, "impulse_plane")
@@ -121,7 +121,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
-    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s"))
+    how = (
+        "" if plain else "\nThe impulse ends on the solid line: at the diamond if the contact sticks, on the cone if it slides."
+    )
+    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
     without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside"

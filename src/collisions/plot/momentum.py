@@ -35,7 +35,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
     units : "si", "metric" or "us"
-        kg m/s, kN s or lbf s.
+        kg·m/s, kN·s or lbf·s.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
     >>> a, b = col.Vehicle(mass="1100 kg", vx="80 km/h"), col.Vehicle(mass="950 kg")
     >>> axes = plot.momentum(col.linear_central(a, b, restitution=0.398), units="metric")
     >>> axes.get_xlabel()
-    'momentum along x [kN s]'
+    'momentum along x [kN·s]'
     """
     labels = Units(units)
     impact = answered(impact, "momentum")
@@ -121,6 +121,9 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
     axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
     axes.set_ylabel(labels.label("momentum along y", "kg*m/s"))
+    for axis, along in ((axes.yaxis, (0.0, 1.0)), (axes.xaxis, (1.0, 0.0))):
+        # Arrows along the other axis lie side by side, and this one counts nothing.
+        axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
     note = "\nthose along one line side by side" if across is not None or apart else ""
     note = "\nthose after side by side with those before;\nthin lines join what is one place" if aside != (0.0, 0.0) else note
     sides = enumerate((impact.a, impact.b))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
+_FRONT = 6  # as many lines the front edge counts, for labels to keep clear of it
 _TITLES = {
     "before": "Before the impact",
     "after": "After the impact, at the place of it",
@@ -60,7 +61,7 @@ def scene(
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
     units : "si", "metric" or "us"
-        m/s, m and N s; km/h, m and kN s; mph, ft and lbf s.
+        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s.
 
     Returns
     -------
@@ -237,7 +238,7 @@ class _Picture:
             self.drawing.area(index, corners)
             self.axes.plot(x[:2], y[:2], color=colour, lw=4, solid_capstyle="butt", zorder=3, gid=f"{letter}.front")
             for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
-                self.drawing.avoid(one, other)
+                self.drawing.avoid(one, other, _FRONT if one is corners[0] else 1)
         self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
         self.drawing.avoid(place, place)
         self.drawing.label(place, who(index, vehicle), (0.0, 1.0), colour, of=index)
