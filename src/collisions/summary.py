@@ -15,6 +15,7 @@ from .formatting import KIND_OF, Numbers, bad_system, in_words, number_with_unit
 from .units import system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten, in SI
+_SHORT = 30  # characters of a cell that is a number, and not a sentence
 _WIDEST = 66  # characters of a cell on one line of the plain table
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
@@ -95,7 +96,7 @@ class Summary:
     def __str__(self) -> str:
         lines = [self.title]
         shown = [part for part in self.parts if not part.folded]
-        wide = {id(part) for part in shown if any(len(cell) > 30 for row in part.rows for cell in row[1:])}
+        wide = {id(part) for part in shown if any(len(cell) > _SHORT for row in part.rows for cell in row[1:])}
         indent = {id(part): "  " if part.heading or part.columns else "" for part in shown}
         aligned = [((indent[id(part)] + row[0], *row[1:]), part) for part in shown for row in part.rows if id(part) not in wide]
         widths = _widths([row for row, _ in aligned] + [("", *part.columns) for part in shown if id(part) not in wide])
@@ -217,10 +218,8 @@ def _html(title: str, parts: Sequence[Part], span: int) -> str:
             if part.heading or heads:
                 lines.append(f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>")
         for label, *texts in part.rows:
-            side = "right" if span > 2 else "left"
-            tds = "".join(
-                f"<td style='text-align:{'left' if len(text) > 30 else side};padding-left:1em'>{escape(text)}</td>"
-                for text in texts
-            )
+            sides = ("right" if span > 2 and len(text) <= _SHORT else "left" for text in texts)
+            cell = "<td style='text-align:{};padding-left:1em'>{}</td>"
+            tds = "".join(cell.format(side, escape(text)) for side, text in zip(sides, texts, strict=True))
             lines.append(f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>")
     return "".join([*lines, "</tbody></table>"])
