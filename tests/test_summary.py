@@ -151,6 +151,7 @@ def test_a_fit_and_findings_are_tables():
     assert "<table>" in found._repr_html_()
     assert isinstance(found, tuple)
     assert repr(diagnose(crash())).startswith("No findings")
+    assert "<p>No findings</p>" in diagnose(crash())._repr_html_()
 
 
 def struck(speed, restitution=0.1):

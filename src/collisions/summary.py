@@ -119,7 +119,7 @@ class Summary:
     def _repr_html_(self) -> str:
         shown = [part for part in self.parts if not part.folded]
         span = max((len(row) for part in shown for row in part.rows), default=2)
-        tables = [_html(self.title, shown, span)] if shown else []
+        tables = [_html(self.title, shown, span) if shown else f"<p>{escape(self.title)}</p>"]
         for part in self.parts:
             if part.folded:
                 inside = _html("", [part._replace(heading="")], 2)
