@@ -117,8 +117,12 @@ def answers(case: Case) -> Answers:
     noted: list[str] = []
     with _noting(noted):
         if case.study in ("", "propagate"):
-            results = _results(case)
-            propagation = _propagated(case, results) if case.uncertain else None
+            roots = _roots(case.call({}))
+            results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
+            if not results:
+                text = f"is {shown(case.answer)}, and {len(roots)} fit; write a number from 1 to {len(roots)}"
+                raise CaseError(("answer", text))
+            propagation = _propagated(case, results, len(roots)) if case.uncertain else None
         else:
             model = _model(case, case.options["observed"], 0, 1)
             unknowns = {name: one.stated for name, one in case.uncertain.items()}
@@ -138,28 +142,21 @@ def _noting(texts: list[str]) -> Iterator[None]:
     texts += [text for text in found if text not in texts]
 
 
-def _results(case: Case) -> tuple[Any, ...]:
-    """All that the solver gives, or the one answer that was asked for."""
-    found = case.call({})
-    results = found if isinstance(found, tuple) else (found,)
-    if case.answer is None:
-        return results
-    if case.answer > len(results):
-        raise CaseError(("answer", f"is {shown(case.answer)}, and {len(results)} fit; write a number from 1 to {len(results)}"))
-    return (results[case.answer - 1],)
+def _roots(found: Any) -> tuple[Any, ...]:
+    """What a solver gives as a tuple of results."""
+    return found if isinstance(found, tuple) else (found,)
 
 
-def _propagated(case: Case, results: tuple[Any, ...]) -> Any:
+def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
     """What follows for the outputs that were asked for, or for the first that a reader looks for."""
     if len(results) > 1:
-        text = f"is not given, and {len(results)} answers fit; write answer = 1 or another at the top of the file"
+        text = f"is not given, and {count} answers fit; write answer = 1 or another at the top of the file"
         raise CaseError(("answer", text), refused=True, code="ambiguous")
     options = dict(case.options)
     outputs = options.pop("outputs", _usual(case, results[0]))
     if not isinstance(outputs, tuple) or not outputs or not all(isinstance(name, str) for name in outputs):
         raise CaseError(("propagate.outputs", 'must be a list of names of answers, such as ["a.delta_v", "energy_loss"]'))
-    roots = case.call({})
-    model = _model(case, outputs, (case.answer or 1) - 1, len(roots) if isinstance(roots, tuple) else 1)
+    model = _model(case, outputs, (case.answer or 1) - 1, count)
     inputs = {name: one.stated for name, one in case.uncertain.items()}
     return Call("propagate", STUDIES["propagate"], {"model": model, "inputs": inputs, **options})({})
 
@@ -170,8 +167,7 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
     options = {"on_failure": "nan"} if "on_failure" in takes else {}
 
     def model(**values: Any) -> dict[str, Any]:
-        found = case.call(values, **options)
-        roots = found if isinstance(found, tuple) else (found,)
+        roots = _roots(case.call(values, **options))
         if any(not np.all(root.refused) for root in roots[count:]):
             text = "has more answers in some cases than in the stated one; narrow what is uncertain, or give what decides"
             raise CaseError((case.solver, text), refused=True, code="ambiguous")
