@@ -269,3 +269,14 @@ def test_bare_functions_have_a_way_to_quantities():
     # In line: B gains (1 + e) * g * m_a / (m_a + m_b).
     closing = reconstruct.q.inline_closing_speed(1500.0, 1500.0, 0.0, delta_v_b="10 mph")
     assert closing.m_as("mph") == pytest.approx(20.0, rel=1e-12)
+
+
+def test_a_pair_of_texts_is_asked_whether_it_is_a_range():
+    with pytest.raises(col.InputError, match=r"write Uniform\('40 mph', '50 mph'\) or Interval\('40 mph', '50 mph'\)"):
+        propagate(struck, {"speed": ("40 mph", "50 mph")})
+
+
+def test_a_printed_propagation_is_its_table():
+    found = propagate(struck, {"speed": Normal("40 mph", "2 mph")}, samples=64, seed=1)
+    assert str(found) == str(found.summary())
+    assert "22.0 ± 1.1 mph" in str(found)

@@ -320,7 +320,7 @@ def read_input(name: str, value: Any) -> Any:
     ):
         raise InputError(
             f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
-            f"and put them together in the model",
+            f"and put them together in the model{range_hint(value)}",
             code="bad_inputs",
             argument=name,
         )

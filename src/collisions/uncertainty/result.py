@@ -438,6 +438,9 @@ class Propagation(Summarized):
         cases = f"{self.samples} cases, {self.failed} without an answer"
         return f"<Propagation by {self.method}, {cases}; given the stated inputs\n{lines}>"
 
+    def __str__(self) -> str:
+        return str(self.summary())
+
     def _summary(self, numbers: Cells) -> Summary:
         title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
         stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
