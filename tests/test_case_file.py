@@ -325,7 +325,7 @@ def test_new_prints_a_case_that_runs(tmp_path, capsys):
     found = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     assert (found.returncode, found.stderr) == (0, "")
     assert "a.delta_v" in found.stdout
-    assert max(map(len, text.splitlines())) < 128
+    assert max(map(len, text.splitlines())) < 80
 
 
 def test_the_schema_is_that_of_the_functions(capsys):
