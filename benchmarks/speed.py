@@ -1,7 +1,8 @@
 """Speed against accuracy: what every choice costs, and what it errs by.
 
-``python benchmarks/speed.py`` runs all of it and writes docs/_generated/speed.json, time_resolved.json beside it, and the
-figures in docs/_static. ``--quick`` measures less, to see that everything runs; ``--json PATH`` writes there, without figures.
+``python benchmarks/speed.py`` runs all of it and writes docs/_generated/speed.json, time_resolved.json and ladder.json
+beside it, and the figures in docs/_static. ``--quick`` measures less, to see that everything runs; ``--json PATH`` writes
+there, without figures.
 
 What is compared runs in turn in one process (imports: in turn, a process each), forwards and backwards, round after round. A
 ratio is the median of those of the rounds, its spread their quartiles, so that a slow spell of the machine meets both sides.
@@ -37,6 +38,7 @@ if str(ROOT / "src") not in sys.path:
     sys.path.insert(0, str(ROOT / "src"))
 
 import batch_speed
+import ladder
 import speed_errors
 import speed_rivals
 import time_resolved
@@ -603,6 +605,8 @@ def main() -> None:
 
     print(speed_tables.summary(found))
     if options.json is None:
+        numbers = ladder.measure()
+        data.with_name("ladder.json").write_text(json.dumps(numbers, indent=1) + "\n", encoding="utf-8")
         speed_tables.draw_all(found, contacts, FIGURES)
 
 

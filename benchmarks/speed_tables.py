@@ -54,6 +54,11 @@ def load_contacts() -> dict[str, Any]:
     return json.loads((DATA / "time_resolved.json").read_text(encoding="utf-8"))
 
 
+def load_ladder() -> dict[str, Any]:
+    """The rungs from the linear impact to a contact in time."""
+    return json.loads((DATA / "ladder.json").read_text(encoding="utf-8"))
+
+
 def rows(found: dict[str, Any], group: str) -> dict[str, Any]:
     """The costs of a group by key."""
     return {row["key"]: row for row in found[group]}
@@ -313,6 +318,48 @@ def contacts(found: dict[str, Any]) -> str:
     )
 
 
+def cost_of(found: dict[str, Any], rung: str) -> float:
+    """The cost of a rung: that of its model, however its places were found."""
+    name = rung.partition(", geometry")[0]
+    if name.endswith(", from maximum engagement"):
+        name = f"time_resolved, from maximum engagement, {name.split(', ')[1]}"
+    cost: float = found["costs"][name]
+    return cost
+
+
+def ladder(found: dict[str, Any]) -> str:
+    """Error and cost of every rung."""
+    return table(
+        ["rung", "median error", "9 of 10 err by less", "cost, in calls of `eccentric`"],
+        [
+            [name, percent(row["median"]), percent(row["most_of_10"]), number(cost_of(found, name))]
+            for name, row in found["rungs"].items()
+        ],
+    )
+
+
+def ladder_by_speed(found: dict[str, Any]) -> str:
+    """The error of the impulse by closing speed."""
+    lines = [
+        [f"{row['from']:g} to {row['to']:g}", percent(row["median"]), f"{row['impacts']}"] for row in found["by_closing_speed"]
+    ]
+    return table(["closing speed [m/s]", "median error of `eccentric`", "impacts"], lines)
+
+
+def ladder_choices(found: dict[str, Any]) -> str:
+    """What ``required_model`` took, and how often too little."""
+    models = ("linear_central", "oblique_central", "eccentric", "time_resolved")
+    lines = [
+        [
+            f"{row['tolerance']:g}",
+            *(f"{row['models'].get(name, 0)}" for name in models),
+            f"{row['wrong']} of {row['impacts']} ({percent(row['wrong_share'])})",
+        ]
+        for row in found["choices"]
+    ]
+    return table(["tolerance [m/s]", *(f"`{name}`" for name in models), "beyond the tolerance"], lines)
+
+
 def rivals(found: dict[str, Any]) -> str:
     """What else a user could take, beside ours."""
     known = {group: rows(found, group) for group in ("single", "batch")}
@@ -394,6 +441,7 @@ def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind
         "speed_choices": lambda plt: choices_figure(plt, found),
         "speed_errors": lambda plt: errors_figure(plt, found),
         "speed_contacts": lambda plt: contacts_figure(plt, contacts),
+        "speed_ladder": lambda plt: ladder_figure(plt, load_ladder()),
     }
     blank = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None}}[kind]
     for name, draw in figures.items():
@@ -404,6 +452,31 @@ def draw_all(found: dict[str, Any], contacts: dict[str, Any], folder: Path, kind
             plt.close(figure)
         if kind == "svg":  # browsers need no document type, and nothing should point elsewhere
             path.write_text(re.sub(r"<!DOCTYPE[^>]*>\s*", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
+    """Error against cost of every rung: the median, with a line up to what 9 of 10 stay below."""
+    figure, axis = plt.subplots(figsize=(11.5, 5.6))
+    for name, row in found["rungs"].items():
+        cost, timed = cost_of(found, name), name.startswith("time_resolved")
+        colour = TEXTBOOK if "maximum" in name and timed else OURS if timed else GREY
+        axis.plot([cost, cost], [100.0 * row["median"], 100.0 * row["most_of_10"]], color=colour, lw=1.5)
+        axis.plot(cost, 100.0 * row["median"], "s" if timed else "o", color=colour, ms=7)
+        text = name.replace("time_resolved, ", "").replace("_central", " central").replace(", from", ", places\nfrom")
+        text = text.replace("eccentric, geometry of", "eccentric, places of")
+        lower = name.endswith("maximum engagement") and not timed
+        left = name == "linear_central" or (timed and "maximum" not in name)
+        place = (-9 if left else 9, -14 if lower else -3)
+        side = "right" if left else "left"
+        axis.annotate(text, (cost, 100.0 * row["median"]), place, textcoords="offset points", ha=side, fontsize=9.5)
+    axis.set(xscale="log", yscale="log", xlabel="cost, in calls of eccentric", ylabel="error [% of delta-V]")
+    low, high = axis.get_xlim()
+    axis.set_xlim(0.6 * low, 6.0 * high)
+    axis.grid(color="#e2e2e2", lw=0.6)
+    axis.set_axisbelow(True)
+    axis.spines[["top", "right"]].set_visible(False)
+    figure.tight_layout()
+    return figure
 
 
 def choices_figure(plt: Any, found: dict[str, Any]) -> Any:

@@ -55,7 +55,7 @@ def keys(found):
 def shown(tables, found, contacts):
     """Every table that the page shows, by the call that makes it."""
     calls = re.findall(r"tables\.(\w+)\((\w+)(?:, \"(\w+)\")?\)", PAGE.read_text(encoding="utf-8"))
-    given = {"found": found, "contacts": contacts}
+    given = {"found": found, "contacts": contacts, "rungs": tables.load_ladder()}
     return {call: getattr(tables, call[0])(given[call[1]], *filter(None, call[2:])) for call in calls}
 
 
