@@ -471,7 +471,7 @@ def ladder_figure(plt: Any, found: dict[str, Any]) -> Any:
         axis.annotate(text, (cost, 100.0 * row["median"]), place, textcoords="offset points", ha=side, fontsize=9.5)
     axis.set(xscale="log", yscale="log", xlabel="cost, in calls of eccentric", ylabel="error [% of delta-V]")
     low, high = axis.get_xlim()
-    axis.set_xlim(0.6 * low, 6.0 * high)
+    axis.set_xlim(0.35 * low, 6.0 * high)
     axis.grid(color="#e2e2e2", lw=0.6)
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
