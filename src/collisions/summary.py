@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-import textwrap
 from collections.abc import Iterable, Sequence
-from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +17,7 @@ _SHORT = 30  # characters of a cell that is a number, and not a sentence
 _WIDEST = 66  # characters of a cell on one line of the plain table
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
-_SIDED = re.compile(r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)")
+_SIDED = r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)"
 _WORDS = {"delta v": "delta-V", "pdof": "PDOF", "ees": "EES"}
 
 
@@ -94,6 +92,8 @@ class Summary:
         self.title, self.parts, self.notes = title, tuple(part for part in parts if part.rows), tuple(notes)
 
     def __str__(self) -> str:
+        from textwrap import wrap
+
         lines = [self.title]
         shown = [part for part in self.parts if not part.folded]
         wide = {id(part) for part in shown if any(len(cell) > _SHORT for row in part.rows for cell in row[1:])}
@@ -111,12 +111,14 @@ class Summary:
             for row in rows:
                 lines += _line(row, own, id(part) not in wide)
         for note in self.notes:
-            lines += textwrap.wrap(note, 88)
+            lines += wrap(note, 88)
         return "\n".join(lines)
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         shown = [part for part in self.parts if not part.folded]
         span = max((len(row) for part in shown for row in part.rows), default=2)
         tables = [_html(self.title, shown, span) if shown else f"<p>{escape(self.title)}</p>"]
@@ -167,7 +169,7 @@ def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells, columns
     pairs: dict[str, dict[str, str]] = {}
     single: list[tuple[str, str]] = []
     for name, value, unit in values:
-        found = _SIDED.fullmatch(name)
+        found = re.fullmatch(_SIDED, name)
         text = numbers.text(value, unit)
         if found is None:
             single.append((label_of(name), text))
@@ -193,7 +195,9 @@ def _widths(rows: Sequence[tuple[str, ...]]) -> list[int]:
 
 def _line(row: tuple[str, ...], widths: Sequence[int], right: bool) -> list[str]:
     """One row of a plain table, in as many lines as its longest cell needs."""
-    wrapped = [textwrap.wrap(cell, _WIDEST) or [""] if i else [cell] for i, cell in enumerate(row)]
+    from textwrap import wrap
+
+    wrapped = [wrap(cell, _WIDEST) or [""] if i else [cell] for i, cell in enumerate(row)]
     lines = []
     for at in range(max(map(len, wrapped))):
         parts = [cell[at] if at < len(cell) else "" for cell in wrapped]
@@ -207,6 +211,8 @@ def _line(row: tuple[str, ...], widths: Sequence[int], right: bool) -> list[str]
 
 def _html(title: str, parts: Sequence[Part], span: int) -> str:
     """One HTML table of several parts, as wide as the widest."""
+    from html import escape
+
     lines = [f"<table>{f'<caption>{escape(title)}</caption>' if title else ''}<tbody>"]
     columns: tuple[str, ...] = ()
     for part in parts:

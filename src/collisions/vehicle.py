@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import FrozenInstanceError, dataclass, field, fields
-from difflib import get_close_matches
 from inspect import signature
 from typing import Any, Never, cast
 
@@ -469,6 +468,8 @@ _BY_SPEED = ("speed", "velocity", "v", "course", "direction")
 
 def _unknown(name: str) -> TypeError:
     """The error for an argument that a Vehicle does not have, with the one that is meant."""
+    from difflib import get_close_matches
+
     near = [field for field, others in _CALLED.items() if name in others] or get_close_matches(name, NAMES, 1)
     hint = f"; write {near[0]}=" if near else f"; it has {', '.join(NAMES)}"
     if name in _BY_SPEED:
