@@ -147,7 +147,8 @@ def from_radians(angle: Any) -> tuple[Any, Any]:
     if isinstance(angle, float):
         return (math.cos(angle), math.sin(angle)) if math.isfinite(angle) else (math.nan, math.nan)
     with np.errstate(invalid="ignore"):
-        if angle.dtype != np.float64 or not angle.ndim:
+        # An operand of a recording has no shape.
+        if not isinstance(angle, np.ndarray) or angle.dtype != np.float64 or not angle.ndim:
             return np.cos(angle), np.sin(angle)
         # From the tangent of half the angle: a tenth of the time, and off by 1.2 eps at most.
         tangent = 0.5 * angle
