@@ -927,7 +927,8 @@ def test_a_batch_of_solve_with_a_duration():
     assert col.Impact.from_dict(record) == many
     assert pickle.loads(pickle.dumps(many)) == many
     assert len(many.to_columns()["pulse.duration"]) == 4
-    one = col.solve(col.Vehicle(**A), b, 0.1, **STRAIGHT, **time)
+    one = col.solve(col.Vehicle(**A), b, 0.1, **STRAIGHT, **time, tolerance="0.1 km/h")
+    assert one.to_dict()["inputs"]["duration"] == "100 ms"
     assert col.Impact.from_dict(json.loads(json.dumps(one.to_dict()))) == one
     assert one.again(drag=0.0).a.tyre_loss == 0.0
     page = col.report(one, form="markdown")

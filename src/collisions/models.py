@@ -157,7 +157,8 @@ def read(
         # Nobody else has these inputs yet.
         vars(inputs)["tolerance"] = tolerance
         if times:
-            vars(inputs).update(times, given={**(inputs.given or {}), **reader.texts} or None)
+            texts = {name: text for name, text in reader.texts.items() if name in times}
+            vars(inputs).update(times, given={**(inputs.given or {}), **texts} or None)
         plain = plain and all(isinstance(one, float) for one in (tolerance, *times.values()))
     return inputs, plain
 
