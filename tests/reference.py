@@ -45,6 +45,8 @@ class Scene:
     rule: str
     value: float
     law: str
+    # Impulses on A and on B from outside: x, y and yaw at the centre of mass.
+    outside: tuple[tuple[float, float, float], tuple[float, float, float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, repr=False)
@@ -101,6 +103,91 @@ class Answer:
     resistance: Any = None
     a: Half | None = None
     b: Half | None = None
+    # The speed of parting, the normal impulse of the compression period, and by how much the passage of law "stronge" is
+    # conditioned; of impulses from outside the speed they give the contact.
+    separation: Any = None
+    compression: Any = None
+    kappa: Any = None
+    s_push: Any = None
+
+
+@dataclass(frozen=True, repr=False)
+class Passage:
+    """A contact followed in the impulse from corner to corner, with the slip and the closing speed linear in between.
+
+    ``directions`` has a direction (n, t) of the impulse for every stretch, ``stop`` the normal impulse at which the slip stopped
+    first, ``top`` the impulse (n, t) and the work along the normal at the end of compression.
+    """
+
+    pn: Any
+    pt: Any
+    closing: Any
+    slip: Any
+    work: Any
+    friction: Any
+    top: Any
+    directions: tuple[Any, ...]
+    regime: str
+
+
+def follow(mp: Any, k: tuple[Any, Any, Any], closing: Any, slip: Any, mu: Any, e: Any) -> Passage | None:
+    """Routh's construction: friction against the slip there is, until the part e squared of the work has come back.
+
+    For e < 0 it ends before compression does, where that part is still to come. None if no normal impulse can act. ``mu`` is
+    None for a friction without bound.
+    """
+    k_nn, k_nt, k_tt = k
+    zero = mp.mpf(0)
+
+    def run(goal: Any) -> Any:
+        u, s, pn, pt, work, rubbed, top = closing, slip, zero, zero, zero, zero, None
+        directions: list[Any] = []
+        stopped = s == 0
+        for _ in range(6):
+            if s != 0:
+                towards = -1 if s > 0 else 1
+                n, t = (zero, mp.mpf(towards)) if mu is None else (mp.mpf(1), towards * mu)
+            elif mu is None or abs(k_nt) <= mu * k_tt:
+                n, t = mp.mpf(1), -k_nt / k_tt
+            else:
+                n, t = mp.mpf(1), -mu if k_nt > 0 else mu
+            holds = s == 0 and t * k_tt == -k_nt
+            fall, drift = k_nn * n + k_nt * t, k_nt * n + k_tt * t
+            if u <= 0 and pn == 0:
+                return None
+            events = []
+            if s != 0 and drift * s < 0:
+                events.append((-s / drift, "stop"))
+            if top is None and fall > 0:
+                events.append((u / fall, "top"))
+            if goal is not None and n > 0 and (e < 0 or top is not None):
+                # work + u x - fall x^2 / 2 reaches the goal on the way up (e < 0) or on the way down.
+                inside = u * u - 2 * fall * (goal - work)
+                if inside >= 0:
+                    speed = mp.sqrt(inside) if e < 0 else -mp.sqrt(inside)
+                    along = (u - speed) / fall if fall != 0 else (goal - work) / u
+                    if along >= 0:
+                        events.append((along, "end"))
+            step, what = min(events)
+            directions.append((n, t))
+            work += n * (u - fall * step / 2) * step
+            moved = zero if what == "stop" or holds else s + drift * step
+            rubbed += abs(t) * step * (abs(s) + abs(moved)) / 2
+            pn, pt, u, s = pn + n * step, pt + t * step, u - fall * step, moved
+            stopped = stopped or what == "stop"
+            if what == "top":
+                u, top = zero, (pn, pt, work)
+                if goal is None:
+                    return top
+            if what == "end" or (what == "top" and e == 0):
+                regime = "sticking" if holds else "sliding" if s * slip >= 0 else "reversing"
+                return Passage(pn, pt, u, s, work, rubbed, top, tuple(directions), regime)
+        raise AssertionError("a contact has three stretches and two corners at most")
+
+    top = run(None)
+    if top is None or top[0] == 0:
+        return None
+    return run(top[2] * (1 - e * e))
 
 
 # Below this part of the trace (squared for the determinant) K cannot be told from a singular one: section 4, item 13.
@@ -173,19 +260,38 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         return Answer("separating" if closing < 0 else "grazing", closing=closing)
     singular = det <= SINGULAR * trace * trace
 
+    # What the impulses from outside change at the contact.
+    moments = []
+    for k, body in enumerate(bodies):
+        jx, jy, yaw = map(num, scene.outside[k])
+        moments.append(yaw + arms[k][0] * jy - arms[k][1] * jx if body.pivot else yaw)
+    push = tuple(
+        sum((2 * k - 1) * (share[k] * num(scene.outside[k][i]) + turn[k] * moments[k] * q[k][i]) for k in (0, 1))
+        for i in (0, 1)
+    )
+    push_n, push_t = -dot(n, push), dot(t, push)
     wanted_n, wanted_t = (1 + e) * closing, -(1 + e if scene.law == "kudlich-slibar" else 1) * slip
+    wanted_n, wanted_t = wanted_n + push_n, wanted_t - push_t
+    if wanted_n <= 0 or (scene.law == "stronge" and closing + push_n <= 0):
+        return Answer("separating", closing=closing)
     no_slip = None
     if not singular:
         no_slip = (k_tt * wanted_n - k_nt * wanted_t) / det, (k_nn * wanted_t - k_nt * wanted_n) / det
 
     value = None if math.isinf(scene.value) else num(scene.value)
-    sticks, ratio = False, num(0)
+    sticks, ratio, passage = False, num(0), None
     if scene.rule == "impulse_ratio":
         regime, ratio = "given", value
     elif scene.value == 0.0:
         regime = "frictionless" if scene.rule == "friction" else "given"
     elif no_slip is None:
         return Answer("singular_contact")
+    elif scene.law == "stronge":
+        left = closing + push_n
+        passage = follow(mp, (k_nn, k_nt, k_tt), left, slip + push_t, value, e * closing / left)
+        if passage is None:
+            return Answer("no_slip_pulls")
+        regime = passage.regime
     elif scene.rule == "critical_fraction":
         regime = "given"
         if no_slip[0] <= 0:
@@ -199,28 +305,31 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if not sticks:
             ratio = -value if no_slip[1] < 0 else value
     resistance = k_nn + ratio * k_nt
-    if sticks:
+    if passage is not None:
+        pn, pt = passage.pn, passage.pt
+    elif sticks:
         pn, pt = no_slip
     else:
         if resistance <= 0:
             return Answer("ratio_jams")
         pn = wanted_n / resistance
         pt = ratio * pn
-    slip_after = slip + k_nt * pn + k_tt * pt
+    slip_after = slip + push_t + k_nt * pn + k_tt * pt
     impulse = tuple(pn * n[i] + pt * t[i] for i in (0, 1))
 
     halves, common = [], []
     loss = num(0)
     for k, body in enumerate(bodies):
         force = impulse if k else (-impulse[0], -impulse[1])
-        dw = turn[k] * (r[k][0] * force[1] - r[k][1] * force[0])
+        jx, jy, yaw = map(num, scene.outside[k])
+        dw = turn[k] * (r[k][0] * force[1] - r[k][1] * force[0] + moments[k])
         w = spins[k]
         if body.pivot:
             change = rotated((dw * arms[k][0], dw * arms[k][1]))
             v = rotated((w * arms[k][0], w * arms[k][1]))
-            pin = num(body.mass) * change[0] - force[0], num(body.mass) * change[1] - force[1]
+            pin = num(body.mass) * change[0] - force[0] - jx, num(body.mass) * change[1] - force[1] - jy
         else:
-            change = share[k] * force[0], share[k] * force[1]
+            change = share[k] * (force[0] + jx), share[k] * (force[1] + jy)
             v = num(body.vx), num(body.vy)
             pin = num(0), num(0)
         after = v[0] + change[0], v[1] + change[1]
@@ -233,6 +342,10 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
             base = v
         ended = base[0] + change[0], base[1] + change[1]
         energy = dot(force, base) if math.isinf(body.mass) else num(body.mass) * (dot(ended, ended) - dot(base, base)) / 2
+        if not math.isinf(body.mass):
+            energy -= (jx * (base[0] + ended[0]) + jy * (base[1] + ended[1])) / 2
+        if not math.isinf(body.inertia):
+            energy -= yaw * (w + w + dw) / 2
         if math.isinf(body.inertia):
             energy += (r[k][0] * force[1] - r[k][1] * force[0]) * w
         else:
@@ -250,7 +363,15 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if body.pivot:
             contact = [w * q[k][i] for i in (0, 1)]
         moved = [(0 if body.pivot else change[i]) + dw * q[k][i] for i in (0, 1)]
-        common.append(dot(n, contact) + dot(n, moved) / (1 + e))
+        if passage is None:
+            common.append(dot(n, contact) + dot(n, moved) / (1 + e))
+            continue
+        # The top of the passage, as an impulse on this body; with outside impulses they come first.
+        cn, ct = (part * (2 * k - 1) for part in passage.top[:2]) if passage.top else (mp.nan, mp.nan)
+        struck = cn * n[0] + ct * t[0], cn * n[1] + ct * t[1]
+        turned = turn[k] * (r[k][0] * struck[1] - r[k][1] * struck[0])
+        moved = [share[k] * struck[i] + turned * q[k][i] for i in (0, 1)]
+        common.append(dot(n, contact) + dot(n, moved))
 
     # The scales of section 2.
     s_u = length(dv) + sum(abs(spins[k]) * halves[k].r for k in (0, 1))
@@ -263,17 +384,43 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
     kappa_s = None if singular else (a * trace + turn[0] * turn[1] * halves[0].r * halves[1].r * abs(cross)) / det
     no_slip_spread = None if singular else kappa_s * (1 + e) * s_u * trace / det
     kappa_mu = None if sticks else kappa_of_ratio(ratio)
-    s_p = (1 + e) * s_u * (trace / det if sticks else mp.sqrt(1 + ratio * ratio) / resistance)
-    spread = (kappa_s if sticks else kappa_mu) * s_p
+    s_push = sum(
+        share[k] * length(tuple(map(num, scene.outside[k][:2]))) + turn[k] * abs(moments[k]) * halves[k].r for k in (0, 1)
+    )
+    # The slip of an incomplete impact ends as a whole where it sticks, however small 1 + e.
+    reach = (1 + max(e, 0)) * s_u + s_push
+    s_p = reach * (trace / det if sticks else mp.sqrt(1 + ratio * ratio) / resistance)
+    kappa = kappa_s if sticks else kappa_mu
+    spread = kappa * s_p
+    separation, compression = e * closing, pn / (1 + e) if e >= 0 else pn
+    if scene.law == "stronge" and passage is None and e >= 0:
+        compression = (closing + push_n) / resistance
+    if passage is not None:
+        separation, compression = -passage.closing, passage.top[0] if e >= 0 else pn
+        # Every stretch in its own direction; one along the tangent alone stops the slip.
+        kappa, spread = num(0), num(0)
+        for along_n, along_t in passage.directions:
+            size = mp.sqrt(along_n * along_n + along_t * along_t)
+            gives = abs(k_nn * along_n + k_nt * along_t) if along_n else k_tt
+            of_stretch = (a + sum(turn[k] * halves[k].r ** 2 for k in (0, 1))) * size / gives
+            kappa, spread = max(kappa, of_stretch), max(spread, of_stretch * reach * size / gives)
+        if s_push:
+            # The restitution for what is left of the closing speed is known to as much as that.
+            of_e = (s_u + s_push) / left
+            spread, kappa = spread + of_e * mp.sqrt(pn * pn + pt * pt), kappa + of_e * abs(separation) / (s_u + s_push)
     if scene.rule == "critical_fraction" and scene.value:
         # The ratio is itself worked out from the no-slip impulse, known to its own spread; what P makes of that comes on top.
         of_ratio = value * no_slip_spread * (1 + abs(no_slip[1] / no_slip[0])) / no_slip[0]
         spread += of_ratio * pn * (1 + abs(k_nt) * mp.sqrt(1 + ratio * ratio) / resistance)
+    loss_n, loss_t = (1 - e) * closing * pn / 2, -pt * (slip + slip_after) / 2
+    if passage is not None:
+        loss_t = passage.friction
+        loss_n = loss - loss_t
     critical = None
     if no_slip is not None:
         critical = no_slip[1] / no_slip[0] if no_slip[0] > 0 else mp.inf * (-1 if no_slip[1] < 0 else 1)
     return Answer(
-        None, closing, slip, slip_after, pn, pt, loss, (1 - e) * closing * pn / 2, -pt * (slip + slip_after) / 2, regime,
+        None, closing, slip, slip_after, pn, pt, loss, loss_n, loss_t, regime,
         critical, no_slip, common[0], k_nn, k_nt, k_tt, det, s_u, kappa_mu, kappa_s, s_p, spread, no_slip_spread, resistance,
-        halves[0], halves[1],
+        halves[0], halves[1], separation, compression, kappa, s_push,
     )  # fmt: skip

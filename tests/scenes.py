@@ -18,6 +18,8 @@ from reference import SINGULAR, Answer, Body, Scene, evaluate
 LAWS = ("brach", "kudlich-slibar")
 RULES = ("friction", "impulse_ratio", "critical_fraction")
 NEAR_JAMMING = "impulse_ratio near jamming"
+# A contact with friction that ends before compression does; and one with impulses from outside.
+INCOMPLETE, PUSHED = "friction, incomplete", "friction, pushed"
 FAMILIES = (
     "traffic",
     "mass ratio 1e-12..1e12",
@@ -81,6 +83,15 @@ def draw(family: str, law: str, rule: str, rng: random.Random) -> Scene:
             pass
         near = limit * (1.0 - _decade(rng, -9, 0))
         return replace(scene, value=near if rng.random() < 0.8 else -math.copysign(_decade(rng, -2, 3), limit))
+    if rule == INCOMPLETE:
+        return replace(draw(family, law, "friction", rng), restitution=-rng.choice((rng.random(), _decade(rng, -12, -1), 0.95)))
+    if rule == PUSHED:
+        scene = draw(family, law, "friction", rng)
+        # Of the size of the impulse that would stop one body at the contact: most of these do not part the bodies before.
+        speed = abs(_closing(scene))
+        size = min(mass for mass in (scene.a.mass, scene.b.mass, 1e300)) * speed * 10.0 ** rng.uniform(-3.0, 0.0)
+        push = [tuple(size * rng.uniform(-1.0, 1.0) for _ in range(3)) for _ in range(2)]
+        return replace(scene, outside=(push[0], push[1] if rng.random() < 0.7 else (0.0, 0.0, 0.0)))
     a = _car(rng, rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5))
     b = _car(rng, rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5))
     point = (rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5))
@@ -194,6 +205,10 @@ def solved(model: str, scene: Scene, **changes: Any) -> col.Impact:
         arguments |= {scene.rule: scene.value, "law": scene.law}
     if model == "eccentric":
         arguments["point"] = scene.point
+        if np.any(np.asarray(scene.outside) != 0.0):
+            arguments |= {"outside_a": scene.outside[0], "outside_b": scene.outside[1]}
+    if np.any(np.less(scene.restitution, 0.0)):
+        arguments["incomplete"] = True
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", col.EnergyGainWarning)
         return solver(vehicle(scene.a), vehicle(scene.b), scene.restitution, **{**arguments, **changes})
@@ -218,6 +233,7 @@ def solved_together(model: str, scenes: list[Scene]) -> col.Impact:
         a=stacked([scene.a for scene in scenes]),
         b=stacked([scene.b for scene in scenes]),
         **{name: column(getattr(scene, name) for scene in scenes) for name in ("restitution", "normal", "point", "value")},
+        outside=tuple(column(scene.outside[k] for scene in scenes) for k in (0, 1)),
     )
     return solved(model, whole)
 

@@ -8,7 +8,7 @@ import pytest
 
 import collisions as col
 from collisions import solving
-from collisions.kernels.contact_laws import BRACH, KUDLICH_SLIBAR, LAWS, Law
+from collisions.kernels.contact_laws import BRACH, KUDLICH_SLIBAR, LAWS, STRONGE, Law
 from collisions.kernels.elementwise import Domain
 from collisions.kernels.floats import compile_for_floats
 from collisions.kernels.status import Answer, Status
@@ -111,4 +111,9 @@ def test_a_ratio_that_jams_is_named_by_its_rule():
 
 def test_the_laws_of_today():
     """One keeps the form of energy that cannot go negative."""
-    assert {name: known.compression_limit for name, known in LAWS.items()} == {BRACH: False, KUDLICH_SLIBAR: True}
+    assert {name: known.compression_limit for name, known in LAWS.items()} == {
+        BRACH: False,
+        KUDLICH_SLIBAR: True,
+        STRONGE: False,
+    }
+    assert [name for name, known in LAWS.items() if known.energetic] == [STRONGE]

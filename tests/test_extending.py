@@ -21,7 +21,7 @@ CONTACT = {"normal": 0.3, "point": (0.1, 0.2), "friction": 2.0, "law": "half bac
 
 
 @pytest.fixture(autouse=True)
-def third_law(monkeypatch):
+def fourth_law(monkeypatch):
     """Of the slip before e / 2 comes back."""
     law = contact_laws.Law(
         "half back",
@@ -120,7 +120,7 @@ def test_speeds_go_back_and_planar_says_that_it_does_not():
     assert any(one.a.before.speed == pytest.approx(A.speed, rel=1e-9) for one in found)
     with pytest.raises(col.InputError, match="planar cannot go back under law 'half back'") as refused:
         col.reconstruct.planar(impact.a.after, impact.b.after, restitution=0.3, **CONTACT)
-    assert refused.value.code == "bad_law"
+    assert refused.value.code == "law_not_reversible"
 
 
 @pytest.mark.parametrize("kernel", [central, eccentric])

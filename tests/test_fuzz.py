@@ -139,6 +139,7 @@ INPUTS = {
     "status",
     "ok",
     "refused",
+    "complete",
     "reconstruction",
 }
 WORDS = {"kind", "regime"}
@@ -353,7 +354,7 @@ def arguments(draw: Any, model: str, odd: float) -> dict[str, Any]:
     if model != "linear_central":
         rule = draw(st.sampled_from(("friction", "impulse_ratio", "critical_fraction")))
         found[rule] = draw(one(rule))
-        found["law"] = draw(st.sampled_from(("brach", "kudlich-slibar")))
+        found["law"] = draw(st.sampled_from(("brach", "kudlich-slibar", "stronge")))
     if model == "eccentric":
         found["point"] = draw(st.tuples(one("point"), one("point")))
     found["on_failure"] = draw(st.sampled_from((None, "nan", "nan", "raise")))

@@ -91,7 +91,12 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
     elif model != "linear_central":
         rule = case.choice(("friction", "friction", "impulse_ratio", "critical_fraction"))
         found[rule] = math.inf if rule == "friction" and case.maybe(0.1) else case.value(rule)
-        found["law"] = case.option("brach", "brach", "kudlich-slibar")
+        found["law"] = case.option("brach", "brach", "kudlich-slibar", "stronge")
+    if model != "time_resolved" and case.maybe(0.2):
+        found["incomplete"] = case.option(True, True, False)
+    if model in ("eccentric", "solve") and case.maybe(0.2):
+        push = (case.value("vx"), case.value("vy"), case.value("yaw_rate"))
+        found[case.choice(("outside_a", "outside_b"))] = push[: case.choice((2, 3))]
     if model in PLACED:
         found["point"] = case.pair("point")
     return found
@@ -155,6 +160,8 @@ def impact_of(case: Case, model: str | None = None) -> Any:
     if case.mood == "odd" and case.maybe(0.1):
         keywords[case.choice(("threads", "progress"))] = case.choice((1, 2, 0, None, False, "x", 1.5, -1))
     ends = [a, b, case.value("restitution")]
+    if keywords.get("incomplete") is True and case.maybe(0.7):
+        ends[2] = -case.uniform(0.0, 1.1)
     if case.mood == "odd" and case.maybe(0.1):
         ends[case.randrange(3)] = case.garbage()
     found = case.call(model, getattr(col, model), *ends, **case.spoil(keywords))

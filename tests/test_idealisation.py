@@ -275,7 +275,7 @@ def test_the_scene_may_be_turned_and_exchanged(turn):
     a, b = turned(impact.a.before), turned(impact.b.before)
     again = col.left_out(col.eccentric(a, b, 0.1, normal=turn, point=(3.0, -2.0), friction=0.5))
     swapped = col.left_out(col.eccentric(b, a, 0.1, normal=turn + math.pi, point=(3.0, -2.0), friction=0.5))
-    skipped = ("displacement_x", "displacement_y")
+    skipped = ("displacement_x", "displacement_y", "tyre_impulse_x", "tyre_impulse_y")
     for name in SIDES:
         if name not in skipped:
             assert getattr(again.b, name) == pytest.approx(getattr(found.b, name), rel=1e-9), name

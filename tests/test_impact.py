@@ -642,7 +642,9 @@ def test_an_impact_again_is_what_its_solver_gives(solver, changes):
 def test_an_impact_again_takes_what_its_solver_takes():
     """An argument of another solver is a TypeError, a bad value the solver's own refusal."""
     impact = col.linear_central(col.Vehicle(mass=1100.0, vx=20.0), col.Vehicle(mass=950.0), 0.4)
-    with pytest.raises(TypeError, match="takes the arguments of linear_central: a, b, normal, restitution; got 'friction'"):
+    with pytest.raises(
+        TypeError, match="takes the arguments of linear_central: a, b, incomplete, normal, restitution; got 'friction'"
+    ):
         impact.again(friction=0.1)
     with pytest.raises(col.InputError, match="restitution must be from 0 to 1"):
         impact.again(restitution=3.0)

@@ -503,7 +503,7 @@ def check_case(label: str, found: Any, shape: tuple[int, ...], case: int, echoes
         what = f"{label}: {name} is {value!r} in a refused case"
         if last == "status":
             assert value > GAIN, what
-        elif last in ("ok", "refused"):
+        elif last in ("ok", "refused", "complete"):
             assert value is (last == "refused"), what
         elif last == "answers":
             status = int(at(np.asarray(found.status), shape, case))
@@ -651,7 +651,7 @@ def test_many_cases_and_float32(name: str, kind: Any) -> None:
         for case in np.flatnonzero(part.status[: len(columns)] > GAIN):
             for output, value in taken.items():
                 last = output.rpartition(".")[2].partition("[")[0]
-                if output not in call.echoes and last not in (*WHOLE, "status", "ok", "refused", "answers"):
+                if output not in call.echoes and last not in (*WHOLE, "status", "ok", "refused", "complete", "answers"):
                     assert is_nothing(value[case].item()), f"{name}, {columns[case]}: {output} is {value[case]!r}"
 
 
@@ -683,7 +683,7 @@ def test_columns_of_refused_cases(name: str) -> None:
             allowed = {output.replace("[0]", ".x").replace("[1]", ".y") for output in call.echoes}
             for key, column in impact.to_columns().items():
                 last = key.rpartition(".")[2]
-                if key not in allowed and last not in (*WHOLE, *RULES, "status", "ok", "refused", "answers"):
+                if key not in allowed and last not in (*WHOLE, *RULES, "status", "ok", "refused", "complete", "answers"):
                     assert all(is_nothing(column[case]) for case in refused), f"{name}: {key}"
 
 

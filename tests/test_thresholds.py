@@ -115,6 +115,12 @@ def approaching(speed):
     return col.solve(a, b, 0.0, normal=0.0, point=(0.0, 0.5), friction=0.0, tolerance=20.0)
 
 
+def passing(speed):
+    """A car at 20 m/s that passes another one of which it takes so much speed with it."""
+    a, b = col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1500.0)
+    return col.linear_central(a, b, -speed / 20.0, incomplete=True)
+
+
 def rectangles(gap=0.0, **more):
     """Two outlines of 4 m by 2 m, one behind the other along x."""
     size = {"outline_a": (4.0, 2.0), "outline_b": (4.0, 2.0)}
@@ -251,6 +257,7 @@ ROWS = [
     Row("friction_gain", 0.005, OWN, friction_that_turns_the_slip),
     Row("jamming", 0.5, OWN, ratio_near_jamming),
     Row("contact_points_approach", 0.1, OWN, approaching),
+    Row("incomplete", 0.0, OWN, passing, beyond=1e-3),
     Row("outlines_interpenetrate", 0.2, OWN, sliding_into_each_other),
     Row("outlines_overlap", 0.3, OWN, overlapping),
     Row("outlines_gap", 0.3, OWN, apart),

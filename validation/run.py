@@ -49,6 +49,7 @@ def everything() -> dict[str, Any]:
         "fits": {
             **table_of(measured_fits.cases()),
             "tabulated": measured_fits.tabulated(),
+            "refitted": measured_fits.refitted(),
             "held_out": table_of(measured_fits.held_out()),
         },
         "predictions": table_of(untuned_predictions.cases()),

@@ -564,17 +564,18 @@ def barrier_rows() -> dict[str, Row]:
     return {row["test_id"]: row for row in rows_of(OVERLAP)}
 
 
-def barrier_impact(row: Row, law: str = "brach", normal: str = "contact_normal_angle_deg") -> col.Impact:
-    """A small-overlap test against a fixed barrier."""
+def barrier_impact(row: Row, law: str = "brach", normal: str = "contact_normal_angle_deg", **tuned: Any) -> col.Impact:
+    """A small-overlap test against a fixed barrier; ``tuned`` are the restitution and the share of the critical ratio."""
     car = col.Vehicle(**FUSION, vx=f"{row['impact_speed_ft_s']} ft/s", x=0.0, y=0.0, heading=0.0)
     return col.eccentric(
         car,
         FIXED,
-        float(row["restitution_e"]),
+        tuned.get("restitution", float(row["restitution_e"])),
         normal=f"{row[normal]} deg",
         point=car.point(distance=f"{row['impact_center_distance_ft']} ft", angle=f"{row['impact_center_angle_deg']} deg"),
-        critical_fraction=float(row["impulse_ratio_percent_of_critical"]) / 100,
+        critical_fraction=tuned.get("share", float(row["impulse_ratio_percent_of_critical"]) / 100),
         law=law,
+        incomplete=True,
     )
 
 

@@ -187,6 +187,21 @@ def tabulated(found: dict[str, Any]) -> str:
     return table(["test", "tabulated, ft/s", "computed", "difference", "remark"], rows).replace("---: |\n", "--- |\n", 1)
 
 
+def refitted(found: dict[str, Any]) -> str:
+    """The fits that ended at e = 0, with e free below it."""
+    rows = [
+        [
+            row["key"],
+            f"{row['restitution']:.2f}",
+            f"{row['percent']:.0f} %",
+            f"{row['misfit_at_0']:.2f}",
+            f"{row['misfit']:.2f}",
+        ]
+        for row in found["fits"]["refitted"]
+    ]
+    return table(["test", "restitution", "of the critical ratio", "misfit of the sheet's fit, ft/s", "misfit, ft/s"], rows)
+
+
 def nothing_published(found: dict[str, Any]) -> str:
     """Cases without a published answer."""
     rows = [

@@ -15,7 +15,7 @@ from .errors import CollisionsWarning, InputError
 from .impact import Impact, part_of_impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
-from .quantities import Shown, lock, numeric
+from .quantities import Shown, hypot, lock, numeric
 from .reading import ArgumentReader, broadcast, widened
 from .settings import computing
 from .travel.surfaces import out_of_range
@@ -39,8 +39,9 @@ class LeftOutSide(Shown):
         The change of velocity of the centre of mass by that impulse, and its share. Of a pinned vehicle no bound but an
         estimate, since it is not known how far from the pivot its wheels are: taken to be at the radius of gyration from the
         centre of mass, all across their arms. Wheels that lie farther out can give more.
-    tyre_impulse : float or array [N*s]
-        Estimate: the tyres pull against the motion of the centre of mass, as it changes during the contact.
+    tyre_impulse, tyre_impulse_x, tyre_impulse_y : float or array [N*s]
+        Estimate, its size and its parts along scene x and y: the tyres pull against the motion of the centre of mass, as it
+        changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
         Estimate of how far delta-V moves, as a vector, by the tyres of both vehicles and what the contact makes of them: hence
         it may pass the bound, which is of the own tyres.
@@ -61,6 +62,8 @@ class LeftOutSide(Shown):
     tyre_delta_v_bound: Value = field(metadata={"unit": "m/s"})
     tyre_share_bound: Value = field(metadata={"unit": ""})
     tyre_impulse: Value = field(metadata={"unit": "N*s"})
+    tyre_impulse_x: Value = field(metadata={"unit": "N*s"})
+    tyre_impulse_y: Value = field(metadata={"unit": "N*s"})
     tyre_delta_v: Value = field(metadata={"unit": "m/s"})
     tyre_share: Value = field(metadata={"unit": ""})
     displacement_x: Value = field(metadata={"unit": "m"})
@@ -81,7 +84,8 @@ class LeftOut(Shown):
     drag : float or array [-]
         Of tyres on the ground, as given.
     mutual_crush : float or array [m]
-        How far the contact points pass into each other along the normal, both vehicles together, at its most.
+        How far the contact points pass into each other along the normal, both vehicles together, at its most. NaN for an
+        incomplete impact, in which they pass or tear.
     residual_crush : float or array [m]
         The same when they part.
     contact_slide : float or array [m]
@@ -99,6 +103,16 @@ class LeftOut(Shown):
     contact_slide: Value = field(metadata={"unit": "m"})
     a: LeftOutSide = field()
     b: LeftOutSide = field()
+
+    @property
+    def outside_a(self) -> tuple[Value, Value]:
+        """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or ``solve`` as ``outside_a``."""
+        return self.a.tyre_impulse_x, self.a.tyre_impulse_y
+
+    @property
+    def outside_b(self) -> tuple[Value, Value]:
+        """The same of B's tyres, for ``outside_b``."""
+        return self.b.tyre_impulse_x, self.b.tyre_impulse_y
 
 
 @computing
@@ -252,7 +266,9 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
                 "tyre_impulse_bound": mass * most,
                 "tyre_delta_v_bound": kick.most,
                 "tyre_share_bound": _share(kick.most, delta_v),
-                "tyre_impulse": mass * kick.free,
+                "tyre_impulse": mass * hypot(kick.free_x, kick.free_y),
+                "tyre_impulse_x": mass * kick.free_x,
+                "tyre_impulse_y": mass * kick.free_y,
                 "tyre_delta_v": by_tyres,
                 "tyre_share": _share(by_tyres, delta_v),
                 "displacement_x": (before.vx + passed * side.delta_vx) * time,

@@ -31,7 +31,8 @@ class Kick(NamedTuple):
     yaw: Any
     contact_x: Any
     contact_y: Any
-    free: Any
+    free_x: Any
+    free_y: Any
     most: Any
 
     @classmethod
@@ -49,9 +50,8 @@ class Kick(NamedTuple):
             speed = select(speed == 0.0, 1.0, speed)
             x, y = x - vx / speed / len(_MOMENTS), y - vy / speed / len(_MOMENTS)
         x, y = most * x, most * y
-        pull = hypot(x, y)
         if before.pivot is None:
-            return cls(x, y, 0.0, x, y, pull, most)
+            return cls(x, y, 0.0, x, y, x, y, most)
         arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
         square = arm_x * arm_x + arm_y * arm_y
         # A pinned body without an inertia has no result anyway.
@@ -62,7 +62,7 @@ class Kick(NamedTuple):
         place = before.pivot if point is None else point
         at_point = turning_velocity(yaw, place[0], place[1], before.pivot[0], before.pivot[1])
         # For wheels at the radius of gyration k from the centre, the mean distance from the pivot is at most hypot(arm, k).
-        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, pull, most * (turning * square) ** 0.5)
+        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, x, y, most * (turning * square) ** 0.5)
 
 
 def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:

@@ -13,11 +13,11 @@ import numpy as np
 from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
-from .inputs import Inputs, OnFailure, index_of, part_of, part_of_inputs
-from .kernels.contact_laws import FRICTION, RULES
+from .inputs import OUTSIDE, Inputs, OnFailure, index_of, part_of, part_of_inputs
+from .kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .kernels.time_resolved import Passed
-from .model_choice import ModelChoice, part_of_choice, solve_least, where_answered
+from .model_choice import ModelChoice, part_of_choice, solve_least, until_compressed, where_answered
 from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
 from .pulse import Pulse
@@ -131,9 +131,14 @@ class Impact(Frozen, Summarized):
     def separation_speed(self) -> Value:
         """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11).
 
-        Of a time-resolved impact as it came about.
+        Under the law "stronge" what the energy that is given back makes of it; the same where the slip goes on to the end.
+        Below 0 after an incomplete impact, whose contact points still approach. Of a time-resolved impact as it came about.
         """
-        return self.restitution * self.closing_speed if self._passed is None else self._output("separation_speed")
+        by_ratio = self.restitution * self.closing_speed
+        if not self._energetic:
+            return by_ratio
+        found: Value = select(np.equal(self.model, "linear_central"), by_ratio, self._output("separation_speed"))
+        return found
 
     @derived("m/s")
     def slip_before(self) -> Value:
@@ -157,13 +162,17 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def compression_impulse(self) -> Value:
-        """Normal impulse of the compression period [N*s], the integral of P in eq 10."""
+        """Normal impulse of the compression period [N*s], the integral of P in eq 10; all of it in an incomplete impact."""
+        if self._passed is None and (self._energetic or self.inputs.incomplete):
+            (found,) = until_compressed(self.inputs, self._answer, self.choice, ["normal_impulse"])
+            value: Value = found
+            return value
         return self._output("compression_impulse")
 
     @derived("N*s")
     def restitution_impulse(self) -> Value:
-        """Normal impulse of the restitution period [N*s], the integral of R in eq 10."""
-        if self._passed is not None:
+        """Normal impulse of the restitution period [N*s], the integral of R in eq 10; 0 in an incomplete impact."""
+        if self._passed is not None or self._energetic or self.inputs.incomplete:
             return self.normal_impulse - self.compression_impulse
         return self.restitution * self.compression_impulse
 
@@ -189,21 +198,21 @@ class Impact(Frozen, Summarized):
     def common_velocity(self) -> Value:
         """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3).
 
-        Of a central model that of the centres of mass, as for ``closing_speed``.
+        Of a central model that of the centres of mass, as for ``closing_speed``. NaN for an incomplete impact.
         """
         if self.inputs.model == "time_resolved":
             return self._output("common_velocity")
         nx, ny = self.normal
         found = []
         for side in (self.a, self.b):
-            ux, uy, dux, duy = side._at_contact()
-            found.append((nx * ux + ny * uy, (nx * dux + ny * duy) / (1.0 + self.restitution)))
+            ux, uy, dux, duy = side._at_contact(side._until_compressed())
+            found.append((nx * ux + ny * uy, nx * dux + ny * duy))
         # From the body whose velocity changes less, which is exact for a barrier.
         (base_a, change_a), (base_b, change_b) = found
         common: Value = select(abs(change_a) < abs(change_b), base_a + change_a, base_b + change_b)
         if self._passed is not None:
             common = select(self._followed, self._passed.common_velocity, common)
-        return common
+        return select(self.restitution < 0.0, math.nan, common) if self.inputs.incomplete else common
 
     @derived("kg")
     def effective_mass(self) -> Value:
@@ -227,10 +236,18 @@ class Impact(Frozen, Summarized):
 
     @derived("J")
     def energy_absorbed(self) -> Value:
-        """Energy taken up along the normal at the end of compression [J], part of which restitution gives back."""
+        """Energy taken up along the normal at the end of compression [J], part of which restitution gives back.
+
+        In an incomplete impact that until the contact ends, which is the energy lost along the normal.
+        """
         if self._passed is not None:
-            return self._output("energy_absorbed")
-        return 0.5 * (self.closing_speed * self.compression_impulse)
+            found = self._output("energy_absorbed")
+        elif self._energetic:
+            (found,) = until_compressed(self.inputs, self._answer, self.choice, ["energy_loss_normal"])
+        else:
+            found = 0.5 * (self.closing_speed * self.compression_impulse)
+        absorbed: Value = found
+        return select(self.restitution < 0.0, self.energy_loss_normal, absorbed) if self.inputs.incomplete else absorbed
 
     @returns("m/s")
     def ees(self, share_a: Input) -> tuple[Value, Value]:
@@ -277,9 +294,9 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def momentum_residual(self) -> Value:
-        """What is left of the momentum balance, from the delta-Vs of the bodies that are free and finite [N*s]: rounding.
+        """What is left of the momentum balance of the bodies that are free and finite [N*s]: rounding.
 
-        The impulse of the contact and, of a time-resolved impact, that of the tyres are taken from it.
+        It takes their delta-Vs, and the impulses on them by the contact, from outside and, of a time-resolved impact, by tyres.
         """
         left_x: Any = 0.0
         left_y: Any = 0.0
@@ -288,22 +305,31 @@ class Impact(Frozen, Summarized):
             if side.before.pivot is None:
                 free = numeric(mass).isfinite(mass)
                 weight = select(free, mass, 0.0)
-                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x + side.tyre_impulse_x, 0.0)
-                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y + side.tyre_impulse_y, 0.0)
+                others_x, others_y = side.tyre_impulse_x + side.outside_x, side.tyre_impulse_y + side.outside_y
+                left_x = left_x + weight * side.delta_vx - select(free, side.impulse_x + others_x, 0.0)
+                left_y = left_y + weight * side.delta_vy - select(free, side.impulse_y + others_y, 0.0)
         return self._answered(hypot(left_x, left_y))
 
     @derived()
     def kind(self) -> Any:
-        """One of "elastic" (e = 1), "plastic" (e = 0) and "elastoplastic"; an array of them in a batch."""
+        """One of "elastic" (e = 1), "elastoplastic", "plastic" (e = 0), "incomplete" (e < 0); an array of them in a batch."""
         e = self._answered(self.restitution)
         if isinstance(e, np.ndarray):
-            return np.where(e == 1.0, "elastic", np.where(e == 0.0, "plastic", np.where(np.isnan(e), "", "elastoplastic")))
-        return "" if self.refused else "elastic" if e == 1.0 else "plastic" if e == 0.0 else "elastoplastic"
+            return np.select([e == 1.0, e == 0.0, e < 0.0, e > 0.0], ["elastic", "plastic", "incomplete", "elastoplastic"], "")
+        if self.refused:
+            return ""
+        return "elastic" if e == 1.0 else "plastic" if e == 0.0 else "incomplete" if e < 0.0 else "elastoplastic"
+
+    @derived()
+    def complete(self) -> Any:
+        """Whether the contact points reached a common velocity, as in every impact with e >= 0 that has an answer."""
+        return self._answered(self.restitution) >= 0.0
 
     @derived()
     def regime(self) -> Any:
         """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" with a ratio.
 
+        Under the law "stronge" also "reversing": the slip stopped, and ended the other way. "sticking" is what then stayed.
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
         rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self._answer.sticks
@@ -311,10 +337,9 @@ class Impact(Frozen, Summarized):
             if rule != FRICTION:
                 found = np.full(sticks.shape, "given", dtype="U12")
             else:
-                moving = np.where(np.equal(value, 0.0), "frictionless", "sliding")
+                moving = np.where(self._reverses(), "reversing", "sliding")
+                moving = np.where(np.equal(value, 0.0), "frictionless", moving)
                 found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
-                if self._passed is not None:
-                    found = np.where((found == "sliding") & self._followed & self._reverses, "reversing", found)
             if self.choice is not None:
                 found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
             return np.where(self.refused, "", found)
@@ -324,9 +349,9 @@ class Impact(Frozen, Summarized):
             return "frictionless"
         if rule != FRICTION:
             return "given"
-        if self._passed is not None and value > 0.0 and not sticks and self._reverses:
-            return "reversing"
-        return "sticking" if sticks and value > 0.0 else "frictionless" if value == 0.0 else "sliding"
+        if value == 0.0:
+            return "frictionless"
+        return "sticking" if sticks else "reversing" if self._reverses() else "sliding"
 
     @derived()
     def pulse(self) -> Pulse | None:
@@ -365,8 +390,16 @@ class Impact(Frozen, Summarized):
         return self._answer.duration == self._answer.duration
 
     @property
+    def _energetic(self) -> bool:
+        """Whether restitution is of energy, so that the separation speed is an answer."""
+        return self._passed is not None or LAWS[self.inputs.law or BRACH].energetic
+
     def _reverses(self) -> Any:
-        return self._answer.slip_before * self._answer.slip_after < 0.0
+        if not self._energetic:
+            return False
+        before, after = self.slip_before, self.slip_after
+        turned = ((before < 0.0) & (after > 0.0)) | ((before > 0.0) & (after < 0.0))
+        return turned if LAWS[self.inputs.law or BRACH].energetic else turned & self._followed
 
     def _output(self, name: str) -> Value:
         value: Value = getattr(self._answer, name)
@@ -383,9 +416,9 @@ class Impact(Frozen, Summarized):
         Parameters
         ----------
         **changes
-            Arguments of the solver that gave it, written as there: ``a``, ``b``, ``restitution``, ``normal`` and, where it has
-            them, ``point``, ``law``, ``tolerance``, and one of ``friction``, ``impulse_ratio`` and ``critical_fraction`` in
-            place of the one used.
+            Arguments of the solver that gave it, written as there: ``a``, ``b``, ``restitution``, ``normal``, ``incomplete``
+            and, where it has them, ``point``, ``law``, ``outside_a``, ``outside_b``, ``tolerance``, and one of ``friction``,
+            ``impulse_ratio`` and ``critical_fraction`` in place of the one used.
 
         Returns
         -------
@@ -409,11 +442,12 @@ class Impact(Frozen, Summarized):
         16.69
         """
         inputs, rules = self.inputs, [name for name in RULES if name in changes]
-        takes = {"a", "b", "restitution", "normal"}
+        takes = {"a", "b", "restitution", "normal", "incomplete"}
         takes |= {"law", *RULES} if inputs.model != "linear_central" else set()
-        takes |= {"eccentric": {"point"}, "solve": {"point", "tolerance", "duration", "drag"}}.get(inputs.model, set())
+        placed = {"point", *OUTSIDE}
+        takes |= {"eccentric": placed, "solve": placed | {"tolerance", "duration", "drag"}}.get(inputs.model, set())
         if inputs.model == "time_resolved":
-            takes = takes - {"law", *RULES} | {"point", "friction", *TIME_DOMAINS, "geometry", "steps"}
+            takes = takes - {"law", "incomplete", *RULES} | {"point", "friction", *TIME_DOMAINS, "geometry", "steps"}
         unknown = changes.keys() - takes
         if unknown:
             raise TypeError(f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got {min(unknown)!r}")

@@ -13,14 +13,14 @@ import numpy as np
 from .directions import direction, from_radians
 from .errors import InputError, MissingInputError, ShapeError
 from .kernels.contact_laws import FRICTION, LAWS, RULES
-from .kernels.elementwise import RESTITUTION
+from .kernels.elementwise import restitution_domain
 from .quantities import lock, same
-from .reading import ArgumentReader, is_whole, largest
+from .reading import OUTSIDE_UNITS, ArgumentReader, is_whole, largest
 from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
 
-Law: TypeAlias = Literal["brach", "kudlich-slibar"]
+Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 
 _ALONG_X = (1.0, 0.0)
@@ -28,6 +28,7 @@ _ALONG_X = (1.0, 0.0)
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 # The models that have places, and no law.
 _PLACED, _LAWLESS = ("eccentric", "time_resolved"), ("linear_central", "time_resolved")
+_NO_IMPULSE = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +55,10 @@ class Inputs:
         By argument, the text of what was given with a unit, and an angle of more than a turn that had none.
     tolerance : float or array [m/s], optional
         Of ``solve``: the largest error that was accepted.
+    incomplete : bool
+        Whether a restitution below 0 is allowed: an impact that ends before a common velocity.
+    outside_a, outside_b : tuple of float or array [N*s, N*s, N*m*s], optional
+        Impulse on A and on B by other things than the contact, along x and y, and about the centre of mass.
     contact_velocity : tuple of float or array [m/s], optional
         Of a reverse solver: closing speed and slip before, which the rounded motions would hold to fewer digits.
     duration, stiffness, crush_a, crush_b, drag, wheelbase, track, geometry, steps
@@ -81,6 +86,9 @@ class Inputs:
     track: Value | None = field(default=None, metadata={"unit": "m"})
     geometry: str | None = None
     steps: int | None = None
+    incomplete: bool = False
+    outside_a: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
+    outside_b: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
 
     @property
     def bare_normal(self) -> Any:
@@ -105,6 +113,7 @@ class Inputs:
 
 
 # The numbers and pairs with their units: records and their schema list each by name.
+OUTSIDE = ("outside_a", "outside_b")
 UNITS: dict[str, Any] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
 
 
@@ -182,6 +191,9 @@ def read_inputs(
     law: Any,
     problems: Sequence[InputError] = (),
     beside: Iterable[Any] = (),
+    incomplete: Any = False,
+    outside_a: Any = None,
+    outside_b: Any = None,
 ) -> tuple[Inputs, bool]:
     """Validate the arguments of a solver; gives its ``Inputs`` and whether all were plain floats, those of the vehicles too.
 
@@ -206,6 +218,8 @@ def read_inputs(
         and law in LAWS
         and not units_required.get()
         and not problems
+        and incomplete is False
+        and outside_a is outside_b is None
         and (a.pivot is b.pivot is None or model in ("solve", "eccentric"))
         and (model not in _PLACED or not missing_numbers(a, b, point))
         and (
@@ -240,19 +254,35 @@ def read_inputs(
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             reader.refuse(not_a_vehicle(label, vehicle))
-    e = reader.number(restitution, "", "restitution", RESTITUTION)
+    check_incomplete(reader, incomplete)
+    e = reader.number(restitution, "", "restitution", restitution_domain(incomplete))
     contact = None if point is None else reader.pair(point, "m", "point")
     rule, value = _tangential(reader, tangential)
     vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle))
-    unit: Any = direction(reader, normal, "normal", chain((e, value, *(contact or ())), vehicles, beside))
+    pushes: dict[str, Any] = dict(zip(OUTSIDE, (outside_a, outside_b), strict=True))
+    if outside_a is not None or outside_b is not None:
+        pushes = {name: _NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
+    of_contact = e, value, *(contact or ()), *(pushes["outside_a"] or ()), *(pushes["outside_b"] or ())
+    unit: Any = direction(reader, normal, "normal", chain(of_contact, vehicles, beside))
     if not isinstance(law, str) or law not in LAWS:
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
         reader.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
+    elif LAWS[law].energetic and rule != FRICTION:
+        text = f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio from the slip as it changes"
+        reader.refuse(InputError(text, code="bad_combination", argument=rule))
     reader.close()
     # Only the direction of a vector counts.
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
-    plain = a.given is b.given is None and np.ndarray not in map(type, (e, value, *unit, *(contact or ())))
-    return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None), plain
+    plain = a.given is b.given is None and np.ndarray not in map(type, (*unit, *of_contact))
+    more: dict[str, Any] = {"incomplete": incomplete, **pushes}
+    return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None, **more), plain
+
+
+def check_incomplete(reader: ArgumentReader, incomplete: Any) -> None:
+    """Refuse an option ``incomplete`` that is no bool."""
+    if not isinstance(incomplete, bool):
+        text = f"incomplete must be True or False, got {shown(incomplete)}"
+        reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
 
 
 def lacking(a: Any, b: Any) -> list[tuple[str, str]]:

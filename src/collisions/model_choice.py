@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
@@ -12,13 +12,13 @@ import numpy as np
 
 from .contact_time import timed
 from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
-from .kernels.contact_laws import FRICTION
+from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
 from .kernels.status import EPS, Status
 from .kernels.time_resolved import Passed
-from .models import MODELS, TIME_RESOLVED, read_again
+from .models import MODELS, TIME_RESOLVED, in_form, model_of, read_again
 from .progress import halves, reporter
 from .quantities import Shown, derived, lock, numeric, same
 from .reading import ArgumentReader, broadcast
@@ -32,6 +32,7 @@ _LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
 _LAST, _ROUGH = len(MODELS), 25
 # Safety factor on an error against that.
 _MARGIN = 1.15
+_PIVOT, _OUTSIDE = "a body that turns about a pivot", "an impulse from outside"
 
 
 class ByModel(Mapping[str, Any]):
@@ -88,9 +89,9 @@ class ModelChoice(Shown):
     _which: Any
     _predicted: tuple[Any, ...]
     _missing: tuple[str, ...]
-    # Whether that lack left the errors unknown, whether a body has a pivot, and which cases were refused.
+    # Whether that lack left the errors unknown, what no central model can hold, and which cases were refused.
     _lacks: bool
-    _pinned: bool
+    _beyond: str
     _refused: Any = False
     # Where the errors are those against a contact that takes time; and why it is no candidate.
     _timed: Any = False
@@ -149,7 +150,7 @@ def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) 
         _predicted=(predicted[0], predicted[1]),
         _missing=missing,
         _lacks=bool(np.any(lacks)) if shape else lacks,
-        _pinned=a.pivot is not None or b.pivot is not None,
+        _beyond=_PIVOT if a.pivot is not None or b.pivot is not None else "" if inputs.outside_a is None else _OUTSIDE,
     )
     return (choice, lacks) if inputs.duration is None else _with_time(inputs, choice, lacks)
 
@@ -159,8 +160,10 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
     why = ""
     if inputs.rule != FRICTION:
         why = f"{_IN_TIME} takes friction, and {inputs.rule} was given"
-    elif choice._pinned:
-        why = f"{_IN_TIME} takes no body with a pivot"
+    elif choice._beyond:
+        why = f"{_IN_TIME} takes no {'body with a pivot' if choice._beyond == _PIVOT else 'impulse from outside'}"
+    elif np.any(np.less(inputs.restitution, 0.0)):
+        why = f"{_IN_TIME} takes no incomplete impact"
     elif np.all(lacks):
         why = f"{_IN_TIME} needs {', '.join(choice._missing)}"
     if why:
@@ -250,14 +253,17 @@ def solve_least(
     if not isinstance(which, np.ndarray):
         if which == _LAST:
             return solve_inputs(TIME_RESOLVED, timed(inputs), False, on_failure, threads, report), choice
-        return solve_inputs(MODELS[which], inputs, plain, on_failure, threads, report, carrying=True), choice
+        return solve_inputs(in_form(MODELS[which], inputs), inputs, plain, on_failure, threads, report, carrying=True), choice
     shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
     late, which = which == _LAST, np.minimum(which, ECCENTRIC)
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
-    models, numbers = (used, None) if len(used) == 1 else (MODELS, which)
+    models, numbers = ([in_form(used[0], inputs)], None) if len(used) == 1 else (MODELS, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
     if np.any(late):
-        raw = _in_time(inputs, raw, np.broadcast_to(late, shape), threads)
+        plastic = None
+        if LAWS[inputs.law or BRACH].energetic:
+            plastic = solve_cases(models, numbers, replace(inputs, restitution=0.0 * inputs.restitution), shape, threads, None)
+        raw = _in_time(inputs, raw, plastic, which == 0, np.broadcast_to(late, shape), threads)
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
@@ -268,8 +274,11 @@ def solve_least(
     return raw, choice
 
 
-def _in_time(inputs: Inputs, raw: Any, late: Any, threads: int) -> Passed:
-    """The answers of a batch with those of its late cases followed in time; the others have no duration, force or crush."""
+def _in_time(inputs: Inputs, raw: Any, plastic: Any, linear: Any, late: Any, threads: int) -> Passed:
+    """The answers of a batch with those of its late cases followed in time; the others have no duration, force or crush.
+
+    ``plastic`` are the answers without restitution under an energetic law, which are those at the end of compression.
+    """
     some = part_of_inputs(timed(inputs), lambda value: np.broadcast_to(value, late.shape)[late])
     passed = solve_inputs(TIME_RESOLVED, some, False, "nan", threads)
     e, whole = inputs.restitution, 1.0 + inputs.restitution
@@ -278,7 +287,11 @@ def _in_time(inputs: Inputs, raw: Any, late: Any, threads: int) -> Passed:
         "energy_absorbed": 0.5 * raw.closing_speed * raw.compression_impulse,
     }
     for name in ("vx_a", "vy_a", "yaw_rate_a", "vx_b", "vy_b", "yaw_rate_b"):
-        found[f"compression_{name}"] = getattr(raw, f"delta_{name}") / whole
+        change = f"delta_{name}"
+        found[f"compression_{name}"] = getattr(raw, change) / whole if plastic is None else getattr(plastic, change)
+    if plastic is not None:
+        found["separation_speed"] = select(linear, found["separation_speed"], raw.separation_speed)
+        found |= {"compression_impulse": plastic.normal_impulse, "energy_absorbed": plastic.energy_loss_normal}
     found |= {name: 0.0 * raw.normal_impulse for name in Passed._fields if name.startswith("tyre")}
     for name in Passed._fields[:-1]:
         value = found.get(name, getattr(raw, name, math.nan))
@@ -286,6 +299,26 @@ def _in_time(inputs: Inputs, raw: Any, late: Any, threads: int) -> Passed:
         found[name] = np.array(np.broadcast_to(value, late.shape), dtype=kind)
         found[name][late] = getattr(passed, name)
     return Passed(**lock(found))
+
+
+def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, names: Sequence[str]) -> list[Any]:
+    """These outputs at the end of compression, which an incomplete impact does not outlast.
+
+    Until then any impact passes as the plastic one, which under an energetic law is not in proportion to the whole.
+    """
+    e, found = inputs.restitution, [getattr(answer, name) for name in names]
+    if LAWS[inputs.law or BRACH].energetic:
+        plastic = replace(inputs, restitution=0.0 * e, given=None)
+        with quietly():
+            if choice is None:
+                answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
+            else:
+                answer, _ = solve_least(plastic, False, "nan", 1, None, choice)
+        compressed = [getattr(answer, name) for name in names]
+    else:
+        compressed = [value / (1.0 + e) for value in found]
+    pairs = zip(found, compressed, strict=True)
+    return [select(e < 0.0, whole, part) for whole, part in pairs] if inputs.incomplete else compressed
 
 
 @lru_cache(maxsize=64)
@@ -296,10 +329,10 @@ def _float_function(rule: str, law: str | None, pinned: tuple[bool, bool]) -> Ca
 
 
 def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] | None, threads: int, progress: Any) -> Any:
-    """The model's number, and the errors of the central models; infinite with a pivot, which they cannot represent."""
+    """The model's number, and the errors of the central models; infinite with a pivot or an impulse from outside."""
     a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
     pinned = a.pivot is not None, b.pivot is not None
-    if shape is None and not missing:
+    if shape is None and not missing and inputs.outside_a is None:
         found = _float_function(inputs.rule, inputs.law, pinned)(inputs)
         if found is not None:
             return found
@@ -308,8 +341,9 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
         inertias=(a.yaw_inertia is not None, b.yaw_inertia is not None),
         all=not missing,
         pinned=pinned,
+        outside=inputs.outside_a is not None,
     )
-    numbers = MODELS[ECCENTRIC].numbers(inputs)
+    numbers = (*MODELS[ECCENTRIC].numbers(inputs), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     if shape is None:
         return least_model(*numbers, tolerance, inputs.rule, inputs.law, known, EPS)
     # Batches only, so the float precision is found as for batches of one model.
@@ -360,8 +394,8 @@ def _reason(choice: ModelChoice) -> str:
         return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
     if tolerance == 0.0:
         return f"{model}: a tolerance of 0 asks for the full model"
-    if choice._pinned:
-        return f"{model}: a body that turns about a pivot is beyond the central models"
+    if choice._beyond:
+        return f"{model}: {choice._beyond} is beyond the central models"
     if math.isnan(oblique) and choice._lacks:
         return f"{model}: the error of a central model cannot be estimated without {', '.join(choice._missing)}"
     if math.isnan(oblique):

@@ -12,10 +12,10 @@ import numpy as np
 
 from .contact_time import DOMAINS, read_contact_time, read_least_time
 from .errors import InputError
-from .inputs import Inputs, read_inputs
+from .inputs import OUTSIDE, Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
-from .kernels.eccentric import eccentric, from_contact_velocity
+from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
 from .kernels.floats import compile_for_floats
 from .kernels.status import Answer
 from .kernels.time_resolved import time_resolved
@@ -58,17 +58,19 @@ class Model:
             inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
             place = (body.x, body.y) if placed else contact
             found += [body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, *(body.pivot or (0.0, 0.0))]
-        return tuple(map((*found, *(inputs.contact_velocity or ())).__getitem__, map(_ALL.__getitem__, self.takes)))
+        if inputs.outside_a is not None and inputs.outside_b is not None:
+            found += (math.nan, math.nan, *inputs.outside_a, *inputs.outside_b)
+        elif inputs.contact_velocity is not None:
+            found += inputs.contact_velocity
+        return tuple(map(found.__getitem__, map(_ALL.__getitem__, self.takes)))
 
 
 _BODY = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")
 _CONTACT = ("restitution", "normal[0]", "normal[1]", "rule_value", "point[0]", "point[1]")
-_ALL = {
-    name: index
-    for index, name in enumerate(
-        (*_CONTACT, *(f"{label}.{name}" for label in "ab" for name in _BODY), "contact_velocity[0]", "contact_velocity[1]")
-    )
-}
+_VELOCITY = ("contact_velocity[0]", "contact_velocity[1]")
+_OUTSIDE = tuple(f"outside_{label}[{i}]" for label in "ab" for i in range(3))
+_OF_BODIES = (f"{label}.{name}" for label in "ab" for name in _BODY)
+_ALL = {name: index for index, name in enumerate((*_CONTACT, *_OF_BODIES, *_VELOCITY, *_OUTSIDE))}
 _POINT_MASS = ("mass", "vx", "vy", "yaw_rate")
 
 
@@ -118,9 +120,10 @@ _FROM_CONTACT_VELOCITY = BY_NAME | {
     ECCENTRIC.name: replace(
         ECCENTRIC,
         kernel=from_contact_velocity,
-        takes=("contact_velocity[0]", "contact_velocity[1]", *ECCENTRIC.takes),
+        takes=(*_VELOCITY, *ECCENTRIC.takes),
     ),
 }
+_WITH_OUTSIDE = replace(ECCENTRIC, kernel=with_outside, takes=(*_OUTSIDE, *ECCENTRIC.takes))
 
 
 @lru_cache(maxsize=64)
@@ -131,7 +134,13 @@ def float_function(model: Model, settings: tuple[Any, ...]) -> Callable[[Inputs]
 
 def model_of(inputs: Inputs) -> Model:
     """The model that the inputs name; in the form that starts from the contact velocity where a reverse solver found it."""
-    return (BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY)[inputs.model]
+    table = BY_NAME if inputs.contact_velocity is None else _FROM_CONTACT_VELOCITY
+    return in_form(table[inputs.model], inputs)
+
+
+def in_form(model: Model, inputs: Inputs) -> Model:
+    """The model, in the form that takes impulses from outside where there are some; only the eccentric one can hold them."""
+    return model if inputs.outside_a is None else _WITH_OUTSIDE
 
 
 def read(
@@ -146,13 +155,14 @@ def read(
     tolerance: Any = None,
     duration: Any = None,
     drag: Any = None,
+    **more: Any,
 ) -> tuple[Inputs, bool]:
     """Read a solver's arguments, for ``solve`` with tolerance, duration and drag; see ``read_inputs``."""
     reader = ArgumentReader()
     times = {} if duration is None and drag is None else read_least_time(reader, duration, drag)
     if model == "solve" and not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
-    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems)
+    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems, **more)
     if model == "solve":
         # Nobody else has these inputs yet.
         vars(inputs)["tolerance"] = tolerance
@@ -173,12 +183,14 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
     times = inputs.duration, inputs.drag
+    more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
             again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
             return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, tangential, inputs.law or BRACH, inputs.tolerance, *times)
+        given: Any = tangential, inputs.law or BRACH, inputs.tolerance, *times
+        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, *given, **more)
     return replace(
         again,
         restitution=e if unknown else again.restitution,

@@ -2,7 +2,8 @@
 
 The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
 rises as that of a linear spring, a quarter of a sine, and falls as that of a stiffer one, another quarter, which takes
-restitution times as long. Whatever the restitution, its peak is pi/2 times its mean. ``share`` is of the duration.
+restitution times as long. Whatever the restitution, its peak is pi/2 times its mean. An incomplete impact (e < 0) ends on the
+way up, where the closing speed has fallen to -e of what it was. ``share`` is of the duration.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 from .kernels.elementwise import safe_divisor, select
 from .quantities import Shown, numeric
@@ -62,14 +65,20 @@ def rise(share: Any) -> Any:
 
 
 def compression_time(e: Any) -> Any:
-    """Share of the duration after which compression ends."""
-    return 1.0 / (1.0 + e)
+    """Share of the duration after which compression ends; above 1 where the impact ends before."""
+    return 1.0 / _rate(e)
+
+
+def _rate(e: Any) -> Any:
+    """Duration over compression time: how many quarters of a sine would fit into it."""
+    cut = math.acos(max(-e, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-e, 0.0))
+    return select(e < 0.0, cut / _QUARTER, 1.0 + e)
 
 
 def passed(e: Any, share: float) -> Any:
     """Share of the impulse that has been transmitted at a share of the duration."""
     xp = numeric(e)
-    phase = share * (1.0 + e)
+    phase = share * _rate(e)
     compressing = 1.0 - xp.cos(_QUARTER * phase)
     # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
@@ -79,14 +88,18 @@ def passed(e: Any, share: float) -> Any:
 
 def mean_passed(e: Any) -> Any:
     """Mean of ``passed`` over the duration."""
-    return (1.0 - (1.0 - e) / _QUARTER) / (1.0 + e)
+    angle = _QUARTER * _rate(e)
+    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / _QUARTER) / (1.0 + e)
 
 
 def mean_square_passed(e: Any) -> Any:
     """Mean of the square of ``passed`` over the duration."""
-    return (1.5 - 2.0 / _QUARTER + e * (1.0 + e * (2.0 / _QUARTER + 0.5 * e))) / (1.0 + e) ** 3
+    angle, sin = _QUARTER * _rate(e), numeric(e).sin
+    cut = (1.5 - 2.0 * sin(angle) / angle + 0.25 * sin(2.0 * angle) / angle) / (1.0 + e) ** 2
+    whole = (1.5 - 2.0 / _QUARTER + e * (1.0 + e * (2.0 / _QUARTER + 0.5 * e))) / (1.0 + e) ** 3
+    return select(e < 0.0, cut, whole)
 
 
 def greatest_crush(e: Any) -> Any:
-    """Greatest mutual crush, over closing speed times duration."""
-    return compression_time(e) / _QUARTER
+    """Greatest mutual crush, over closing speed times duration; NaN where the bodies pass or tear before."""
+    return select(e < 0.0, math.nan, compression_time(e) / _QUARTER)

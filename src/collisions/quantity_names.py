@@ -24,6 +24,7 @@ class SideQuantities:
     delta_v = delta_v_at = delta_v_forward = delta_v_left = delta_vx = delta_vy = delta_yaw_rate = gamma = _QUANTITY
     impulse_direction = impulse_x = impulse_y = kinetic_energy_change = moment_arm = normal_arm = pdof = _QUANTITY
     pdof_clock = pivot_impulse_x = pivot_impulse_y = tyre_impulse_x = tyre_impulse_y = tyre_loss = _QUANTITY
+    outside_x = outside_y = outside_yaw = outside_work = _QUANTITY
 
 
 class ImpactQuantities:
@@ -31,7 +32,7 @@ class ImpactQuantities:
 
     a: SideQuantities
     b: SideQuantities
-    choice = closing_speed = common_velocity = compression_impulse = critical_impulse_ratio = ees = _QUANTITY
+    choice = closing_speed = common_velocity = complete = compression_impulse = critical_impulse_ratio = ees = _QUANTITY
     effective_mass = energy_absorbed = energy_loss = energy_loss_normal = energy_loss_tangential = _QUANTITY
     friction = impulse_ratio = kind = law = max_crush_speeds = model = momentum_residual = normal = _QUANTITY
     normal_angle = normal_impulse = ok = point = pulse = reconstruction = refused = regime = _QUANTITY

@@ -12,13 +12,15 @@ from typing import Any
 import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
-from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
+from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import units_required
 from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
 from .warning import warn
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
 _PLAUSIBLE = {"rad": 2.0 * math.pi * (1.0 + 1e-9), "rad/s": 20.0}
+# Of the components of an impulse from outside: along x and y, and about the centre of mass.
+OUTSIDE_UNITS = ("N*s", "N*s", "kg*m**2/s")
 _MOST_DIMENSIONS = 24  # numpy itself stops at 32 in places, and some solvers add a few of their own
 
 
@@ -70,6 +72,22 @@ class ArgumentReader:
                 return self.refuse(_without_unit(value, unit, argument))
             _warn_if_implausible(read, unit, argument)
         return read
+
+    def impulse(self, value: Any, argument: str) -> tuple[Any, Any, Any]:
+        """Components x, y [N*s] and, if there is a third, yaw [N*m*s] of an impulse from outside."""
+        if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
+            self.refuse(
+                ShapeError(
+                    f"{argument} must be (x, y) or (x, y, yaw): an impulse on the vehicle in N*s along the axes of the scene "
+                    f"and its moment about the centre of mass in N*m*s, got {shown(value)}",
+                    code="bad_shape",
+                    argument=argument,
+                )
+            )
+            return math.nan, math.nan, math.nan
+        parts = zip((*value, 0.0)[:3], OUTSIDE_UNITS, strict=True)
+        x, y, yaw = (self.number(part, unit, f"{argument}[{i}]") for i, (part, unit) in enumerate(parts))
+        return x, y, yaw
 
     def pair(self, value: Any, unit: str, argument: str) -> tuple[Any, Any]:
         """Two numbers from a pair, each part a number, string, Quantity or array, or from one length-2 Quantity."""
@@ -305,7 +323,12 @@ def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputEr
         text = f"{argument} must be from 0 to 1, got {shown(given)}"
         if 1.1 <= value <= 100.0:
             text += f"; if percent were meant, write '{value:g} %'"
+        elif domain is RESTITUTION and -1.0 < value < 0.0:
+            text += "; of bodies that pass or tear before a common velocity, the impulse solvers take it with incomplete=True"
         return InputError(text, code=code, argument=argument)
+    if domain is INCOMPLETE and not -1.0 < value <= 1.0:
+        text = f"{argument} must be above -1 and at most 1, got {shown(given)}: at -1 the bodies would pass untouched"
+        return InputError(text, code=domain.faults[0][1].label, argument=argument)
     if domain is NOT_NEGATIVE and not value >= 0.0:
         return InputError(
             f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",

@@ -15,7 +15,7 @@ from .directions import direction
 from .errors import InputError, Status
 from .formatting import KIND_OF, bad_system, scale_of
 from .formatting import unit_of as system_unit
-from .inputs import UNITS, Inputs
+from .inputs import OUTSIDE, UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
@@ -32,6 +32,7 @@ FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
 _OPTIONS = ("geometry", "steps")
 _SOLVERS = (*BY_NAME, "solve")
+_OUTSIDE_SOLVERS = ("eccentric", "solve")
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
 _MOTION = ("vx", "vy", "yaw_rate")
@@ -60,7 +61,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
     text = texts.pop("normal", None)
     as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
     return {
-        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
+        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS, "incomplete")},
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
@@ -137,7 +138,11 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
-        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
+        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS, "incomplete")}
+        if model not in _OUTSIDE_SOLVERS and any(numbers[name] is not None for name in OUTSIDE):
+            raise bad_record(f"an impulse from outside is none that {model} takes")
+        if model == TIME_RESOLVED.name and numbers["incomplete"] is not False:
+            raise bad_record(f"no impact of {model} is incomplete")
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])
@@ -151,6 +156,9 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
 def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str, Any]) -> None:
     """Refuse a text that reads as another number here than it did where the record was written: units can be redefined."""
     written = [(name, found[name], getattr(inputs, name), results[name]) for name in ("normal", *UNITS) if name in results]
+    for label, name in zip("ab", OUTSIDE, strict=True):
+        then = [results[label][f"outside_{part}"] for part in ("x", "y", "yaw")]
+        written.append((name, found[name], getattr(inputs, name) or (), then))
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
         texts = {name: text for name, text in found[label].items() if name != "name"}
         if _POLAR[0] in texts:

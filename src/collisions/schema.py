@@ -9,7 +9,7 @@ from typing import Any, get_args
 from .contact_time import Geometry
 from .errors import Status
 from .impact import Impact
-from .inputs import UNITS, Inputs
+from .inputs import OUTSIDE, UNITS, Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import BY_NAME
 from .provenance import Reconstruction
@@ -23,7 +23,7 @@ __all__ = ["impact_schema"]
 
 _MODELS = list(BY_NAME)
 _PRECISIONS = ["float32", "float64"]
-_KINDS = ["elastic", "elastoplastic", "plastic", ""]
+_KINDS = ["elastic", "elastoplastic", "plastic", "incomplete", ""]
 _REGIMES = ["frictionless", "sliding", "sticking", "reversing", "given", ""]
 _TYPES: dict[str, dict[str, Any]] = {
     "Value": {"$ref": "#/$defs/value"},
@@ -111,6 +111,7 @@ def _inputs() -> dict[str, Any]:
             },
             "rule_value": {**given, "description": "... and its value."},
             "tolerance": {"anyOf": [{"$ref": "#/$defs/value"}, null], "description": "Of solve [m/s]."},
+            "incomplete": {"type": "boolean", "description": "Whether a restitution below 0 was allowed."},
             "contact_velocity": {
                 "anyOf": [pair, null],
                 "description": "Closing speed and slip before as a reverse solver found them [m/s].",
@@ -127,6 +128,7 @@ def _inputs() -> dict[str, Any]:
             _where(["linear_central", "time_resolved"], {"law": null}, {"law": {"type": "string"}}),
             _where(["eccentric", "time_resolved"], {"point": {"type": "array"}}, {}),
             _where(["linear_central", "oblique_central"], {"point": null}, {}),
+            _where(["eccentric", "solve"], {}, dict.fromkeys(OUTSIDE, null)),
         ]
     }
 
@@ -229,6 +231,7 @@ _LISTED = {
     "regime": _each({"enum": _REGIMES}),
     "status": _each({"enum": [int(status) for status in Status]}),
     "ok": _each({"type": "boolean"}),
+    "complete": _each({"type": "boolean"}),
     "refused": _each({"type": "boolean"}),
     "pdof_clock": {
         "anyOf": [

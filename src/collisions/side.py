@@ -14,7 +14,7 @@ from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .kernels.time_resolved import Passed
-from .model_choice import ModelChoice
+from .model_choice import ModelChoice, until_compressed
 from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
 from .quantity_names import SideQuantities
 from .reading import ArgumentReader, broadcast, widened
@@ -47,6 +47,14 @@ class Side(Frozen, Summarized):
             return raw.delta_vx_b, raw.delta_vy_b, raw.delta_yaw_rate_b
         return raw.delta_vx_a, raw.delta_vy_a, raw.delta_yaw_rate_a
 
+    def _until_compressed(self) -> tuple[Value, Value, Value]:
+        """The part of the change that has passed at the end of compression."""
+        if isinstance(self._answer, Passed):
+            return self._passed("compression_vx"), self._passed("compression_vy"), self._passed("compression_yaw_rate")
+        names = [f"delta_{name}_{'ab'[self._index]}" for name in ("vx", "vy", "yaw_rate")]
+        dvx, dvy, dw = until_compressed(self._inputs, self._answer, self._choice, names)
+        return dvx, dvy, dw
+
     @property
     def q(self) -> SideQuantities:
         """The same attributes as pint Quantities; a MissingInputError for one that needs a heading not given."""
@@ -65,13 +73,13 @@ class Side(Frozen, Summarized):
 
     @derived()
     def at_compression(self) -> Vehicle:
-        """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper)."""
-        before, (dvx, dvy, dw) = self.before, self._change()
-        if isinstance(self._answer, Passed):
-            dvx, dvy, dw = (self._passed(f"compression_{name}") for name in ("vx", "vy", "yaw_rate"))
-            return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
-        whole = 1.0 + self._inputs.restitution
-        return moved(before, before.vx + dvx / whole, before.vy + dvy / whole, before.yaw_rate + dw / whole)
+        """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper).
+
+        Under the law "stronge" after the impulse until then, which is no fixed part of P. An incomplete impact ends before
+        compression does: there it is the vehicle after.
+        """
+        before, (dvx, dvy, dw) = self.before, self._until_compressed()
+        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
 
     @derived("m/s")
     def delta_v(self) -> Value:
@@ -192,21 +200,53 @@ class Side(Frozen, Summarized):
 
     @derived("J")
     def kinetic_energy_change(self) -> Value:
-        """Work of the contact impulse on this vehicle [J]. It depends on the frame of reference: it is not damage."""
+        """Work of the contact impulse and of that from outside on this vehicle [J].
+
+        It depends on the frame of reference: it is not damage.
+        """
         if isinstance(self._answer, Passed):
             return self._work()
-        ux, uy, dux, duy = self._at_contact()
-        return self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
+        ux, uy, dux, duy = self._at_contact(self._change())
+        by_contact = self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
+        return by_contact if self._outside() is None else by_contact + self.outside_work
+
+    @derived("N*s")
+    def outside_x(self) -> Value:
+        """Impulse on this vehicle from outside, as given, along scene x [N*s]."""
+        return self._from_outside(0)
+
+    @derived("N*s")
+    def outside_y(self) -> Value:
+        """Impulse on this vehicle from outside, as given, along scene y [N*s]."""
+        return self._from_outside(1)
+
+    @derived("kg*m**2/s")
+    def outside_yaw(self) -> Value:
+        """Moment of the impulse from outside about the centre of mass, as given [N*m*s], counter-clockwise."""
+        return self._from_outside(2)
+
+    @derived("J")
+    def outside_work(self) -> Value:
+        """Work of the impulse from outside on this vehicle [J], at the mean of the velocities before and after.
+
+        What both vehicles have of kinetic energy before, with this work of both, is what they have after and ``energy_loss``.
+        It depends on the frame of reference.
+        """
+        before, (dvx, dvy, dw) = self.before, self._change()
+        if self._outside() is None:
+            return 0.0 * dvx + 0.0
+        along = self.outside_x * (before.vx + 0.5 * dvx) + self.outside_y * (before.vy + 0.5 * dvy)
+        return along + self.outside_yaw * (before.yaw_rate + 0.5 * dw)
 
     @derived("N*s")
     def pivot_impulse_x(self) -> Value:
         """Impulse of the pivot on this vehicle along scene x [N*s]; 0 for a body that is not pinned."""
-        return self._pivot_impulse(self.delta_vx, self.impulse_x)
+        return self._pivot_impulse(self.delta_vx, self.impulse_x, 0)
 
     @derived("N*s")
     def pivot_impulse_y(self) -> Value:
         """Impulse of the pivot on this vehicle along scene y [N*s]; 0 for a body that is not pinned."""
-        return self._pivot_impulse(self.delta_vy, self.impulse_y)
+        return self._pivot_impulse(self.delta_vy, self.impulse_y, 1)
 
     @returns("m/s")
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
@@ -249,10 +289,18 @@ class Side(Frozen, Summarized):
         x, y = self._answer.impulse_x, self._answer.impulse_y
         return (x, y) if self._index else (-x, -y)
 
-    def _at_contact(self) -> tuple[Value, Value, Value, Value]:
-        """Velocity before, and its change, of the contact point; in a central model of the centre of mass."""
+    def _from_outside(self, part: int) -> Value:
+        outside = self._outside()
+        return 0.0 * self.impulse_x + 0.0 if outside is None else outside[part]
+
+    def _outside(self) -> tuple[Value, ...] | None:
+        return self._inputs.outside_b if self._index else self._inputs.outside_a
+
+    def _at_contact(self, change: tuple[Value, Value, Value]) -> tuple[Value, Value, Value, Value]:
+        """Velocity before, and that of this ``change``, of the contact point; in a central model of the centre of mass."""
         before, place = self.before, self._inputs.point
-        motion = before.vx, before.vy, self.delta_vx, self.delta_vy
+        dvx, dvy, dw = change
+        motion = before.vx, before.vy, dvx, dvy
         # ``solve`` keeps the point it was given, also where it took a central model; cases that it refused may lack a position.
         answered = self._answer.status <= Status.ENERGY_GAIN
         turns = True if self._choice is None else (self._choice.model == "eccentric") & answered
@@ -262,7 +310,8 @@ class Side(Frozen, Summarized):
         ux, uy, yaw_rate, x, y, px, py = widened((*own, *place), (self.delta_vx,))
         with np.errstate(all="ignore"):
             turn_x, turn_y = turn_at(before, yaw_rate, px, py, "velocity_at", x, y)
-            there = ux + turn_x, uy + turn_y, *self.delta_v_at(place)
+            more_x, more_y = turn_at(before, dw, px, py, "velocity_at", x, y)
+            there = ux + turn_x, uy + turn_y, dvx + more_x, dvy + more_y
         vx, vy, dvx, dvy = (select(turns, at_point, centre) for at_point, centre in zip(there, motion, strict=True))
         return vx, vy, dvx, dvy
 
@@ -292,8 +341,11 @@ class Side(Frozen, Summarized):
             return None
         return missing(self.before, lacking[0], name, "ab"[self._index])
 
-    def _pivot_impulse(self, dv: Value, impulse: Value) -> Value:
-        return 0.0 * impulse + 0.0 if self.before.pivot is None else self.before.mass * dv - impulse
+    def _pivot_impulse(self, dv: Value, impulse: Value, axis: int) -> Value:
+        if self.before.pivot is None:
+            return 0.0 * impulse + 0.0
+        outside = self._outside()
+        return self.before.mass * dv - (impulse if outside is None else impulse + outside[axis])
 
     def __repr__(self) -> str:
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"

@@ -7,10 +7,10 @@ from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, read_inputs
 from .kernels.contact_laws import BRACH
 from .model_choice import ModelChoice, choose
-from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, read
+from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, in_form, read
 from .progress import Progress
 from .solving import solve_inputs
-from .units import Input, Pair
+from .units import Impulse, Input, Pair
 from .vehicle import Vehicle
 
 
@@ -20,6 +20,7 @@ def linear_central(
     restitution: Input,
     *,
     normal: Input | Pair = 0.0,
+    incomplete: bool = False,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -39,6 +40,9 @@ def linear_central(
         Coefficient of restitution e, 0 (plastic) to 1 (elastic).
     normal : angle [rad] or tuple (nx, ny), optional
         Direction from A into B; the x axis if not given.
+    incomplete : bool, optional
+        Whether the restitution may be below 0, above -1: bodies that pass, or tear what held them, before they reach a common
+        velocity. The contact ends while they still approach, at -e times the closing speed.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a case that cannot be answered. None: a single case raises, in a batch it is NaN with a status and one
         warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a warning.
@@ -75,7 +79,9 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    inputs, plain = read_inputs("linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH)
+    inputs, plain = read_inputs(
+        "linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH, incomplete=incomplete
+    )
     return build(inputs, solve_inputs(LINEAR, inputs, plain, on_failure, threads, progress))
 
 
@@ -89,6 +95,7 @@ def oblique_central(
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
     law: Law = "brach",
+    incomplete: bool = False,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -114,9 +121,9 @@ def oblique_central(
         Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
     critical_fraction : float, str, Quantity or array [-]
         Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
-    law : {"brach", "kudlich-slibar"}, optional
-        Whether a sticking contact is without slip at separation, or at the end of compression.
-    on_failure, threads, progress
+    law : {"brach", "kudlich-slibar", "stronge"}, optional
+        As for ``eccentric``; without levers "stronge" gives what "brach" does.
+    incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
     Returns
@@ -145,7 +152,7 @@ def oblique_central(
     (3.464, -3.0, 2.0)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law)
+    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law, incomplete=incomplete)
     return build(inputs, solve_inputs(OBLIQUE, inputs, plain, on_failure, threads, progress))
 
 
@@ -160,6 +167,9 @@ def eccentric(
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
     law: Law = "brach",
+    incomplete: bool = False,
+    outside_a: Impulse | None = None,
+    outside_b: Impulse | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -169,8 +179,8 @@ def eccentric(
     Impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the contact points
     along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"), for free, pinned and
     fixed bodies, and with friction along the tangent. The contact is one point with one normal, the impact takes no time and
-    no distance, and tyre forces during it are left out. Valid where the impulse of the contact is large against that of the
-    tyres, and where the damage can be given a point and a normal.
+    no distance, and tyre forces during it are left out unless they are given as ``outside_a`` and ``outside_b``. Valid where
+    the impulse of the contact is large against that of the tyres, and where the damage can be given a point and a normal.
 
     Parameters
     ----------
@@ -188,9 +198,17 @@ def eccentric(
         Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
     critical_fraction : float, str, Quantity or array [-]
         Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
-    law : {"brach", "kudlich-slibar"}, optional
-        Whether a sticking contact is without slip at separation, or at the end of compression.
-    on_failure, threads, progress
+    law : {"brach", "kudlich-slibar", "stronge"}, optional
+        How restitution acts and what friction does. "brach": restitution acts on the closing speed, and a contact that sticks
+        is without slip at separation. "kudlich-slibar": it sticks at the end of compression, and the whole impulse until then
+        is multiplied by 1 + e. "stronge": restitution gives back e squared of the work of compression, and friction acts
+        against a slip that may stop or turn around meanwhile; with ``friction`` only.
+    outside_a, outside_b : tuple (x, y) or (x, y, yaw) [N*s, N*s, N*m*s], optional
+        Impulse on A and on B during the contact by something else than the other vehicle, as tyres, a kerb or soft ground:
+        along the axes of the scene at the centre of mass, and about it. ``left_out`` estimates that of tyres. It is a given
+        number: an object that stops a vehicle by as much as it takes, such as a kerb of unknown impulse, is a second impact
+        against a barrier.
+    incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
     Returns
@@ -205,7 +223,7 @@ def eccentric(
     MissingInputError
         A position, a yaw inertia or the contact point was not given. Nothing is taken as zero.
     NoImpactError
-        The contact points do not approach along the normal.
+        The contact points do not approach along the normal, or the impulses from outside part them.
     NoSolutionError
         Nothing can yield, the ratio jams, or no slip would need the bodies to pull.
 
@@ -221,10 +239,23 @@ def eccentric(
     (-5.473, 8.559)
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
+
+    A slow rear-end impact, and the same with B's brakes locked (drag 0.7 for 0.1 s):
+
+    >>> a = col.Vehicle(mass=1500, vx=3.0, yaw_inertia=2600, x=-2.2, y=0.0)
+    >>> b = col.Vehicle(mass=1500, yaw_inertia=2600, x=2.2, y=0.0)
+    >>> for braking in (None, (-0.7 * 9.81 * 0.1 * 1500, 0.0)):
+    ...     impact = col.eccentric(a, b, 0.3, normal=0.0, point=(0.0, 0.0), friction=0.5, outside_b=braking)
+    ...     print(round(impact.b.delta_v, 2), round(impact.b.outside_work))
+    1.95 0
+    1.61 -828
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read_inputs("eccentric", a, b, restitution, normal, point, tangential, law)
-    return build(inputs, solve_inputs(ECCENTRIC, inputs, plain, on_failure, threads, progress))
+    inputs, plain = read_inputs(
+        "eccentric", a, b, restitution, normal, point, tangential, law, (), (), incomplete, outside_a, outside_b
+    )
+    model = ECCENTRIC if outside_a is outside_b is None else in_form(ECCENTRIC, inputs)
+    return build(inputs, solve_inputs(model, inputs, plain, on_failure, threads, progress))
 
 
 def time_resolved(
@@ -354,6 +385,9 @@ def required_model(
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
     law: Law = "brach",
+    incomplete: bool = False,
+    outside_a: Impulse | None = None,
+    outside_b: Impulse | None = None,
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
@@ -374,8 +408,9 @@ def required_model(
 
     Parameters
     ----------
-    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law
-        As for ``eccentric``; yaw inertias, positions and the point may be left None.
+    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, incomplete, outside_a, outside_b
+        As for ``eccentric``; yaw inertias, positions and the point may be left None. With an impulse from outside the eccentric
+        model is required, as with a pivot.
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, >= 0; 0 is always the fullest model.
     duration, drag
@@ -403,7 +438,8 @@ def required_model(
     ('eccentric', 2.14)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag)
+    more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
     return choose(inputs, plain)[0]
 
 
@@ -418,6 +454,9 @@ def solve(
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
     law: Law = "brach",
+    incomplete: bool = False,
+    outside_a: Impulse | None = None,
+    outside_b: Impulse | None = None,
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
@@ -433,12 +472,14 @@ def solve(
 
     Parameters
     ----------
-    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, on_failure, threads, progress
+    a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law
         As for ``eccentric``; what the required model does not need may be left None.
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, as for ``required_model``.
     duration, drag : float, str, Quantity or array [s], [-], optional
         Of the contact and its tyres, as for ``required_model``; where that takes time, it is solved in 100 steps.
+    incomplete, outside_a, outside_b, on_failure, threads, progress
+        As for ``eccentric``.
 
     Returns
     -------
@@ -461,5 +502,6 @@ def solve(
     ('linear_central', 6.667)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag)
+    more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
+    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
     return solved(inputs, plain, on_failure, threads, progress)

@@ -16,11 +16,11 @@ from .inputs import Inputs, named_numbers, part_of_inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import (
     FINITE,
-    RESTITUTION,
     Domain,
     all_with_length,
     either_infinite,
     not_about_pivot,
+    restitution_domain,
     rounding,
     without_length,
 )
@@ -155,6 +155,11 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
     match status:
         case Status.SEPARATING | Status.GRAZING:
             extra["closing_speed"] = raw.closing_speed
+            if raw.closing_speed > 0.0:
+                text = f"no impact: the impulses from outside part the bodies, which approach at {raw.closing_speed:.6g} m/s"
+                return error_of(
+                    status, f"{text}, by more than restitution does; check the signs of outside_a and outside_b", **extra
+                )
         case Status.RATIO_JAMS:
             coupling = raw.coupling
             limit = -1.0 / (raw.effective_mass * coupling) if coupling else math.copysign(math.inf, inputs.rule_value)
@@ -236,12 +241,12 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
                 # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
                 found.append(Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion))
-    add_array(inputs.restitution, RESTITUTION)
+    add_array(inputs.restitution, restitution_domain(inputs.incomplete))
     if any(isinstance(part, np.ndarray) for part in inputs.normal):
         for part in inputs.normal:
             add_array(part, FINITE)
         found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
-    for part in inputs.point or ():
+    for part in (*(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ())):
         add_array(part, FINITE)
     add_array(inputs.rule_value, RULES[inputs.rule].domain)
     for name, domains in TIME_DOMAINS.items():

@@ -44,8 +44,9 @@ if TYPE_CHECKING:
 
     Input: TypeAlias = float | str | Quantity | npt.NDArray[Any] | np.number[Any] | Sequence[float]
     Pair: TypeAlias = tuple[Input, Input] | list[Any] | Quantity | npt.NDArray[Any]
+    Impulse: TypeAlias = tuple[Input, Input] | tuple[Input, Input, Input] | list[Any]
 else:
-    Value = Input = Pair = Any
+    Value = Input = Pair = Impulse = Any
 
 _ANY_KIND = "a number with a unit"
 _EXAMPLES = {
@@ -60,6 +61,7 @@ _EXAMPLES = {
     "degree": "90 (deg)",
     "J": "42000 (J), '42 kJ' or '31000 ft*lbf'",
     "N*s": "9000 (N s) or '9 kN*s'",
+    "kg*m**2/s": "900 (N m s) or '900 N*m*s'",
     "N/m": "35000 (N/m), '35 kN/m' or '200 lbf/in'",
     "N/m**2": "450000 (N/m2), '450 kPa' or '65 lbf/in**2'",
     "": "0.4",

@@ -59,15 +59,22 @@ def forward_solvers() -> tuple[col.Impact, ...]:
     in_line = col.linear_central(a, wall, "20 %", normal=0, on_failure="nan")
     central = col.oblique_central(a, b, 0.1, normal=(1, 0), impulse_ratio=-0.2, progress=True)
     full = col.eccentric(a, b, 0.1, normal=angles, point=("1 m", 0.0), friction=0.5, law="kudlich-slibar", threads=2)
+    passed = col.linear_central(a, b, -0.1, incomplete=True)
+    pushed = col.eccentric(
+        a, b, 0.1, normal=0, point=corner, friction=1, law="stronge", outside_a=(1.0, "2 N*s"), outside_b=(1, 2, angles)
+    )
+    complete: bool = passed.complete
     least = col.solve(a, b, angles, normal="10 deg", point=corner, critical_fraction=1, tolerance="1 km/h")
     choice = col.required_model(a, b, 0.2, normal=(0.6, 0.8), point=[0.0, 1.0], friction=np.inf, tolerance=0.1)
     assert_type(choice, col.ModelChoice)
     error: float = choice.errors["linear_central"]
     crush = ("60 kN/m", 700e3, "1.5 m")
-    passed = col.time_resolved(a, b, 0.1, normal=angles, point=corner, friction=0.5, crush_a=crush, drag=0.7, steps=50)
-    force: Any = None if passed.pulse is None else passed.pulse.force
+    passed_in_time = col.time_resolved(a, b, 0.1, normal=angles, point=corner, friction=0.5, crush_a=crush, drag=0.7, steps=50)
+    force: Any = None if passed_in_time.pulse is None else passed_in_time.pulse.force
     print(force)
-    return in_line, central, full, least, col.eccentric(full.a.after, wall, error, normal=full.normal, point=aside, friction=0)
+    more = (pushed, passed) if complete else ()
+    full = col.eccentric(full.a.after, wall, error, normal=full.normal, point=aside, friction=0)
+    return *more, in_line, central, full, least
 
 
 def around(impact: col.Impact) -> str:

@@ -8,17 +8,21 @@ from typing import NamedTuple
 
 from ..impact import answer_of
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, RULES
-from .expressions import HALF, ZERO, Direction, Expression, magnitude, signed_total, total
+from .expressions import HALF, ZERO, Direction, Expression, Sum, magnitude, root, signed_total, total
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
 
 
 class Mobility(NamedTuple):
-    """What an impulse does to the velocity of B relative to A at the contact; the coupling is None for point masses."""
+    """What an impulse does to the velocity of B relative to A at the contact; the coupling is None for point masses.
+
+    ``push`` is what the impulses from outside add to the closing speed and to the slip.
+    """
 
     normal: Expression
     tangential: Expression
     coupling: Expression | None
+    push: tuple[Expression, Expression] = (ZERO, ZERO)
 
 
 def velocity_before(page: Page, body: Body, s: Symbols) -> None:
@@ -38,12 +42,15 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
         page.say(f"{body.label} has an infinite mass and keeps its velocity: {page.shown(n)} and {page.shown(t)}.")
         return
     for caption, start, end, impulse in periods:
-        page.equation(caption, body.along("n", end), body.along("n", start).plus(body.sign, impulse / body.mass))
+        found = body.along("n", start).plus(body.sign, impulse / body.mass)
+        page.equation(caption, body.along("n", end), found if body.outside is None else found + body.pushed("n") / body.mass)
     along_t = f"Velocity of {body.label} after, along the tangent"
-    if s.tangential.value == 0.0:
-        page.equation(f"{along_t}, as before", t, body.along("t"))
-    else:
-        page.equation(along_t, t, body.along("t").plus(body.sign, s.tangential / body.mass))
+    found = body.along("t")
+    if s.tangential.value != 0.0:
+        found = found.plus(body.sign, s.tangential / body.mass)
+    if body.outside is not None:
+        found = found + body.pushed("t") / body.mass
+    page.equation(along_t if isinstance(found, Sum) else f"{along_t}, as before", t, found)
     if s.impact.normal == (1.0, 0.0):
         same = " and ".join(f"{page.symbol(one)} = {page.shown(other)}" for one, other in ((x, n), (y, t)))
         page.say(f"The normal is the x axis and the tangent the y axis, so {same}.")
@@ -53,9 +60,87 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
 
 
 def impulses(page: Page, s: Symbols, k: Mobility) -> None:
+    """Both components of the impulse on B, and its parts of both periods."""
+    energetic, compressed = LAWS[s.impact.law or BRACH].energetic, None
+    if energetic and s.impact.inputs.rule_value != 0.0:
+        compressed = _by_energy(page, s, k)
+    else:
+        _by_rule(page, s, k)
+        compressed = (s.closing + k.push[0]) / k.normal if energetic else None
+    if not s.impact.complete:
+        page.say("The impact is incomplete: it ends in the period of deformation, while the contact points still approach.")
+        return
+    page.equation("Impulse of the period of deformation, area A1", s.compression, compressed or s.normal / (1.0 + s.e))
+    restored = s.e * s.compression if compressed is None else s.normal - s.compression
+    page.equation("Impulse of the period of restitution (10), area A2", s.restitution, restored)
+
+
+def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
+    """The impulse under the law "stronge"; gives its normal component until the end of compression."""
+    page.say(
+        "Friction acts against the slip as it is at each moment, and the slip may stop before the contact ends. Restitution "
+        f"gives back {page.symbol(s.e)} squared of the work that compression takes along the normal."
+    )
+    mu, coupling = Symbol(r"\mu", s.impact.inputs.rule_value, "number"), k.coupling or ZERO
+    g, slip, e = s.closing + k.push[0], s.slip + k.push[1], s.e
+    if k.push[0] is not ZERO:
+        e = page.let("Restitution for the closing speed that impulses from outside leave", "e_o", "number", s.e * s.closing / g)
+    endless, rests, way = math.isinf(mu.value), slip.value == 0.0, -1.0 if slip.value > 0.0 else 1.0
+    first: Expression = ZERO
+    first_t: Expression = ZERO
+    soft: Expression = ZERO
+    w, stops = g, True
+    if endless and not rests:
+        first_t = page.let("Impulse along the tangent that stops the slip, at once as friction has no bound", "T_1", "impulse",
+                           -(slip / k.tangential))  # fmt: skip
+        w = page.let("Closing speed then", "w", "speed", g - coupling * first_t)
+    elif not rests:
+        soft = page.let("While it slides, the closing speed falls, for each unit of normal impulse, by", "k_1", "per mass",
+                        k.normal + ZERO.plus(way, mu * coupling))  # fmt: skip
+        rate = page.let("and the slip changes by", "l_1", "per mass", coupling + ZERO.plus(way, mu * k.tangential))
+        stops = rate.value * slip.value < 0.0
+        if stops:
+            first = page.let("Normal impulse at which the slip would stop", "P_1", "impulse", -(slip / rate))
+            w = page.let("Closing speed then (below 0: they part)", "w", "speed", g - soft * first)
+            first_t = ZERO.plus(way, mu * first)
+            stops = w.value > -max(e.value, 0.0) * g.value or soft.value < 0.0
+    if not stops:
+        page.say("The slip goes on to the end, so the impulse ratio stays.")
+        page.equation("Normal impulse", s.normal, (1.0 + e) * g / soft)
+        page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
+        return g / soft
+    holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
+    ratio = -(coupling / k.tangential) if holds else ZERO.plus(-1.0 if coupling.value > 0.0 else 1.0, mu)
+    then = "it sticks" if holds else "it slides on, the way that the normal impulse pushes it"
+    ratio = page.let(f"Once the slip has stopped {then}: impulse ratio from there", "\\mu_2", "number", ratio)
+    soft_2 = page.let(
+        "The closing speed then falls, for each unit of normal impulse, by", "k_2", "per mass", k.normal + ratio * coupling
+    )
+    if w.value > 0.0:
+        worked = first * (g + w) / 2.0 + w.squared() / (2.0 * soft_2)
+        before = first + w / soft_2
+    else:
+        worked, before = g.squared() / (2.0 * soft), g / soft
+    work = page.let("Work of compression along the normal", "E_c", "energy", worked)
+    if w.value > 0.0 and e.value * math.sqrt(2.0 * soft_2.value * work.value) <= -w.value:
+        page.say("Of that work so much is still to be done when the contact ends that the slip has not stopped then.")
+        done = (1.0 - e.squared()) * work
+        still = page.let("Closing speed at the end", "w'", "speed", root(g.squared() - 2.0 * soft * done))
+        page.equation("Normal impulse", s.normal, 2.0 * done / (g + still))
+        page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
+        return None
+    inside = e.squared() * 2.0 * work if w.value > 0.0 else e.squared() * 2.0 * work - w.squared() / soft
+    parts = root(soft_2 * inside) if w.value > 0.0 else root(w.squared() + soft_2 * inside)
+    page.equation("Speed at which the contact points part", s.separation, -parts if e.value < 0.0 else parts)
+    page.equation("Normal impulse", s.normal, first + (w + s.separation) / soft_2)
+    page.equation("Tangential impulse", s.tangential, first_t + ratio * (s.normal - first))
+    return before
+
+
+def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
     """Both components of the impulse on B, by the tangential rule that was given."""
     rule, value = s.impact.inputs.rule, s.impact.inputs.rule_value
-    change = (1.0 + s.e) * s.closing
+    change = (1.0 + s.e) * s.closing + k.push[0]
     if math.isnan(s.critical.value):
         page.say(
             "The contact has one degree of freedom, so the impulse that just stops the slip and the critical impulse ratio are "
@@ -98,8 +183,8 @@ def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangentia
         f"The impulse that just stops the slip has the components {page.symbol(normal)} and {page.symbol(tangential)}: with "
         f"it, {law.derivation}."
     )
-    change = (1.0 + s.e) * s.closing
-    stopped = (1.0 - law.sticking_slip(s.e)) * s.slip
+    change = (1.0 + s.e) * s.closing + k.push[0]
+    stopped = (1.0 - law.sticking_slip(s.e)) * s.slip + k.push[1]
     if k.coupling is None:
         page.equation("Its normal component", normal, change / k.normal)
         page.equation("Its tangential component", tangential, -(stopped / k.tangential))
@@ -142,6 +227,14 @@ def energy(page: Page, s: Symbols) -> None:
     """The loss along the normal and along the tangent."""
     page.heading("Energy")
     along_n = Symbol(r"\Delta E_n", s.impact.energy_loss_normal, "energy")
+    if LAWS[s.impact.law or BRACH].energetic and s.tangential.value != 0.0:
+        # The sum needs no path, its parts do.
+        whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (s.slip + s.slip_after)
+        page.equation("Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole)
+        along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
+        page.say(f"Of that the work of friction takes {page.shown(along_t)}, the normal {page.shown(along_n)}.")
+        kinetic_energies(page, s)
+        return
     page.equation("Energy lost along the normal, (8) at the contact", along_n, HALF * (1.0 - s.e) * s.closing * s.normal)
     if s.tangential.value != 0.0:
         along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
@@ -175,8 +268,18 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
         else:
             turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
             page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
+    for body in s.bodies:
+        if body.outside is not None:
+            mean = [HALF * (body.axis(axis) + body.axis(axis, AFTER)) for axis in "xy"]
+            work = body.pushed("x") * mean[0] + body.pushed("y") * mean[1]
+            if body.outside[2]:
+                moment = Symbol(rf"\mathrm{{M}}_{body.label}", body.outside[2], "angular momentum")
+                work = work + moment * (HALF * (body.spin() + body.spin(AFTER)))
+            caption = f"Work of the impulse from outside on {body.label}, at the mean of its velocities"
+            terms.append((1.0, page.let(caption, f"W_{body.label}", "energy", work)))
     before_first = sorted(terms, key=lambda term: -term[0])
-    page.equation("Check: kinetic energies before less those after (7)", lost or s.loss, signed_total(before_first))
+    with_work = ", with the work from outside" if any(body.outside for body in s.bodies) else ""
+    page.equation(f"Check: kinetic energies before less those after (7){with_work}", lost or s.loss, signed_total(before_first))
 
 
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
@@ -227,13 +330,13 @@ def _pdof(page: Page, s: Symbols, body: Body) -> None:
     if body.start.heading is None or side.pdof is None or math.isnan(side.pdof):
         return
     other = s.b if label == "A" else s.a
-    tyres = s.impact.pulse is not None
-    if not body.fixed and not body.pinned and not tyres:
+    other_push = s.impact.pulse is not None or s.impact.inputs.outside_a is not None
+    if not body.fixed and not body.pinned and not other_push:
         caption = f"Direction of the impulse on {label}, which is that of its delta-V (definition)"
         pushed = Direction(body.delta_v("x"), body.delta_v("y"))
     else:
         caption = f"Direction of the impulse on {label}, opposite to that on {other.label} (1)"
-        by_delta_v = not (other.fixed or other.pinned or body.pinned or tyres)
+        by_delta_v = not (other.fixed or other.pinned or body.pinned or other_push)
         x, y = (other.delta_v(axis) if by_delta_v else s.impulse(axis) for axis in "xy")
         pushed = Direction(x, y) if label == "B" and not by_delta_v else Direction(-x, -y)
     pdof(page, label, caption, side.impulse_direction, pushed, body.start.heading, side.pdof)

@@ -67,6 +67,7 @@ _SIDE = {
     "delta_vy": ("delta-V along y", "speed"),
     "delta_yaw_rate": ("change of yaw rate", "yaw rate"),
     "pdof": ("PDOF (0 from ahead, positive clockwise)", "angle"),
+    "outside_work": ("work of the impulse from outside", "energy"),
     "pivot_impulse_x": ("impulse of the pivot, along x", "impulse"),
     "pivot_impulse_y": ("impulse of the pivot, along y", "impulse"),
 }
@@ -226,6 +227,11 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
     if impact.point is not None and impact.model in _PLACED:
         yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
+    for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
+        if pushed is not None and any(pushed):
+            what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
+            yield "contact", f"{what} (x, y)", (f"{name}[0]", f"{name}[1]"), (pushed[0], pushed[1]), "impulse"
+            yield "contact", f"{what}, about its centre of mass", (f"{name}[2]",), (pushed[2],), "angular momentum"
     if impact.model != "linear_central":
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
@@ -272,6 +278,8 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
             if impact.model not in _PLACED and name.endswith("yaw_rate"):
                 continue
             if side.before.pivot is None and name.startswith("pivot"):
+                continue
+            if impact.inputs.outside_a is None and name.startswith("outside"):
                 continue
             if name == "after.course" and page.system.working(side.after.speed, "speed") == "0":
                 continue

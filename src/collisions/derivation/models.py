@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from ..impact import Impact, answer_of
+from ..kernels.contact_laws import BRACH, LAWS
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page
@@ -27,12 +28,18 @@ def linear(page: Page, s: Symbols) -> None:
             along = s.dot(body.along("x"), body.along("y"))
             page.equation(f"Velocity of {body.label} before, along the normal", body.straight(), along)
     page.equation("Closing speed", s.closing, v_a - v_b)
-    if a.fixed or b.fixed:
+    mass = _reduced(a, b)
+    if not s.impact.complete:
+        mass = page.let("Mass that the contact feels", "m_e", "mass", mass)
+        page.equation("Normal impulse, all of it of the period of compression", s.normal, (1.0 + e) * mass * s.closing)
+        for body in s.bodies:
+            if not body.fixed:
+                found = body.straight().plus(body.sign, s.normal / body.mass)
+                page.equation(f"Velocity of {body.label} after", body.straight(AFTER), found)
+    elif a.fixed or b.fixed:
         _against_fixed(page, s)
-        mass: Expression = (b if a.fixed else a).mass
     else:
         _between_free(page, s)
-        mass = a.mass * b.mass / (a.mass + b.mass)
     page.equation("Check: restitution from the velocities, as in (9)", e, (after_b - after_a) / (v_a - v_b))
     for body in s.bodies:
         if along_x and body.state(AFTER).vy:
@@ -43,6 +50,10 @@ def linear(page: Page, s: Symbols) -> None:
                 page.equation(f"Velocity of {body.label} after, along {axis}", body.along(axis, AFTER), found)
     page.equation("Energy lost (8)", s.loss, HALF * (1.0 - e.squared()) * mass * (v_b - v_a).squared())
     kinetic_energies(page, s)
+
+
+def _reduced(a: Body, b: Body) -> Expression:
+    return (b if a.fixed else a).mass if a.fixed or b.fixed else a.mass * b.mass / (a.mass + b.mass)
 
 
 def _against_fixed(page: Page, s: Symbols) -> None:
@@ -94,8 +105,6 @@ def oblique(page: Page, s: Symbols) -> None:
         page.equation("Mass that the contact feels", s.mass, a.mass * b.mass / (a.mass + b.mass))
     page.heading("Impulse")
     impulses(page, s, Mobility(1.0 / s.mass, 1.0 / s.mass, None))
-    page.equation("Impulse of the compression period, area A1", s.compression, s.normal / (1.0 + s.e))
-    page.equation("Impulse of the restitution period, area A2 = e A1", s.restitution, s.e * s.compression)
     page.heading("Velocities after")
     for body in s.bodies:
         caption = f"Velocity of {body.label} after, along the normal"
@@ -154,7 +163,15 @@ class Lever(Body):
         """The moment of the impulse on this body."""
         by_normal = self.t * s.normal
         by_tangential = self.n * s.tangential if s.tangential.value != 0.0 else ZERO
-        return by_normal - by_tangential if self.label == "A" else by_tangential - by_normal
+        by_contact = by_normal - by_tangential if self.label == "A" else by_tangential - by_normal
+        return by_contact if self.outside is None else by_contact + self.moment
+
+    @property
+    def moment(self) -> Symbol:
+        """Moment of the impulse from outside, about the centre of mass or the pivot."""
+        x, y, yaw = self.outside or (0.0, 0.0, 0.0)
+        value = yaw + self.arm("x").value * y - self.arm("y").value * x if self.pinned else yaw
+        return Symbol(rf"\mathrm{{M}}_{{{self.label}{'O' if self.pinned else ''}}}", value, "angular momentum")
 
 
 def eccentric(page: Page, s: Symbols) -> None:
@@ -180,9 +197,9 @@ def eccentric(page: Page, s: Symbols) -> None:
     page.equation("Closing speed", s.closing, a.along("n", contact=True) - b.along("n", contact=True))
     page.equation("Slip, of B relative to A", s.slip, s.relative("t", contact=True))
     page.heading("Impulse")
-    impulses(page, s, _mobility(page, s, levers))
-    page.equation("Impulse of the period of deformation", s.compression, s.normal / (1.0 + s.e))
-    page.equation("Impulse of the period of restitution (10)", s.restitution, s.e * s.compression)
+    impulses(page, s, _mobility(page, s, levers)._replace(push=_from_outside(page, s, levers)))
+    if s.impact.inputs.outside_a is not None and not (a.pinned or b.pinned):
+        impulse_in_scene_axes(page, s)
     page.heading("Motions after")
     for body in levers:
         if body.pinned:
@@ -235,6 +252,27 @@ def time_resolved(page: Page, s: Symbols) -> None:
     kinetic_energies(page, s, whole)
 
 
+def _from_outside(page: Page, s: Symbols, levers: Sequence[Lever]) -> tuple[Expression, Expression]:
+    """What the impulses from outside add to the closing speed and to the slip, each body's part written."""
+    added: list[Expression] = [ZERO, ZERO]
+    for body in levers:
+        if body.outside is None:
+            continue
+        label, (j_x, j_y) = body.label, (body.pushed(axis) for axis in "xy")
+        page.say(
+            f"From outside an impulse acts on {label}: {page.shown(j_x)}, {page.shown(j_y)}, with {page.shown(body.moment)}."
+        )
+        page.equation(f"Impulse from outside on {label}, along the normal", body.pushed("n"), s.dot(j_x, j_y))
+        page.equation(f"Impulse from outside on {label}, along the tangent", body.pushed("t"), s.cross(j_x, j_y))
+        for at, (direction, name, lever, sign) in enumerate((("n", "normal", body.t, -1.0), ("t", "tangent", body.n, 1.0))):
+            moved = ZERO if body.pinned or body.fixed else body.pushed(direction) / body.mass
+            found = moved.plus(sign, body.moment / body.resistance * lever) if body.turns and body.moment.value else moved
+            caption = f"What it changes the velocity of {label} at the contact by, along the {name}"
+            change = page.let(caption, rf"\Delta c_{{{label}{direction}}}", "speed", found)
+            added[at] = added[at].plus(body.sign * (-1.0, 1.0)[at], change)
+    return added[0], added[1]
+
+
 def impulse_in_scene_axes(page: Page, s: Symbols) -> None:
     """The impulse on B along x and y."""
     for axis in "xy":
@@ -285,11 +323,14 @@ def _moved(page: Page, body: Lever, s: Symbols) -> None:
         (f"Velocity of the centre of mass of {label} {when}, along the normal ({number})", start, end, impulse)
         for number, (when, start, end, impulse) in ((12, deformation), (14, restitution))
     ]
+    whole = body.outside is not None or not s.impact.complete
+    if whole:
+        along_n = [(f"Velocity of the centre of mass of {label} after, along the normal", BEFORE, AFTER, s.normal)]
     velocity_after(page, body, s, along_n)
     if not body.turns:
         page.say(f"{label} has an infinite yaw inertia and keeps its yaw rate ({page.shown(body.spin())}).")
-    elif s.tangential.value != 0.0:
-        caption = f"Yaw rate of {label} after, (13) and (15) with the moment of both components"
+    elif s.tangential.value != 0.0 or whole:
+        caption = f"Yaw rate of {label} after, (13) and (15) with the whole moment"
         page.equation(caption, body.spin(AFTER), body.spin() + body.torque(s) / body.resistance)
     else:
         for number, (when, start, end, impulse) in ((13, deformation), (15, restitution)):
@@ -308,6 +349,7 @@ def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
     impulse_in_scene_axes(page, s)
     for axis, value in (("x", body.side.pivot_impulse_x), ("y", body.side.pivot_impulse_y)):
         found = (body.mass * (body.along(axis, AFTER) - body.along(axis))).plus(-body.sign, s.impulse(axis))
+        found = found if body.outside is None else found - body.pushed(axis)
         symbol = Symbol(rf"J_{{{label}{axis}}}", value, "impulse")
         page.equation(f"Impulse of the pivot on {label}, along {axis}", symbol, found)
 
@@ -315,7 +357,7 @@ def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
 def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> None:
     """Equations (20) and (21) of Example 3: both bodies as one system about the pivot of one of them, without friction."""
     body, other = sorted(levers, key=lambda body: not body.pinned)
-    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0:
+    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0 or s.impact.inputs.outside_a is not None:
         return
     page.heading("Check by moments about the pivot, as in Example 3")
     page.say(
@@ -348,7 +390,12 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     """Write the restitution at the contact, from both bodies and from one."""
     a, b = levers
     closing = a.along("n", contact=True) - b.along("n", contact=True)
+    if LAWS[s.impact.law or BRACH].energetic:
+        page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
+        return
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")
+    if s.impact.inputs.outside_a is not None or not s.impact.complete:
+        return
     # From the body that changes more; max takes A of equal ones.
     body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))
     # Without friction a body that is free has it from (13).

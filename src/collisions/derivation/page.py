@@ -105,6 +105,12 @@ class Page:
             lines.append(numbers)
         self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)], fits=fits)
 
+    def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
+        """Write what a new symbol stands for; gives the symbol."""
+        symbol = Symbol(latex, formula.value, kind)
+        self.equation(caption, symbol, formula)
+        return symbol
+
     def balance(self, caption: str, left: Expression, right: Expression, kind: str) -> None:
         """Write a balance, formula = formula: in symbols, in numbers, and the value of both sides."""
         sides = (left, right)

@@ -75,6 +75,19 @@ class Body:
         self.mass = Symbol(f"m_{label}", self.start.mass, "mass")
 
     @property
+    def outside(self) -> tuple[Any, Any, Any] | None:
+        """The impulse on it from outside, along x and y and about the centre of mass; None if there is none."""
+        parts = self.side.outside_x, self.side.outside_y, self.side.outside_yaw
+        return parts if any(parts) else None
+
+    def pushed(self, direction: str) -> Symbol:
+        """Component "x", "y", "n" or "t" of the impulse from outside."""
+        x, y, _ = self.outside or (0.0, 0.0, 0.0)
+        nx, ny = self.impact.normal
+        value = {"x": x, "y": y, "n": nx * x + ny * y, "t": nx * y - ny * x}[direction]
+        return Symbol(rf"\mathrm{{J}}_{{{self.label}{direction}}}", value, "impulse")
+
+    @property
     def inertia(self) -> Symbol:
         """Its yaw inertia about the centre of mass."""
         return Symbol(rf"\bar{{I}}_{self.label}", self.start.yaw_inertia or 0.0, "inertia")

@@ -14,7 +14,8 @@ from ..directions import from_degrees
 from ..formatting import decimals_of, in_words, places, scale_of, unit_of, with_decimals
 from ..formatting import percent as in_percent
 from ..impact import Impact, solve_changed
-from ..kernels.contact_laws import BRACH, LAWS
+from ..inputs import OUTSIDE
+from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.status import EPS
 from ..model_choice import ModelChoice
 from ..outlines import overlap, placed
@@ -140,6 +141,7 @@ class ImpactCase(_Case):
             point = 0.5 * (places[0] + places[2]), 0.5 * (places[1] + places[3])
             how = ", with the contact point taken half-way between the centres"
         options: dict[str, Any] = {inputs.rule: inputs.rule_value, "law": inputs.law or BRACH}
+        options |= {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
         return required_model(a, b, impact.restitution, normal=impact.normal, point=point, **options), how
 
     @cached_property
@@ -148,7 +150,8 @@ class ImpactCase(_Case):
         impact = self.answer
         if impact.law is None or impact.model == "linear_central":
             return []
-        others = [name for name in LAWS if name != impact.law]
+        by_friction = impact.inputs.rule == FRICTION
+        others = [name for name, law in LAWS.items() if name != impact.law and (by_friction or not law.energetic)]
         return [(f"under the law {name!r} instead of {impact.law!r}", solve_changed(impact, law=name)) for name in others]
 
     @cached_property

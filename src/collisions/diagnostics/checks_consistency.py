@@ -63,12 +63,12 @@ def rounding(case: ImpactCase) -> Iterator[Measured]:
     sides = (impact.a, impact.b)
     if not any(_has_infinite_energy(side) for side in sides):
         before, after = (sum(_energy(side, after) for side in sides) for after in (False, True))
-        lost = impact.energy_loss + sum(side.tyre_loss for side in sides)
-        by_speeds = share(abs((before - after) - lost), max(abs(lost), impact.energy_absorbed))
+        lost = impact.energy_loss + sum(side.tyre_loss - side.outside_work for side in sides)
+        by_speeds = share(abs((before - after) - lost), max(abs(impact.energy_loss), abs(lost), impact.energy_absorbed))
         if by_speeds > off:
             off = by_speeds
             what = (
-                f"kinetic energies before and after differ by {case.text(before - after, 'energy')}, and the impulse takes "
+                f"kinetic energies before and after differ by {case.text(before - after, 'energy')}, and the impulses take "
                 f"{case.text(lost, 'energy')}"
             )
     yield Measured(off, f"{what}: rounding of speeds that are large against the closing speed")
@@ -164,15 +164,12 @@ def friction_gain(case: ImpactCase) -> Iterator[Measured]:
 def jamming(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
     frictionless = impact.effective_mass * impact.closing_speed
-    if (
-        impact.regime in ("given", "sliding")
-        and impact.pulse is None
-        and frictionless > 0.0
-        and impact.compression_impulse != 0.0
-    ):
-        part = 1.0 - frictionless / impact.compression_impulse
+    apart = impact.pulse is not None or impact.inputs.outside_a is not None
+    if impact.regime in ("given", "sliding") and frictionless > 0.0 and impact.normal_impulse != 0.0 and not apart:
+        times = impact.normal_impulse / (1.0 + impact.restitution) / frictionless
+        part = 1.0 - 1.0 / times
         sentence = (
-            f"the tangential impulse makes the normal one {impact.compression_impulse / frictionless:.2f} times as large: the "
+            f"the tangential impulse makes the normal one {times:.2f} times as large: the "
             f"ratio is {part:.2f} of the one at which the bodies jam"
         )
         yield Measured(part, sentence)
@@ -194,10 +191,25 @@ def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     ):
         return
     (ax, ay), (bx, by) = (side.after.velocity_at(point) for _, _, side in case.sides)
-    approach = nx * (ax - bx) + ny * (ay - by)
+    # An incomplete impact ends while they approach.
+    approach = nx * (ax - bx) + ny * (ay - by) + min(impact.separation_speed, 0.0)
     speed = case.text(approach, "speed")
     sentence = f"after the impact the contact points still approach at {speed}: {impact.model} leaves the turning out"
     yield Measured(approach, sentence)
+
+
+@finding(
+    "speed at which the contact points still approach when an incomplete impact ends",
+    above(0.0, "m/s"),
+    "set here: solid bodies do not pass through each other",
+)
+def incomplete(case: ImpactCase) -> Iterator[Measured]:
+    speed = -case.answer.separation_speed
+    sentence = (
+        f"the impact ends while the contact points still approach at {case.text(speed, 'speed')} (restitution "
+        f"{case.answer.restitution:.3g}): the bodies must be able to pass, or what held them to tear"
+    )
+    yield Measured(speed, sentence)
 
 
 @finding(
@@ -206,7 +218,7 @@ def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     "set here: two positions of 10 cm each; stiff outlines of vehicles that turn apart pass by less",
 )
 def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
-    if case.overlaps is not None:
+    if case.overlaps is not None and case.answer.complete:
         now, later, rounding = case.overlaps
         depth = max(now, 0.0)
         sentence = (
@@ -222,7 +234,7 @@ def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
     "set here: the crush by left_out, positions to 10 cm each, and 10 cm for outlines that are rounder than drawn",
 )
 def outlines_overlap(case: ImpactCase) -> Iterator[Measured]:
-    if case.overlaps is not None:
+    if case.overlaps is not None and case.answer.complete:
         now, _, rounding = case.overlaps
         pulse, left = case.answer.pulse, case.left_out
         depth, crush = max(now, 0.0), pulse.max_crush if pulse is not None else left.mutual_crush if left is not None else 0.0

@@ -3,7 +3,7 @@
 from math import inf
 from typing import Any
 
-from .contact_laws import LAWS, RULES, dissipates, energy_losses
+from .contact_laws import LAWS, RULES, dissipates, energetic_contact, energy_losses
 from .elementwise import first_status, more_digits, select
 from .status import EPS, Answer, Status
 
@@ -142,24 +142,38 @@ def oblique_central(
     sticking_slip = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
     no_slip_t = 0.0 - (1.0 - sticking_slip) * slip
-    sticks, ratio, _, pulls = RULES[rule].decide(tangential, change_n, no_slip_t)
-    change_t = select(sticks, no_slip_t, ratio * change_n)
+    energetic = LAWS[law].energetic
+    if energetic:
+        # In changes of velocity, each of which is its impulse over the effective mass.
+        passage = energetic_contact(restitution, closing, slip, tangential, lambda along_n, along_t: (along_n, along_t), 1.0)
+        change_n, change_t, sticks, pulls = passage.normal, passage.tangential, passage.sticks, passage.normal <= 0.0
+    else:
+        sticks, ratio, _, pulls = RULES[rule].decide(tangential, change_n, no_slip_t)
+        change_t = select(sticks, no_slip_t, ratio * change_n)
     normal = effective_mass * change_n
     impulse_t = effective_mass * change_t
     if impulse_only:
         work = closing * normal + slip * impulse_t
         return (closing > 0.0) & (work - work == 0.0) & (immovable ^ True), pulls, normal, impulse_t
 
-    beyond_sticking = change_t - no_slip_t
-    slip_after = sticking_slip * slip + beyond_sticking
-    # At rest after sticking, so that the sum is the slip before, to the bit.
-    slip_sum = (
-        select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
-    )
-    impulse_work = normal * change_n + impulse_t * change_t if dissipates(rule, law) else 0.0
-    loss_n, loss_t, loss, gains = energy_losses(
-        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, rule, law, eps
-    )
+    separation: Any = 0.0
+    if energetic:
+        separation, slip_after, gains = passage.separation, passage.slip_after, False
+        loss_n, loss_t = effective_mass * passage.loss_n, effective_mass * passage.loss_t
+        loss = loss_n + loss_t
+    else:
+        beyond_sticking = change_t - no_slip_t
+        slip_after = sticking_slip * slip + beyond_sticking
+        # At rest after sticking, so that the sum is the slip before, to the bit.
+        slip_sum = (
+            select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after)
+            if LAWS[law].compression_limit
+            else slip + slip_after
+        )
+        impulse_work = normal * change_n + impulse_t * change_t if dissipates(rule, law) else None
+        loss_n, loss_t, loss, gains = energy_losses(
+            restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, eps
+        )
 
     change_x = nx * change_n - ny * change_t
     change_y = ny * change_n + nx * change_t
@@ -169,6 +183,8 @@ def oblique_central(
     total = normal + impulse_t + loss + loss_n + loss_t + slip_after + change_x + change_y
     # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_impulse)
+    if energetic:
+        total = total + separation
     spins: Any = False if carrying else (spin_a != 0.0) | (spin_b != 0.0)
     fine = (closing > 0.0) & (total - total == 0.0) & ((gains | pulls | spins) ^ True)
     status = (
@@ -209,4 +225,5 @@ def oblique_central(
         delta_vy_a=-(share_a * change_y),
         delta_vx_b=share_b * change_x,
         delta_vy_b=share_b * change_y,
+        separation_speed=separation,
     )

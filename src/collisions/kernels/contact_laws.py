@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import Any, NamedTuple
 
-from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, select
+from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, safe_divisor, select
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -26,6 +26,9 @@ class Law:
         What no slip means, in a few words for messages.
     derivation, assumption : str
         The same as ``explain`` and a report say it.
+    energetic : bool
+        Whether restitution gives back a part of the work of compression, as in ``energetic_contact``, and not of the impulse
+        or the closing speed. Such a law takes friction only, and has its own separation speed.
 
     Attributes
     ----------
@@ -39,6 +42,7 @@ class Law:
     no_slip: str
     derivation: str
     assumption: str
+    energetic: bool = False
     compression_limit: bool = field(init=False)
 
     def __post_init__(self) -> None:
@@ -101,7 +105,7 @@ def _share_of_critical(share: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
 
 
 FRICTION, IMPULSE_RATIO, CRITICAL_FRACTION = "friction", "impulse_ratio", "critical_fraction"
-BRACH, KUDLICH_SLIBAR = "brach", "kudlich-slibar"
+BRACH, KUDLICH_SLIBAR, STRONGE = "brach", "kudlich-slibar", "stronge"
 
 RULES = {
     rule.name: rule
@@ -131,8 +135,102 @@ LAWS = {
             assumption="with enough friction the contact is at rest at the end of compression, and the whole impulse until "
             "then is multiplied by 1 + e, so that slip comes back with the opposite sign",
         ),
+        Law(
+            STRONGE,
+            lambda restitution: 0.0,
+            no_slip="slip that stops or turns around during the contact",
+            derivation='no slip is left just as the vehicles part (law "stronge")',
+            assumption="restitution gives back e squared of the work that compression took along the normal; friction acts "
+            "against the slip as it changes during the contact, in which it may stop for good or turn around",
+            energetic=True,
+        ),
     )
 }
+
+
+class Passage(NamedTuple):
+    """How a contact passed under an energetic law: its impulse on B, the speeds after, the losses, and whether it stuck."""
+
+    normal: Any
+    tangential: Any
+    separation: Any
+    slip_after: Any
+    loss_n: Any
+    loss_t: Any
+    sticks: Any
+
+
+def energetic_contact(
+    restitution: Any, closing: Any, slip: Any, friction: Any, respond: Callable[[Any, Any], tuple[Any, Any]], stuck: Any
+) -> Passage:
+    """A contact whose slip may stop or turn around while it lasts, with energetic restitution (law "stronge").
+
+    Along the impulse the velocities at the contact change linearly until the slip stops; then, after a corner, linearly again:
+    without slip if friction can hold it, else sliding on, the way that the coupling of normal and tangent pushes. Compression
+    ends where the closing speed is 0, restitution where e squared of its work has been given back. An incomplete impact
+    (e < 0) ends where e squared of that work was still to be done.
+
+    ``respond`` gives the change of velocity along n and t by an impulse along n and t, ``stuck`` that along n by a unit of
+    normal impulse while the contact sticks. Losses are sums of terms that are >= 0.
+
+    Stronge, Journal of Applied Mechanics 58 (1991); Wang and Mason, Journal of Applied Mechanics 59 (1992).
+    """
+    unit = select(closing > 0.0, closing + abs(slip), 1.0)
+    c = select(closing > 0.0, closing / unit, 1.0)
+    s = abs(slip) / unit
+    forward = select(slip < 0.0, -1.0, 1.0)
+    # Along n and t by a unit of the way on which friction slides: an infinite friction needs no case of its own.
+    moderate = friction <= 1.0
+    along = select(moderate, 1.0, 1.0 / select(moderate, 1.0, friction))
+    across = select(moderate, friction, 1.0)
+    yields, by_friction = respond(along, -forward * across)
+    slows = -forward * by_friction
+    stops = select(s == 0.0, 0.0, select(slows > 0.0, s / safe_divisor(slows != 0.0, slows), inf))
+    # Closing speed when the slip stops.
+    w = c - yields * stops
+    slides = (yields > 0.0) & ((w <= -select(restitution < 0.0, 0.0, restitution) * c) | (friction == 0.0))
+    compressing = (w > 0.0) & (slides ^ True)
+    per_c = safe_divisor(yields != 0.0, yields)
+
+    # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of normal impulse, a sum.
+    coupling, k_tt = respond(0.0, 1.0)
+    k_tt = safe_divisor(k_tt != 0.0, k_tt)
+    beyond = abs(coupling) - friction * k_tt
+    moves = beyond > 0.0
+    beyond = select(moves, beyond, 0.0)
+    back = select(coupling < 0.0, 1.0, -1.0)
+    ratio = select(moves, back * friction, -coupling / k_tt)
+    softer = stuck + beyond * (abs(coupling) / k_tt)
+    softer = select(softer > 0.0, softer, 1.0)
+    first = along * stops
+    work = select(compressing, 0.5 * first * (c + w), 0.0)
+    stored = select(compressing | slides, 0.0, along * ((restitution * c - w) * ((restitution * c + w) / per_c)))
+    parting = select(compressing, restitution, 1.0) * (w * w + softer * select(compressing, 2.0 * work, stored)) ** 0.5
+    regained = safe_divisor(True, select(compressing | slides, 1.0, parting - w))
+    rest = select(compressing, (w + parting) / softer, stored / regained)
+    absorbed = select(compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c))))
+    lost = (1.0 - restitution) * (1.0 + restitution) * absorbed
+
+    # An incomplete impact may end before the slip has stopped.
+    early = compressing & (rest <= 0.0)
+    still = select(early, w * w + yields * (rest * (parting - w)) / select(early, along, 1.0), 0.0) ** 0.5
+    to_end = select(early, 2.0 * lost / select(early, along * (c + still), 1.0), (1.0 + restitution) * (c / per_c))
+    slides = slides | early
+    moves = moves & (slides ^ True)
+    to_stop = select(slides, to_end, stops)
+    slip_left = select(slides, s - slows * to_end, 0.0)
+    rest = select(slides, 0.0, rest)
+    after = select(moves, beyond * rest, 0.0)
+    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(moves, 0.5 * friction * (rest * after), 0.0)
+    return Passage(
+        normal=(along * to_stop + rest) * unit,
+        tangential=(select(slides, 0.0, ratio * rest) - forward * across * to_stop) * unit,
+        separation=select(early, -still, select(slides, restitution * c, parting)) * unit,
+        slip_after=(forward * slip_left - back * after) * unit,
+        loss_n=lost * unit * unit,
+        loss_t=by_friction * unit * unit,
+        sticks=(slides | moves) ^ True,
+    )
 
 
 def energy_losses(
@@ -145,20 +243,18 @@ def energy_losses(
     normal: Any,
     tangential: Any,
     impulse_work: Any,
-    rule: str,
-    law: str,
     eps: float,
 ) -> tuple[Any, Any, Any, Any]:
     """Loss along the normal (eq 8), loss along the tangent, their sum, and whether the sum is a gain beyond its own rounding.
 
     Kelvin's theorem, and for friction with a compression limit the form that cannot go negative. Differences of kinetic
     energies (eq 7 of the paper) lose every digit in a moving frame; these forms use only what happens at the contact, hold for
-    barriers and pivots and do not depend on the frame. ``impulse_work`` is P.K P, twice an energy, ``slip_change`` the
-    difference of the slip after from that of a sticking contact.
+    barriers and pivots and do not depend on the frame. ``impulse_work`` is P.K P, twice an energy, where the law ``dissipates``
+    and nothing else acts, else None; ``slip_change`` the difference of the slip after from that of a sticking contact.
     """
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
     loss_t = 0.0 - 0.5 * tangential * slip_sum
-    if dissipates(rule, law):
+    if impulse_work is not None:
         # Every term is >= 0: the compression impulse's own work, and friction over the slip left at the end of compression.
         loss = (0.5 * (1.0 - restitution) * impulse_work + abs(tangential * slip_change)) / (1.0 + restitution)
         return loss_n, loss_t, loss, False

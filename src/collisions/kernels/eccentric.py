@@ -5,9 +5,10 @@ pivots and free bodies differ only in a_i and b_i.
 """
 
 from math import nan
+from operator import add
 from typing import Any
 
-from .contact_laws import LAWS, RULES, dissipates, energy_losses
+from .contact_laws import LAWS, RULES, dissipates, energetic_contact, energy_losses
 from .elementwise import first_status, more_digits, safe_divisor, select, turning_velocity
 from .status import EPS, Answer, Status
 
@@ -34,6 +35,12 @@ def recoil(
     if pinned:
         return *turning_velocity(spin, x, y, pivot_x, pivot_y), spin
     return a * impulse_x, a * impulse_y, spin
+
+
+def moment_about(impulse: tuple[Any, ...], x: Any, y: Any, pivot_x: Any, pivot_y: Any, pinned: bool) -> Any:
+    """Moment of an impulse from outside, with components x, y, yaw at the centre of mass: about that, or about the pivot."""
+    jx, jy, yaw = impulse
+    return yaw + ((x - pivot_x) * jy - (y - pivot_y) * jx) if pinned else yaw
 
 
 def eccentric(
@@ -69,11 +76,13 @@ def eccentric(
     impulse_only: bool = False,
     *,
     contact_velocity: tuple[Any, Any] | None = None,
+    outside: tuple[Any, ...] | None = None,
 ) -> Any:
     """The ``Answer`` of the eccentric model.
 
     ``contact_velocity`` is the closing speed and the slip before, known to more digits than the motions hold. It is used where
-    it is that of the motions to their rounding.
+    it is that of the motions to their rounding. ``outside`` has impulses on A and then on B from other things than the contact
+    (x, y, yaw at the centre of mass): they shift the velocities at the contact, which brings what is left to the separation.
 
     With ``impulse_only``: whether there is an answer, the closing speed, the impulse along n and t, that without slip, and of A
     and B a and b, the torque, and the torque of the impulse without slip.
@@ -115,6 +124,21 @@ def eccentric(
     sticking_slip = LAWS[law].sticking_slip(restitution)
     change_n = (1.0 + restitution) * closing
     change_t = 0.0 - (1.0 - sticking_slip) * slip
+    # What is closing, the slip and the restitution when the contact acts.
+    pushed, shifted, e = closing, slip, restitution
+    on_a: tuple[Any, ...] = ()
+    on_b: tuple[Any, ...] = ()
+    if outside is not None:
+        on_a = moment_about(outside[:3], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a), *outside[:2]
+        on_b = moment_about(outside[3:], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b), *outside[3:5]
+        turn_a, turn_b = b_a * on_a[0], b_b * on_b[0]
+        push_x = (a_a * on_a[1] - a_b * on_b[1]) + (turn_b * ry_b - turn_a * ry_a)
+        push_y = (a_a * on_a[2] - a_b * on_b[2]) + (turn_a * rx_a - turn_b * rx_b)
+        push_n = nx * push_x + ny * push_y
+        push_t = ny * push_x - nx * push_y
+        pushed, shifted = closing + push_n, slip + push_t
+        e = restitution * (closing / safe_divisor(pushed != 0.0, pushed))
+        change_n, change_t = change_n + push_n, change_t - push_t
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
@@ -122,46 +146,86 @@ def eccentric(
     no_slip_n = ((a * change_n + q_a * rn_a + q_b * rn_b) / trace) / divided_by
     no_slip_t = no_slip_t_determinant / divided_by
 
-    sticks, ratio, needs_no_slip, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
-    resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
-    jams = (resistance <= 0.0) & (sticks ^ True)
-    sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
-    normal = select(sticks, no_slip_n, sliding_n)
-    impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
+    energetic = LAWS[law].energetic
+    if energetic:
+
+        def respond(along_n: Any, along_t: Any) -> tuple[Any, Any]:
+            turn_a = b_a * (rt_a * along_n - rn_a * along_t)
+            turn_b = b_b * (rt_b * along_n - rn_b * along_t)
+            return a * along_n + rt_a * turn_a + rt_b * turn_b, a * along_t - rn_a * turn_a - rn_b * turn_b
+
+        k_tt = respond(0.0, 1.0)[1]
+        stuck_n = determinant * (trace / safe_divisor(k_tt != 0.0, k_tt))
+        passage = energetic_contact(e, pushed, shifted, tangential, respond, stuck_n)
+        normal, impulse_t, sticks = passage.normal, passage.tangential, passage.sticks
+        needs_no_slip, pulls, jams = tangential > 0.0, normal <= 0.0, False
+    else:
+        sticks, ratio, needs_no_slip, pulls = RULES[rule].decide(tangential, no_slip_n, no_slip_t)
+        resistance = a + brt_a * (rt_a - ratio * rn_a) + brt_b * (rt_b - ratio * rn_b)
+        jams = (resistance <= 0.0) & (sticks ^ True)
+        sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
+        normal = select(sticks, no_slip_n, sliding_n)
+        impulse_t = select(sticks, no_slip_t, ratio * sliding_n)
     torque_a = rt_a * normal - rn_a * impulse_t
     torque_b = rn_b * impulse_t - rt_b * normal
     stuck = bounded & (regular ^ True) & needs_no_slip
+    closes = closing > 0.0
+    apart = closing < 0.0
+    if outside is not None:
+        parts = (pushed if energetic else change_n) <= 0.0
+        closes, apart = closes & (parts ^ True), apart | ((closing > 0.0) & parts)
     if impulse_only:
         bounded = bounded & (0.0 * normal + 0.0 * impulse_t == 0.0)
-        answered = (closing > 0.0) & bounded & ((immovable | stuck | pulls | jams) ^ True)
+        answered = closes & bounded & ((immovable | stuck | pulls | jams) ^ True)
         for_a = a_a, b_a, torque_a, rt_a * no_slip_n - rn_a * no_slip_t
         for_b = a_b, b_b, torque_b, rn_b * no_slip_t - rt_b * no_slip_n
         return answered, closing, (normal, impulse_t), (no_slip_n, no_slip_t), for_a, for_b
 
-    beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
-    slip_after = sticking_slip * slip + beyond_sticking
-    # At rest after sticking, so that the sum is the slip before, to the bit.
-    slip_sum = (
-        select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after) if LAWS[law].compression_limit else slip + slip_after
-    )
-    impulse_work: Any = 0.0
-    if dissipates(rule, law):
-        impulse_work = a * (normal * normal + impulse_t * impulse_t) + b_a * torque_a * torque_a + b_b * torque_b * torque_b
-    loss_n, loss_t, loss, gains = energy_losses(
-        restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, rule, law, eps
-    )
+    separation: Any = 0.0
+    if energetic:
+        separation, slip_after = passage.separation, passage.slip_after
+        loss_n, loss_t, gains = passage.loss_n, passage.loss_t, False
+        loss = loss_n + loss_t
+        if outside is not None:
+            # What the contact took, at the mean of the velocities before and after; the passage began with those shifted.
+            mean = separation / safe_divisor(closing != 0.0, closing)
+            of_mean = mean, closing, slip, slip_after, slip + slip_after, 0.0, normal, impulse_t, None
+            _, _, loss, gains = energy_losses(*of_mean, eps)
+            loss_n = loss - loss_t
+    else:
+        beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
+        slip_after = sticking_slip * slip + beyond_sticking
+        # At rest after sticking, so that the sum is the slip before, to the bit.
+        slip_sum = (
+            select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after)
+            if LAWS[law].compression_limit
+            else slip + slip_after
+        )
+        impulse_work: Any = None
+        if dissipates(rule, law) and outside is None:
+            work_a, work_b = b_a * torque_a * torque_a, b_b * torque_b * torque_b
+            impulse_work = a * (normal * normal + impulse_t * impulse_t) + work_a + work_b
+        loss_n, loss_t, loss, gains = energy_losses(
+            restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, eps
+        )
 
     impulse_x = nx * normal - ny * impulse_t
     impulse_y = ny * normal + nx * impulse_t
-    dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, torque_a, -impulse_x, -impulse_y, x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
-    dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, torque_b, impulse_x, impulse_y, x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
+    by_a: Any = torque_a, -impulse_x, -impulse_y
+    by_b: Any = torque_b, impulse_x, impulse_y
+    if outside is not None:
+        by_a, by_b = tuple(map(add, by_a, on_a)), tuple(map(add, by_b, on_b))
+    dvx_a, dvy_a, spin_change_a = recoil(a_a, b_a, by_a[0], by_a[1], by_a[2], x_a, y_a, pivot_x_a, pivot_y_a, pinned_a)
+    dvx_b, dvy_b, spin_change_b = recoil(a_b, b_b, by_b[0], by_b[1], by_b[2], x_b, y_b, pivot_x_b, pivot_y_b, pinned_b)
     # 0.0 * value is 0 if finite, else NaN: adding the values themselves could overflow.
     total = loss + slip_after + dvx_a + dvy_a + spin_change_a + dvx_b + dvy_b + spin_change_b
     total = total + (0.0 * impulse_x + 0.0 * impulse_y + 0.0 * no_slip_n + 0.0 * no_slip_t)
     if LAWS[law].compression_limit:
         total = total + loss_n + loss_t
+    if energetic:
+        total = total + separation
     finite = bounded & (total - total == 0.0)
-    fine = (closing > 0.0) & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
+    fine = closes & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
     status = (
         Status.OK
         if fine is True
@@ -170,7 +234,7 @@ def eccentric(
             Status.OK,
             first_status(
                 (immovable, Status.IMMOVABLE),
-                (closing < 0.0, Status.SEPARATING),
+                (apart, Status.SEPARATING),
                 (closing == 0.0, Status.GRAZING),
                 (stuck, Status.SINGULAR_CONTACT),
                 (pulls, Status.NO_SLIP_PULLS),
@@ -206,9 +270,15 @@ def eccentric(
         delta_vx_b=dvx_b,
         delta_vy_b=dvy_b,
         delta_yaw_rate_b=spin_change_b,
+        separation_speed=separation,
     )
 
 
 def from_contact_velocity(closing: Any, slip: Any, *inputs: Any) -> Any:
     """``eccentric`` with the closing speed and the slip before, which stand before its other inputs."""
     return eccentric(*inputs, contact_velocity=(closing, slip))
+
+
+def with_outside(*inputs: Any) -> Any:
+    """``eccentric`` with the impulses from outside on A and on B, which stand before its other inputs."""
+    return eccentric(*inputs[6:], outside=inputs[:6])

@@ -129,4 +129,15 @@ UNIT_INTERVAL = Domain(
     lambda values: bool(np.minimum.reduce(values) >= 0.0 and np.maximum.reduce(values) <= 1.0),
 )
 UNCHECKED = Domain("unchecked", (), lambda values: True)
+# Above -1: below 0 an incomplete impact, whose contact ends before a common velocity.
+INCOMPLETE = Domain(
+    "incomplete restitution",
+    ((lambda value: (value <= -1.0) | (value > 1.0) | (value != value), Status.BAD_RESTITUTION),),
+    lambda values: bool(np.minimum.reduce(values) > -1.0 and np.maximum.reduce(values) <= 1.0),
+)
 RESTITUTION = UNIT_INTERVAL._replace(name="restitution", faults=((UNIT_INTERVAL.faults[0][0], Status.BAD_RESTITUTION),))
+
+
+def restitution_domain(incomplete: Any) -> Domain:
+    """The restitutions that a solver takes, with its option ``incomplete`` as given."""
+    return INCOMPLETE if incomplete is True else RESTITUTION

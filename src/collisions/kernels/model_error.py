@@ -25,12 +25,16 @@ LINEAR, OBLIQUE, ECCENTRIC, LACKING = range(4)
 
 
 class Known(NamedTuple):
-    """What is known: positions of A and B relative to the contact, their yaw inertias, everything needed; and who is pinned."""
+    """What is known: positions of A and B relative to the contact, their yaw inertias, everything needed; and who is pinned.
+
+    ``outside`` says whether there are impulses from outside, whose numbers then stand before the tolerance.
+    """
 
     places: tuple[bool, bool]
     inertias: tuple[bool, bool]
     all: bool
     pinned: tuple[bool, bool]
+    outside: bool = False
 
 
 def least_model(*given: Any) -> tuple[Any, Any, Any]:
@@ -38,16 +42,20 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
 
     The arguments are six numbers of the contact, nine of each body (unknown ones filled in so that they make no torque),
     the tolerance, rule, law, ``Known``, and eps. LACKING is the eccentric model where it lacks something, unless it is
-    known that the bodies do not approach; if either body has a pivot, every input is needed.
+    known that the bodies do not approach; with a pivot or an impulse from outside every input is needed.
     """
-    contact, bodies, tolerance = given[:6], (given[6:15], given[15:24]), given[24]
-    rule, law, known, eps = given[25:]
-    linear, oblique, closing, torques, impulse = _errors(contact, bodies, rule, law, known.pinned, eps)
+    contact, bodies, outside, (tolerance, rule, law, known, eps) = (
+        given[:6],
+        (given[6:15], given[15:24]),
+        given[24:-5],
+        given[-5:],
+    )
+    linear, oblique, closing, torques, impulse = _errors(contact, bodies, outside, rule, law, known.pinned, eps)
     lacking: Any = False
     approach: Any = True
     if not known.all:
         # Without a position the lever arm is unknown, which matters for a body that can turn or is turning.
-        beside_a_pivot = any(known.pinned)
+        beyond_central = any(known.pinned) or known.outside
         for body, torque, placed, weighed in zip(bodies, torques, known.places, known.inertias, strict=True):
             _, inertia, _, _, spin, x, y, *_ = body
             if not placed:
@@ -58,11 +66,11 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
                 lever = _LEVER * eps * (abs(x) + abs(y) + abs(contact[4]) + abs(contact[5]))
                 lever = select(lever < _LONGEST, lever, _LONGEST)
                 lacking = lacking | ((torque <= lever * impulse) ^ True)
-        if beside_a_pivot:
+        if beyond_central:
             lacking = True
         apart = approach & ((closing > 0.0) ^ True)
         lacking = lacking & (apart ^ True)
-        unknown = inf if beside_a_pivot else nan
+        unknown = inf if beyond_central else nan
         linear, oblique = select(lacking, unknown, linear), select(lacking, unknown, oblique)
         lacking = apart ^ True
     within = tolerance > 0.0
@@ -72,15 +80,22 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
 
 
 def _errors(
-    contact: tuple[Any, ...], bodies: tuple[Any, Any], rule: str, law: str, pinned: tuple[bool, bool], eps: float
+    contact: tuple[Any, ...],
+    bodies: tuple[Any, Any],
+    outside: tuple[Any, ...],
+    rule: str,
+    law: str,
+    pinned: tuple[bool, bool],
+    eps: float,
 ) -> tuple[Any, Any, Any, tuple[Any, ...], Any]:
     """Errors of the linear and the oblique model for the worse of both bodies; closing speed; torques on A and B; impulse.
 
-    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as with a pivot. The
+    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as with a pivot or an
+    impulse from outside. The
     torques are sizes, and so is the impulse: together with those of the impulse without slip where that decides the ratio.
     """
     answered, closing, (normal, tangential_impulse), no_slip, for_a, for_b = _eccentric(
-        *contact, *bodies[0], *bodies[1], rule, law, *pinned, eps, impulse_only=True
+        *contact, *bodies[0], *bodies[1], rule, law, *pinned, eps, impulse_only=True, outside=outside or None
     )
     torques: tuple[Any, ...] = (abs(for_a[2]), abs(for_b[2]))
     impulse = abs(normal) + abs(tangential_impulse)
@@ -91,7 +106,7 @@ def _errors(
         )
         impulse = impulse + select(matters, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
     beyond: Any = select(answered, inf, nan)
-    if any(pinned):
+    if any(pinned) or outside:
         return beyond, beyond, closing, torques, impulse
     # Mass, velocity and yaw rate of each body.
     point_masses = *bodies[0][:1], *bodies[0][2:5], *bodies[1][:1], *bodies[1][2:5]

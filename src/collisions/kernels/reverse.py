@@ -29,8 +29,13 @@ _FROM_PLACES = np.linalg.inv(np.vander(PLACES, increasing=True)).T
 _REAL = 1e-6
 
 
-def inline_speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS) -> list[Pair]:
-    """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart."""
+def inline_speeds(
+    known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any, eps: float = EPS, incomplete: bool = False
+) -> list[Pair]:
+    """Closing and separation speeds that fit the three known values: one pair, or two that the caller must tell apart.
+
+    ``incomplete`` says whether the separation speed may be below 0.
+    """
     v = {name: known[name] for name in VELOCITIES if name in known}
     restitution: Any = known.get("restitution")
     if len(v) == 3:
@@ -43,7 +48,7 @@ def inline_speeds(known: dict[str, Any], share_a: Any, share_b: Any, reduced: An
     if len(v) == 1:
         closing = losing_speed(known["energy_loss"] / reduced, restitution)
         return [(closing, restitution * closing)]
-    return _from_energy(v, share_a, share_b, squared, eps)
+    return _from_energy(v, share_a, share_b, squared, eps, incomplete)
 
 
 def allowed_losses(known: dict[str, Any], share_a: Any, share_b: Any, reduced: Any) -> tuple[Any, Any]:
@@ -117,7 +122,7 @@ def _names(v: dict[str, Any]) -> tuple[str, str]:
     return first, second
 
 
-def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float) -> list[Pair]:
+def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, eps: float, incomplete: bool) -> list[Pair]:
     """With (g - r)(g + r) given."""
     p, q, difference = _relation(v, share_a, share_b)
     root = np.sqrt(squared)
@@ -125,7 +130,8 @@ def _from_energy(v: dict[str, Any], share_a: Any, share_b: Any, squared: Any, ep
         case ("va", "vb"):
             left = (difference - root) * (difference + root)
             # Rounding may leave a value below 0 for an impact that loses all it can.
-            return [(difference, np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left)))]
+            parting = np.sqrt(np.where((left < 0.0) & (left >= -16.0 * eps * squared), 0.0, left))
+            return [(difference, parting), (difference, -parting)] if incomplete else [(difference, parting)]
         case ("va_after", "vb_after"):
             return [(np.hypot(difference, root), difference)]
         case ("va", "va_after") | ("vb", "vb_after"):

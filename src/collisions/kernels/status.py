@@ -94,7 +94,7 @@ class Status(IntEnum):
     )
     NOT_FINITE = _Outcome(9, "input", "an input is NaN, or infinite where it may not be")
     NOT_POSITIVE = _Outcome(10, "input", "a mass, a yaw inertia, a duration, a stiffness or a length is not greater than 0")
-    BAD_RESTITUTION = _Outcome(11, "input", "the restitution is outside 0 to 1")
+    BAD_RESTITUTION = _Outcome(11, "input", "the restitution is outside 0 to 1, or with incomplete=True not above -1")
     BAD_FRICTION = _Outcome(12, "input", "the friction is below 0")
     BAD_FRACTION = _Outcome(13, "input", "the critical fraction is outside 0 to 1")
     ZERO_NORMAL = _Outcome(14, "input", "the normal has no length")
@@ -171,3 +171,5 @@ class Answer(NamedTuple):
     delta_vx_b: Any = 0.0
     delta_vy_b: Any = 0.0
     delta_yaw_rate_b: Any = 0.0
+    # Of a law with a separation speed of its own.
+    separation_speed: Any = 0.0

@@ -89,20 +89,23 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     e = impact.restitution
     compression, restitution = impact.compression_impulse, impact.restitution_impulse
     turn = time * pulse.compression_time(e)
+    # An incomplete impact ends on the way up.
+    top = min(turn, time)
     share = np.linspace(0.0, 1.0, _POINTS)
-    rise = pulse.rise(share)
+    rise = pulse.rise(share * (top / turn))
     # The height for which the polygon drawn, not only the sine, has the area A1; A2 then has its own.
-    peak = compression / (turn * float(np.mean(0.5 * (rise[1:] + rise[:-1]))))
+    highest = compression / (top * float(np.mean(0.5 * (rise[1:] + rise[:-1]))))
+    peak = highest * float(rise[-1])
     in_time, in_force = labels.factor("duration"), labels.factor("N")
     for name, what, impulse, start, end, heights, hatch, shade in (
-        ("A1", "compression", compression, 0.0, turn, rise, "///", "#d9a7b5"),
-        ("A2", "restitution", restitution, turn, time, rise[::-1], "...", "#f6e9ed"),
+        ("A1", "compression", compression, 0.0, top, rise, "///", "#d9a7b5"),
+        ("A2", "restitution", restitution, top, time, rise[::-1], "...", "#f6e9ed"),
     ):
         label = f"{name} = {labels.text(impulse, 'N*s')}, {what}"
         if end <= start or impulse <= 0.0:
             axes.plot([], [], " ", label=label)
             continue
-        x, y = (start + (end - start) * share) * in_time, heights * peak * in_force
+        x, y = (start + (end - start) * share) * in_time, heights * highest * in_force
         outline = [x[0], *x, x[-1]], [0.0, *y, 0.0]
         axes.fill(*outline, fc=shade, ec=FORCE, lw=1.4, hatch=hatch, gid=name, label=label, zorder=2)
         if end - start > 0.12 * time:
@@ -114,13 +117,14 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     line: Any = {"lw": 1.4, "zorder": 4}
     text = f"mean force {labels.text(mean_force, 'N')}"
     axes.plot([0.0, time * in_time], [mean, mean], color=INK, ls=(0, (6, 3)), gid="mean force", label=text, **line)
-    text = f"end of compression, peak {labels.text(peak, 'N')}"
-    axes.plot([turn * in_time] * 2, [0.0, peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
+    text = f"{'end of compression' if impact.complete else 'cut short'}, peak {labels.text(peak, 'N')}"
+    axes.plot([top * in_time] * 2, [0.0, peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
     axes.set_xlabel(labels.label("time", "duration"))
     axes.set_ylabel(labels.label("normal force", "N"))
-    axes.set_title(f"e = A2/A1 = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed", fontsize=10.5)
+    ratio = "e = A2/A1" if impact.complete else "e"
+    axes.set_title(f"{ratio} = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed", fontsize=10.5)
     tidy(axes)
     legend_below(axes)
     return axes

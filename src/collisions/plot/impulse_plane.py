@@ -12,6 +12,7 @@ from ..formatting import UnitSystem
 from ..impact import Impact, answer_of, solved
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
+from ..model_choice import until_compressed
 from ..warning import quietly
 from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, only_of_an_impulse, tidy
 
@@ -73,7 +74,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor
     no_slip = answer_of(impact).no_slip_normal * factor, answer_of(impact).no_slip_tangential * factor
     plain = impact.model == "linear_central"
-    shows_no_slip = not plain and no_slip[0] > 0.0 and math.hypot(*no_slip) <= _FAR * math.hypot(normal, tangential)
+    energetic = LAWS[impact.law or BRACH].energetic
+    shows_no_slip = (
+        not plain and not energetic and no_slip[0] > 0.0 and math.hypot(*no_slip) <= _FAR * math.hypot(normal, tangential)
+    )
     seen = [(0.0, 0.0), (normal, tangential), *([no_slip] if shows_no_slip else [])]
     right = 1.3 * max(x for x, _ in seen)
     low, high = (pick(y for _, y in seen) for pick in (min, max))
@@ -83,6 +87,12 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     e = impact.restitution
     k_nn, k_nt = 1.0 / impact.effective_mass, answer_of(impact).coupling
     closing = impact.closing_speed * factor
+    names = ["normal_impulse", "tangential_impulse"]
+    compressed = [part * factor for part in until_compressed(impact.inputs, answer_of(impact), impact.choice, names)]
+    ends = closing, closing + impact.separation_speed * factor
+    if impact.inputs.outside_a is not None:
+        # Begun at another closing speed: where the impulses end that there were.
+        ends = k_nn * compressed[0] + k_nt * compressed[1], k_nn * normal + k_nt * tangential
     if not plain:
         _draw_friction(axes, impact, right, low, high)
 
@@ -94,11 +104,17 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         x, y, dx, dy = foot * ux, foot * uy, out * uy, -out * ux
         axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text, **style)
 
-    line("end of compression", k_nn, k_nt, closing, "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))
-    line("end of restitution", k_nn, k_nt, (1.0 + e) * closing, f"end of restitution (e = {e:.3g})", color=INK, lw=1.8)
+    end = "end of restitution" if impact.complete else "end of the contact, before that of compression"
+    line("end of compression", k_nn, k_nt, ends[0], "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))
+    line("end of restitution", k_nn, k_nt, ends[1], f"{end} (e = {e:.3g})", color=INK, lw=1.8)
+    path = [(0.0, 0.0), (normal, tangential)]
     if not plain:
         k_tt = _tangential_yield(impact)
         slip = impact.slip_before * factor
+        if impact.inputs.outside_a is not None:
+            slip = impact.slip_after * factor - k_nt * normal - k_tt * tangential
+        if energetic and impact.regime in ("sticking", "reversing"):
+            path.insert(1, _where_slip_stops(impact, slip, k_nt, k_tt))
         # A contact that moves along the normal alone keeps its slip under every impulse: there is no such line.
         slip_yields = closing * math.hypot(k_nt, k_tt) > _NO_YIELD * k_nn * (closing + abs(slip))
         if slip_yields:
@@ -108,13 +124,12 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
             text = "slip at separation if it sticks"
             line("no slip at separation", k_nt, k_tt, -(1.0 - left) * slip, text, color=GREY, lw=1.3, ls=(0, (5, 1.5, 1, 1.5)))
 
-    axes.plot([0.0, normal], [0.0, tangential], color=FORCE, lw=2.4, zorder=5, gid="impulse")
+    axes.plot(*zip(*path, strict=True), color=FORCE, lw=2.4, zorder=5, gid="impulse")
     if shows_no_slip:
         name = "no-slip impulse"
         axes.plot(*no_slip, "D", ms=11, mfc="none", mec=INK, mew=1.5, ls="none", zorder=6, gid=name, label=name)
-    compressed = normal / (1.0 + e), tangential / (1.0 + e)
     point: Any = {"ms": 8, "mec": FORCE, "ls": "none"}
-    text = "impulse at the end of compression"
+    text = "impulse at the end of compression" if impact.complete else "impulse at the end"
     axes.plot(*compressed, "o", mfc="white", mew=1.8, zorder=7, gid="at compression", label=text, **point)
     text = f"impulse: {_regime(impact)}"
     axes.plot(normal, tangential, "o", mfc=FORCE, zorder=8, gid="answer", label=text, **point)
@@ -128,7 +143,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
     without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside"
-    beyond = "" if plain or shows_no_slip else f"\n(the no-slip impulse {without_slip})"
+    beyond = "" if plain or shows_no_slip or energetic else f"\n(the no-slip impulse {without_slip})"
     axes.set_title(f"{pair}{beyond}", fontsize=10.5)
     tidy(axes)
     legend_below(axes)
@@ -157,6 +172,15 @@ def _draw_friction(axes: Axes, impact: Impact, right: float, low: float, high: f
     axes.plot([0.0, right], [0.0, -mu * right], gid="friction -", **style)
 
 
+def _where_slip_stops(impact: Impact, slip: float, k_nt: float, k_tt: float) -> tuple[float, float]:
+    """The impulse up to the corner of the path under a law in which friction acts against the slip as it changes."""
+    mu = math.copysign(impact.friction or 0.0, -slip)
+    if slip == 0.0 or math.isinf(mu):
+        return 0.0, -slip / k_tt
+    normal = -slip / (k_nt + mu * k_tt)
+    return normal, mu * normal
+
+
 def _tangential_yield(impact: Impact) -> float:
     """Change of slip by a unit of tangential impulse [1/kg]: read off the solver's answer to another impulse ratio."""
     if impact.model != "eccentric":
@@ -165,6 +189,7 @@ def _tangential_yield(impact: Impact) -> float:
     # With this sign the contact cannot jam.
     ratio: Any = math.copysign(1.0, coupling)
     with quietly():
-        other = solved(replace(impact.inputs, model="eccentric", rule=IMPULSE_RATIO, rule_value=ratio), on_failure="nan")
+        contact: Any = {"rule": IMPULSE_RATIO, "rule_value": ratio, "law": BRACH, "outside_a": None, "outside_b": None}
+        other = solved(replace(impact.inputs, model="eccentric", **contact), on_failure="nan")
     slip_change = other.slip_after - other.slip_before - coupling * other.normal_impulse
     return float(np.divide(slip_change, other.tangential_impulse))

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..impact import Impact
-from ..inputs import Inputs, OnFailure
+from ..inputs import Inputs, OnFailure, check_incomplete
 from ..kernels.central import shares
 from ..kernels.contact_laws import FRICTION
-from ..kernels.elementwise import RESTITUTION
+from ..kernels.elementwise import restitution_domain
 from ..kernels.reverse import VELOCITIES, allowed_losses, inline_speeds, moving_apart
 from ..kernels.status import Status
 from ..provenance import Reconstruction
@@ -49,13 +49,15 @@ def central(
     vb_after: Input | None = None,
     restitution: Input | None = None,
     energy_loss: Input | None = None,
+    incomplete: bool = False,
     on_failure: OnFailure | None = None,
 ) -> Impact:
     """In-line impact from exactly three of four velocities, restitution and energy loss.
 
     Two point masses on one line, A behind B: velocities are counted along the line from A to B, so ``va > vb`` before the
-    impact and ``va_after <= vb_after`` after it. All twenty combinations are solved in closed form (eqs 5 to 8 of "Application
-    of Impulse Momentum Theory to Vehicle Collisions"), and the answer is that of ``linear_central`` for the state found.
+    impact and ``va_after <= vb_after`` after it, unless it was incomplete. All twenty combinations are solved in closed form
+    (eqs 5 to 8 of "Application of Impulse Momentum Theory to Vehicle Collisions"), and the answer is that of
+    ``linear_central`` for the state found.
 
     Parameters
     ----------
@@ -69,6 +71,9 @@ def central(
         Coefficient of restitution, 0 to 1.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, >= 0: what is left after restitution, not the energy absorbed at maximum crush.
+    incomplete : bool, optional
+        Whether the restitution may be below 0, above -1, as for ``linear_central``. Both velocities before and an energy then
+        leave its sign open: two answers.
     on_failure : {None, "raise", "nan"}, optional
         What a refused case of a batch does: NaN and one warning, an error, or NaN without a word.
 
@@ -117,28 +122,32 @@ def central(
         if name == "energy_loss":
             numbers |= read_amounts(reader, {name: value})
         elif name == "restitution":
-            numbers[name] = reader.number(value, "", name, RESTITUTION)
+            numbers[name] = reader.number(value, "", name, restitution_domain(incomplete))
         else:
             numbers[name] = reader.number(value, "m/s", name)
+    check_incomplete(reader, incomplete)
     reader.close()
     with np.errstate(all="ignore"):
-        return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure)
+        return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure, incomplete)
 
 
-def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts: dict[str, str], on_failure: Any) -> Impact:
+def _answer(
+    cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts: dict[str, str], on_failure: Any, incomplete: bool
+) -> Impact:
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-    candidates = _candidates(arrays, cases.eps)
+    candidates = _candidates(arrays, cases.eps, incomplete)
     one, other = candidates[0], candidates[-1]
     which = np.where(one.fits | (~other.fits & (one.closing > 0.0)), 0, len(candidates) - 1)
     found = Candidate(*(np.choose(which, parts) for parts in zip(*candidates, strict=True)))
     apart = abs(one.closing - other.closing) > 64.0 * cases.eps * abs(one.closing)
+    apart = apart | (abs(one.restitution - other.restitution) > np.sqrt(64.0 * cases.eps))
     ambiguous = one.fits & other.fits & apart
     status = cases.first_status(
-        (*input_faults(arrays), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
+        (*input_faults(arrays, incomplete), (ambiguous, Status.AMBIGUOUS), (found.fits, Status.OK), *_faults(arrays, found))
     )
 
     def origin_of(found: Candidate, which: Any, count: Any, where: Any = True) -> Reconstruction:
-        condition = _condition(arrays, found, which, cases.eps)
+        condition = _condition(arrays, found, which, cases.eps, incomplete)
         return cases.provenance("central", known, condition, count, (found.closing, 0.0 * found.closing), where)
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
@@ -151,11 +160,12 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
             bodies.append(moved(body, cases.where(keep, speed), still, still, given))
         e = cases.where(keep, found.restitution)
         others = {name: text for name, text in texts.items() if name not in ("mass_a", "mass_b", "va", "vb")} or None
-        return Inputs("linear_central", bodies[0], bodies[1], e, _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others)
+        contact = _ALONG_X, FRICTION, _FRICTIONLESS, None, None, others
+        return Inputs("linear_central", bodies[0], bodies[1], e, *contact, incomplete=incomplete)
 
     def refusal() -> CollisionsError:
         if status != Status.AMBIGUOUS:
-            return _refusal(status, found, arrays)
+            return _refusal(status, found, arrays, incomplete)
         solutions = tuple(
             run_forward(partial(inputs_of, one), Status.OK, origin_of(one, np.intp(i), len(candidates)))
             for i, one in enumerate(candidates)
@@ -169,23 +179,30 @@ def _answer(cases: Cases, numbers: dict[str, Any], known: tuple[str, ...], texts
 
     def solve_case(index: tuple[int, ...]) -> Impact:
         of_case: dict[str, Any] = {name: cases.one(value, index) for name, value in arrays.items()}
-        return central(**of_case)
+        return central(**of_case, incomplete=incomplete)
 
     origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
     return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
 
-def _candidates(numbers: dict[str, Any], eps: float) -> list[Candidate]:
+def _candidates(numbers: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:
     """The one or two candidates that agree with the known values, possible or not."""
     share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
     return [
-        _candidate(numbers, share_a, share_b, closing, separation, fixed, eps)
-        for closing, separation in inline_speeds(numbers, share_a, share_b, reduced, eps)
+        _candidate(numbers, share_a, share_b, closing, separation, fixed, eps, incomplete)
+        for closing, separation in inline_speeds(numbers, share_a, share_b, reduced, eps, incomplete)
     ]
 
 
 def _candidate(
-    known: dict[str, Any], share_a: Any, share_b: Any, closing: Any, separation: Any, fixed: Any, eps: float
+    known: dict[str, Any],
+    share_a: Any,
+    share_b: Any,
+    closing: Any,
+    separation: Any,
+    fixed: Any,
+    eps: float,
+    incomplete: bool,
 ) -> Candidate:
     """The candidate for a closing and a separation speed."""
     total = closing + separation
@@ -199,17 +216,19 @@ def _candidate(
     scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
     rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
-    e = known.get("restitution", separation / closing)
+    e = separation / closing
     e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
-    fits = (closing > 0.0) & (e >= 0.0) & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
+    e = known.get("restitution", e)
+    least = (e > -1.0) if incomplete else (e >= 0.0)
+    fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
     return Candidate(va, vb, e, closing, fits)
 
 
-def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float) -> Any:
+def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float, incomplete: bool) -> Any:
     """Condition: sum over the known values of the change of the speeds before, in closing speeds, per relative change."""
     total = np.zeros(())
     for name, value in numbers.items():
-        beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps)
+        beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps, incomplete)
         change = sum(abs(np.choose(which, [one[i] for one in beside]) - found[i]) for i in range(2))
         total = total + np.where(np.isinf(value), 0.0, change)
     condition = total / (_STEP * abs(found.closing))
@@ -242,7 +261,7 @@ def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
     ]
 
 
-def _refusal(status: int, found: Candidate, numbers: dict[str, Any]) -> CollisionsError:
+def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool) -> CollisionsError:
     closing, e = float(found.closing), float(found.restitution)
     known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
     given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
@@ -256,8 +275,10 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any]) -> Collisio
         case Status.NOT_SEPARATING:
             text = (
                 f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: one of them "
-                f"would pass through the other{_allowed_losses(numbers)}"
+                f"would pass through the other{_allowed_losses(numbers, incomplete)}"
             )
+            if not incomplete and e > -1.0:
+                text += "; if they passed or tore before they had a common velocity, write incomplete=True"
         case Status.INVERSE_E0:
             apart = known["vb_after"] - known["va_after"]
             differs = f" (here vb_after - va_after is {apart:.6g} m/s, which contradicts that)" if apart else ""
@@ -275,11 +296,11 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any]) -> Collisio
         case Status.UNDETERMINED:
             text = f"{given} fit any closing speed; give another velocity"
         case _:
-            text = _contradiction(given, known, e, numbers)
+            text = _contradiction(given, known, e, numbers, incomplete)
     return error_of(status, text, restitution=e, closing_speed=closing)
 
 
-def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[str, Any]) -> str:
+def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[str, Any], incomplete: bool) -> str:
     """The contradiction between the known values, and its size."""
     names = [name for name in VELOCITIES if name in known]
     if "energy_loss" not in known and len(names) == 2:
@@ -293,14 +314,15 @@ def _contradiction(given: str, known: dict[str, float], e: float, numbers: dict[
     if e > 1.0:
         return f"{given} mean a restitution of {e:.6g}, above 1: the impact would gain energy; check masses and signs"
     return (
-        f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given{_allowed_losses(numbers)}"
+        f"no impact fits {given}: with these masses and velocities the energy_loss cannot be as given"
+        f"{_allowed_losses(numbers, incomplete)}"
     )
 
 
-def _allowed_losses(numbers: dict[str, Any]) -> str:
-    """The range of energy losses that the masses and two velocities allow, if an energy was given."""
+def _allowed_losses(numbers: dict[str, Any], incomplete: bool) -> str:
+    """The range of energy losses that the masses and two velocities allow with e from 0 to 1, if an energy was given."""
     share_a, share_b, reduced, _ = shares(numbers["mass_a"], numbers["mass_b"])
     least, most = allowed_losses(numbers, share_a, share_b, reduced)
-    if "energy_loss" not in numbers or np.isnan(least):
+    if "energy_loss" not in numbers or np.isnan(least) or incomplete:
         return ""
     return f"; they allow at least {least:.6g} J" + ("" if np.isinf(most) else f" and at most {most:.6g} J")

@@ -15,7 +15,7 @@ from ..inputs import Inputs
 from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
-from ..kernels.elementwise import FINITE, POSITIVE, RESTITUTION
+from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..models import body_numbers
 from ..provenance import Reconstruction
 from ..quantities import lock
@@ -162,24 +162,24 @@ class Cases(NamedTuple):
         return float(np.broadcast_to(found, self.shape or ())[index])
 
 
-def input_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
+def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[tuple[Any, int]]:
     """The faults of arrays, whose elements the reader does not check; and of NaN from a case that was refused."""
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
             value = value if np.ndim(value) else float(value)
-            found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2]).faults]
+            found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2], incomplete).faults]
             if name.startswith(_AMOUNTS):
                 found.append((value < 0.0, Status.CONTRADICTORY))
     return [(condition, status) for condition, status in found if condition is not False]
 
 
-def _domain(name: str) -> Any:
+def _domain(name: str, incomplete: bool) -> Any:
     if name.startswith(("mass", "yaw_inertia")):
         return POSITIVE
     if name in RULES:
         return RULES[name].domain
-    return RESTITUTION if name == "restitution" else FINITE
+    return restitution_domain(incomplete) if name == "restitution" else FINITE
 
 
 def finish(

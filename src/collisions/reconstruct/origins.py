@@ -38,9 +38,18 @@ class Origin(NamedTuple):
 class End:
     """The state after, and what the kernel says of the contact there."""
 
-    def __init__(self, numbers: dict[str, Any], kind: str, rule: str, law: str, pinned: tuple[bool, bool], eps: float) -> None:
+    def __init__(
+        self,
+        numbers: dict[str, Any],
+        kind: str,
+        rule: str,
+        law: str,
+        pinned: tuple[bool, bool],
+        eps: float,
+        incomplete: bool,
+    ) -> None:
         self.numbers = numbers
-        self.kind, self.rule, self.law, self.pinned = kind, rule, law, pinned
+        self.kind, self.rule, self.law, self.pinned, self.incomplete = kind, rule, law, pinned, incomplete
         self.known, self.bound = numbers[kind], numbers[rule]
         self.n = numbers["normal[0]"], numbers["normal[1]"]
         self.p = numbers["point[0]"], numbers["point[1]"]
@@ -57,7 +66,7 @@ class End:
         self.rounding = _MOTION_ROUNDING * eps * (self.size + np.where(self.closing > 0.0, self.closing, 0.0))
         self.approach = 0.0 - self.separation
         slight = (self.approach > self.rounding) & (self.approach <= _NEARLY_PLASTIC * self.closing)
-        self.pressed = slight & (kind != "restitution")
+        self.pressed = slight & (kind != "restitution") & (not incomplete)
         if np.any(self.pressed):
             # The nearest end that is plastic: a small push along the normal takes off what still approaches.
             push = np.where(self.pressed, self.approach / self.k_nn, 0.0)
@@ -220,7 +229,7 @@ class End:
             closing = self._closing()
             normal = (closing + self.separation) / resistance
             e = self.separation / self.known if self.kind == "closing_speed" else self.known
-            condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / e
+            condition = 1.0 if self.kind == "closing_speed" else (1.0 + e) / abs(e)
         if self.rule == CRITICAL_FRACTION:
             # The slip after is this part of the slip before.
             left = abs(1.0 - self.bound * (1.0 - LAWS[self.law].sticking_slip(e)))
@@ -236,16 +245,17 @@ class End:
             return self._origin(regime, nothing, nothing, nothing, nothing, (nothing, nothing), False)
         if self.kind == "energy_loss":
             stored = self.stopping[0] * self.separation + self.stopping[1] * self.slip
-            inverse = np.sqrt(1.0 + 2.0 * self.known / stored)
+            inverse = np.copysign(np.sqrt(1.0 + 2.0 * self.known / stored), self.separation)
         elif self.kind == "closing_speed":
             inverse = self.known / self.separation
         else:
             inverse = 1.0 / self.known
         factor = 1.0 + inverse
         closing = self.known if self.kind == "closing_speed" else self.separation * inverse
-        possible = possible & ~self.at_rest & (self.separation > self.rounding)
+        parts = abs(self.separation) if self.incomplete else self.separation
+        possible = possible & ~self.at_rest & (parts > self.rounding)
         impulse = factor * self.stopping[0], factor * self.stopping[1]
-        return self._origin(regime, *impulse, 1.0 / inverse, factor, (closing, 0.0 - self.slip * inverse), possible)
+        return self._origin(regime, *impulse, 1.0 / inverse, abs(factor), (closing, 0.0 - self.slip * inverse), possible)
 
     def _shared_ratios(self) -> tuple[Any, Any]:
         """Impulse ratios that are the given share of the critical one.
@@ -274,6 +284,12 @@ class End:
         found = self._kernel(e, self.rule, self.bound, self._moving(motions), contact_velocity=velocity)
         off = abs(found.normal_impulse - normal) + abs(found.tangential_impulse - tangential)
         again = off <= _IMPULSE_TOL * (abs(normal) + abs(tangential))
-        fits = possible & again & (found.status <= Status.ENERGY_GAIN) & (e >= 0.0) & (e <= 1.0)
+        fits = (
+            possible
+            & again
+            & (found.status <= Status.ENERGY_GAIN)
+            & ((e > -1.0) if self.incomplete else (e >= 0.0))
+            & (e <= 1.0)
+        )
         jams = ~np.isnan(normal) & ~np.asarray(possible)
         return Origin(regime, normal, tangential, e, condition, velocity, jams, motions, fits)

@@ -48,6 +48,7 @@ def planar(
     critical_fraction: Input | None = None,
     law: Law = "brach",
     regime: Regime | None = None,
+    incomplete: bool = False,
     on_failure: OnFailure | None = None,
 ) -> Impact:
     """The impact that ended in these motions: ``eccentric`` backwards.
@@ -78,6 +79,8 @@ def planar(
         How restitution acts and what no slip means.
     regime : {"frictionless", "sliding", "sticking", "given"}, optional
         How the contact ended, where that decides between two origins: a value of ``Impact.regime``.
+    incomplete : bool, optional
+        Whether the restitution may be below 0, above -1, as for ``eccentric``: the contact points still approach.
     on_failure : {None, "raise", "nan"}, optional
         What a refused case of a batch does.
 
@@ -147,11 +150,13 @@ def planar(
         law,
         reader.problems,
         () if kind == "restitution" else (known,),
+        incomplete,
     )
     if inputs.law not in (BRACH, KUDLICH_SLIBAR):
         raise InputError(
-            f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or {KUDLICH_SLIBAR!r}",
-            code="bad_law",
+            f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or {KUDLICH_SLIBAR!r}, or fit a model "
+            f"with this law to what is known after (reconstruct.fit)",
+            code="law_not_reversible",
             argument="law",
         )
     numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")
@@ -167,7 +172,7 @@ def planar(
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in numbers.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
     with np.errstate(all="ignore"):
-        end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps)
+        end = End(arrays, kind, inputs.rule, inputs.law or BRACH, pinned, cases.eps, incomplete)
         return _answer(cases, end, replace(inputs, given={**reader.texts, **(inputs.given or {})}), regime, on_failure)
 
 
@@ -184,14 +189,17 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     count = sum((one.fits.astype(int) for one in origins), np.zeros((), dtype=int))
     no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
-    parts = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
+    parts: Any = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
+    if end.incomplete:
+        approaches = np.less(end.known, 0.0) & (end.separation < -end.rounding)
+        parts = np.where(np.less(end.known, 0.0), approaches, parts) if end.kind == "restitution" else True
     status = cases.first_status(
         (
-            *input_faults(end.numbers),
+            *input_faults(end.numbers, end.incomplete),
             (end.status == Status.IMMOVABLE, Status.IMMOVABLE),
             (end.singular & (end.bound > 0.0) & (end.rule != IMPULSE_RATIO), Status.SINGULAR_CONTACT),
             (plastic, Status.INVERSE_E0),
-            (~parts, Status.NOT_SEPARATING),
+            (np.logical_not(parts), Status.NOT_SEPARATING),
             (no_trace, Status.STICK_INVERSE),
             (count == 1, Status.OK),
             (count > 1, Status.AMBIGUOUS_INVERSE),
@@ -236,7 +244,8 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
 
         contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
         contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
-        return planar(part_of(inputs.a, take), part_of(inputs.b, take), regime=regime, **contact)
+        contact |= {"regime": regime, "incomplete": end.incomplete}
+        return planar(part_of(inputs.a, take), part_of(inputs.b, take), **contact)
 
     _warn(cases, end, sure & end.pressed, nearly)
     origin = origin_of(found, condition, count, sure)

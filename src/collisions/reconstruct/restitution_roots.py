@@ -13,8 +13,8 @@ from ..units import shown
 from ..warning import quietly
 from .common import Cases
 
-# The restitutions at which the search begins.
-_GRID = np.linspace(0.0, 1.0, 129)
+# Cells from 0 to 1 of the grid of restitutions with which the search begins.
+_CELLS = 128
 _PIECES = 16
 # Repeated subdivisions of a grid cell until its pieces are as small as rounding.
 _ROUNDS = 13
@@ -32,7 +32,7 @@ _BLOCK = 256
 _Mismatch = Callable[[Any, Any], Sequence[Any]]
 
 
-def crossings(mismatch: _Mismatch, count: int = 1) -> list[tuple[int, int, float]]:
+def crossings(mismatch: _Mismatch, count: int = 1, least: float = 0.0) -> list[tuple[int, int, float]]:
     """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows: case, row and root.
 
     NaN marks where a row has no answer. A change of sign is narrowed down, also between the grid and the place where a row
@@ -40,30 +40,32 @@ def crossings(mismatch: _Mismatch, count: int = 1) -> list[tuple[int, int, float
     """
     found = []
     for start in range(0, count, _BLOCK):
-        found += _crossings(mismatch, np.arange(start, min(start + _BLOCK, count)))
+        found += _crossings(mismatch, np.arange(start, min(start + _BLOCK, count)), least)
     return found
 
 
-def _crossings(mismatch: _Mismatch, cases: Any) -> list[tuple[int, int, float]]:
-    grid, of = np.tile(_GRID, cases.size), np.repeat(cases, _GRID.size)
+def _crossings(mismatch: _Mismatch, cases: Any, least: float) -> list[tuple[int, int, float]]:
+    # At -1 nothing happens.
+    first = np.arange(1.0 - _CELLS if least < 0.0 else 0.0, _CELLS + 1.0) / _CELLS
+    grid, of = np.tile(first, cases.size), np.repeat(cases, first.size)
     # Rows and cases in one, the cases of a row one after another.
-    values = np.stack(list(mismatch(grid, of))).reshape(-1, _GRID.size)
+    values = np.stack(list(mismatch(grid, of))).reshape(-1, first.size)
     signs, known = np.sign(values), np.isfinite(values)
 
     def brackets_of(place: Any, low: Any, high: Any) -> _Brackets:
         return _Brackets(place // cases.size, cases[place % cases.size], low, high)
 
     place, i = np.nonzero(signs[:, :-1] * signs[:, 1:] <= 0.0)
-    brackets = [brackets_of(place, _GRID[i], _GRID[i + 1])]
+    brackets = [brackets_of(place, first[i], first[i + 1])]
 
     place, i = np.nonzero(known[:, :-1] != known[:, 1:])
     i, outside = np.where(known[place, i], (i, i + 1), (i + 1, i))
-    ending = brackets_of(place, _GRID[i], _GRID[outside])
+    ending = brackets_of(place, first[i], first[outside])
     brackets.append(ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1).low))
 
     size, same = abs(values), signs[:, :-1] * signs[:, 1:] > 0.0
     place, i = np.nonzero(same[:, :-1] & same[:, 1:] & (size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])))
-    around, side = brackets_of(place, _GRID[i], _GRID[i + 2]), signs[place, i][:, np.newaxis]
+    around, side = brackets_of(place, first[i], first[i + 2]), signs[place, i][:, np.newaxis]
     turn = _narrowed(mismatch, around, lambda v: np.argmin(np.where(np.isnan(v), np.inf, side * v), axis=1) - 1, 2).low
     brackets += [around._replace(high=turn), around._replace(low=turn)]
 
@@ -116,13 +118,13 @@ def _last_answer(values: Any) -> Any:
 
 
 class RestitutionOf:
-    """A caller's function of the closing speed, whose values outside 0 to 1 are no answer.
+    """A caller's function of the closing speed, whose values outside ``least`` to 1 are no answer.
 
     For a batch it is called with arrays of closing speeds if it takes these as it takes single ones.
     """
 
-    def __init__(self, function: Callable[[float], Any], cases: Cases) -> None:
-        self.function = function
+    def __init__(self, function: Callable[[float], Any], cases: Cases, least: float = 0.0) -> None:
+        self.function, self.least = function, least
         self.refused = ""
         self.takes_arrays: bool | None = None if cases.shape is not None else False
 
@@ -133,7 +135,7 @@ class RestitutionOf:
         if self.takes_arrays:
             with quietly():
                 e = np.array(self.function(closing), dtype=np.float64)
-            return np.where((closing > 0.0) & (e >= 0.0) & (e <= 1.0), e, np.nan)
+            return np.where((closing > 0.0) & self._is_one(e), e, np.nan)
         return np.array([self._one(float(speed)) for speed in closing])
 
     def _same_in_arrays(self, closing: Any) -> bool:
@@ -147,7 +149,7 @@ class RestitutionOf:
             return False
         some = np.flatnonzero(np.isfinite(closing))[:: max(1, closing.size // _COMPARED)]
         alone = np.array([self._one(float(speed)) for speed in closing[some]])
-        usable = np.where((closing[some] > 0.0) & (e[some] >= 0.0) & (e[some] <= 1.0), e[some], np.nan)
+        usable = np.where((closing[some] > 0.0) & self._is_one(e[some]), e[some], np.nan)
         return bool(np.allclose(usable, alone, rtol=1e-12, atol=0.0, equal_nan=True))
 
     def slope(self, closing: Any) -> Any:
@@ -165,6 +167,10 @@ class RestitutionOf:
         (first, *_, last) = np.flatnonzero(known)
         return float((values[last] - values[first]) / (places[last] - places[first]))
 
+    def _is_one(self, e: Any) -> Any:
+        """Whether this is a restitution; never at -1, where nothing happens."""
+        return (e >= self.least) & (e > -1.0) & (e <= 1.0)
+
     def _one(self, closing: float) -> float:
         if not closing > 0.0:
             return math.nan
@@ -174,8 +180,8 @@ class RestitutionOf:
         except Exception as error:
             self.refused = f"restitution({closing:.6g}) raised {type(error).__name__}: {error}"
             return math.nan
-        if not 0.0 <= e <= 1.0:
-            self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from 0 to 1"
+        if not self._is_one(e):
+            self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from {self.least:g} to 1"
             return math.nan
         return e
 

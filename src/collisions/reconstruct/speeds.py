@@ -13,7 +13,7 @@ from ..directions import Angle, course
 from ..errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
 from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
-from ..kernels.contact_laws import BRACH
+from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
 from ..quantities import show
 from ..reading import ArgumentReader
@@ -45,6 +45,7 @@ def speeds(
     impulse_ratio: Input | None = None,
     critical_fraction: Input | None = None,
     law: Law = "brach",
+    incomplete: bool = False,
     speed_a: Input | None = None,
     speed_b: Input | None = None,
     delta_v_a: Input | None = None,
@@ -84,6 +85,8 @@ def speeds(
         Exactly one, as for ``eccentric``.
     law : str, optional
         How restitution acts and what no slip means, as for ``eccentric``.
+    incomplete : bool, optional
+        Whether the restitution, or what its function gives, may be below 0, above -1, as for ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
         A known speed, >= 0. Exactly two of the six kinds of knowledge.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
@@ -209,7 +212,15 @@ def speeds(
         law,
         reader.problems,
         (*known.values(), *(angle.value for angle in courses.values())),
+        incomplete,
     )
+    if LAWS[inputs.law or BRACH].energetic:
+        raise InputError(
+            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not linear in the speeds; give "
+            f"another law, or fit a model with this one to what is known (reconstruct.fit)",
+            code="law_not_reversible",
+            argument="law",
+        )
     numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
@@ -218,7 +229,7 @@ def speeds(
     cases = Cases.of(numbers)
     with np.errstate(all="ignore"):
         _refuse_pairs(known, a, b)
-        function = RestitutionOf(restitution, cases) if callable(restitution) else None
+        function = RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0) if callable(restitution) else None
         arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
         known_of = arrays, inputs.rule, inputs.law or BRACH, counted(given)
 
@@ -314,7 +325,7 @@ def _with_function(cases: Cases, scene: Scene, function: RestitutionOf) -> list[
         return [of_closing(part, part.fits(root)[1], e) - e for root in part.roots(e, polish=0)]
 
     found = []
-    for candidate, e in _by_rank(crossings(mismatch, count), count):
+    for candidate, e in _by_rank(crossings(mismatch, count, function.least), count):
         tried = scene.roots(e.reshape(shape), slope=slope)
         found.append(_chosen(tried, candidate.reshape(shape)))
     undetermined = np.zeros(count, dtype=bool)
@@ -324,7 +335,7 @@ def _with_function(cases: Cases, scene: Scene, function: RestitutionOf) -> list[
             part = scene.of(case, shape)
             return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
 
-        for case, row, e in crossings(slips, count):
+        for case, row, e in crossings(slips, count, function.least):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
             part = scene.of(np.array([case]), shape)
             closing = part.any_slip_at(part.regimes()[row], np.full(1, e))[1]
@@ -399,7 +410,7 @@ def _answers(
     function: RestitutionOf | None,
 ) -> tuple[Impact, ...]:
     """The impact of each root; raises for a single case without one."""
-    faults = input_faults(scene.numbers)
+    faults = input_faults(scene.numbers, inputs.incomplete)
     of_walls = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
     faults.append((scene.undetermined, Status.UNDETERMINED))

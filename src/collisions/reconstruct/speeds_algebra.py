@@ -186,7 +186,7 @@ class Scene:
             return self.observe(shared / normal, speed_a, speed_b, e) | {"weight": weight}
         left = LAWS[self.law].sticking_slip(e)
         slips = (raw.slip_before, left * raw.slip_before, (1.0 + left) * raw.slip_before, 0.0)
-        loss = energy_losses(e, raw.closing_speed, *slips, normal, tangential, 0.0, IMPULSE_RATIO, "", EPS)[2]
+        loss = energy_losses(e, raw.closing_speed, *slips, normal, tangential, None, EPS)[2]
         return self._seen(raw, speed_a, speed_b, e, (normal, tangential, loss))
 
     def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
@@ -217,7 +217,8 @@ class Scene:
             "delta_v_a": squared,
             "delta_v_b": squared,
             "energy_loss": loss,
-            "max_crush_speed_a": 0.5 * closing * normal / (1.0 + e),
+            # What an incomplete impact absorbs it loses.
+            "max_crush_speed_a": 0.5 * closing * normal * select(e < 0.0, 1.0 - e, 1.0 / (1.0 + e)),
         }
 
     def speeds_at(self, closing: Any, slip: Any) -> tuple[Any, Any]:

@@ -67,7 +67,7 @@ _REGIMES = {
     "frictionless": "none: the contact is frictionless",
     "sliding": "the contact slips to the end, and the impulse ratio has the size of the friction given",
     "sticking": "slip ends during the contact, with less than the friction given",
-    "reversing": "slip ends during the contact and comes back the other way",
+    "reversing": "slip stops during the contact and goes on the other way, against which friction then acts",
     "given": "by the ratio that was given, not by a law of friction",
 }
 _GEOMETRIES = {
@@ -284,6 +284,7 @@ def assumptions(
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))
     vehicles = (impact.a.before, impact.b.before)
     pivots = " but the pivot's" if any(vehicle.pivot is not None for vehicle in vehicles) else ""
+    outside = ", unless an impulse from outside is given" if impact.inputs.outside_a is not None else ""
     if found is None:
         lines.append(("Places:", _GEOMETRIES[impact.inputs.geometry or "maximum_engagement"]))
         if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
@@ -291,7 +292,7 @@ def assumptions(
     else:
         instant = (
             "it acts in an instant, along one normal that points from A into B. Positions, masses and inertias do not change "
-            f"while it acts; the forces of the tyres and all others{pivots} are left out."
+            f"while it acts; the forces of the tyres and all others{pivots} are left out{outside}."
         )
         lines.append(("Impulse:", instant))
     lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
@@ -309,8 +310,11 @@ def assumptions(
     bounded = any(vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles)
     but = ", except what is marked as a bound" if bounded else ""
     sheet.say(f"What the model leaves out, for a contact of {time} and tyres with a drag factor of {drag} (estimates{but}):")
+    crush = "not known: the impact is incomplete"
+    if impact.complete:
+        crush = sheet.system.answer(float(found.mutual_crush), "length")
     rows = [
-        ("contact", "maximum mutual crush", sheet.system.answer(float(found.mutual_crush), "length")),
+        ("contact", "maximum mutual crush", crush),
         ("contact", "sliding along the contact", sheet.system.answer(float(found.contact_slide), "length")),
     ]
     for index, (vehicle, side) in enumerate(zip(vehicles, (found.a, found.b), strict=True)):
