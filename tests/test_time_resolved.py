@@ -214,6 +214,9 @@ def test_fixed_geometry_is_energetic_restitution():
         ]
         errors.append([off(change(one), wanted) for one in found])
         regimes.add(found[2].regime)
+        law = col.eccentric(a, b, e, **contact, law="stronge")
+        assert off(change(found[1]), change(law)) < 1e-5
+        assert found[1].regime == law.regime
         assert found[2].separation_speed == pytest.approx(velocity[0], abs=1e-3 * found[2].closing_speed)
         stiffer = col.time_resolved(a, b, e, **contact, geometry="fixed", stiffness=1e9)
         assert off(change(stiffer), change(found[0])) < 1e-9
@@ -800,6 +803,9 @@ def test_refused_contacts():
     assert caught.value.code == "no_start"
     with pytest.raises(col.InputError) as caught:
         t_bone(a=col.Vehicle(**A | {"vx": 1e200}), geometry="fixed")
+    assert caught.value.code == "out_of_range"
+    with pytest.raises(col.InputError) as caught:
+        t_bone(duration=None, stiffness=1e-155, geometry="first_contact")
     assert caught.value.code == "out_of_range"
     with pytest.raises(col.InputError, match=r"case 1: .*duration"):
         t_bone(duration=np.array([0.1, -0.1]), on_failure="raise")

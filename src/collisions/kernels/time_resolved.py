@@ -240,7 +240,7 @@ def time_resolved(
         (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
     )
-    if note:
+    if note and status == Status.OK:
         found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
     return Passed(status=status, **found)
 
