@@ -216,7 +216,8 @@ def test_fixed_geometry_is_energetic_restitution():
         regimes.add(found[2].regime)
         law = col.eccentric(a, b, e, **contact, law="stronge")
         assert off(change(found[1]), change(law)) < 1e-5
-        assert found[1].regime == law.regime
+        # Without slip before, which way it goes is rounding.
+        assert found[1].regime == law.regime or abs(law.slip_before) < 1e-12
         assert found[2].separation_speed == pytest.approx(velocity[0], abs=1e-3 * found[2].closing_speed)
         stiffer = col.time_resolved(a, b, e, **contact, geometry="fixed", stiffness=1e9)
         assert off(change(stiffer), change(found[0])) < 1e-9
