@@ -9,6 +9,7 @@ from functools import wraps
 from typing import Any, TypeVar, cast
 
 from .errors import InputError
+from .units import shown
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -43,7 +44,7 @@ class options:
     def __init__(self, *, require_units: bool) -> None:
         if not isinstance(require_units, bool):
             raise InputError(
-                f"require_units must be True or False, got {require_units!r}", code="bad_option", argument="require_units"
+                f"require_units must be True or False, got {shown(require_units)}", code="bad_option", argument="require_units"
             )
         self._before = units_required.set(require_units)
 
