@@ -55,6 +55,8 @@ def test_forward_gives_what_the_call_gives():
     assert solved(ECCENTRIC) == impact
     assert solved(ECCENTRIC.replace("vx = ", "course = 0.0\nspeed = ")) == impact
     assert solved(ECCENTRIC.replace('normal = "0 deg"', "normal = [1, 0]")) == impact
+    pushed = solved(ECCENTRIC + 'outside_b = ["-500 N*s +/- 100 N*s", 0.0]\n')
+    assert pushed == col.eccentric(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, outside_b=(-500.0, 0.0))
     least = ECCENTRIC.replace("[eccentric]", '[solve]\ntolerance = "100 km/h"')
     assert solved(least) == col.solve(a, b, 0.1, normal="0 deg", point=(0, 0), friction=0.5, tolerance="100 km/h")
 

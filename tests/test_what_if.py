@@ -13,6 +13,7 @@ import pytest
 import collisions as col
 from collisions import what_if
 from collisions.__main__ import main
+from collisions.kernels.contact_laws import LAWS
 from collisions.what_if_page import results
 from javascript import CHROMIUM, answers
 
@@ -118,6 +119,28 @@ def test_without_angles_the_bits_are_those_of_python(which):
                 column, np.broadcast_to(np.asarray(wanted[name], dtype=float), len(drawn)), err_msg=name
             )
     assert (wanted["status"] == col.Status.OK).sum() > 100
+
+
+@pytest.mark.parametrize(
+    "impact",
+    [
+        IMPACT,
+        col.eccentric(A, B, 0.1, friction=0.5, outside_a=(-400.0, 100.0, 50.0), **SCENE),
+        col.eccentric(A, B, 0.1, friction=0.5, incomplete=True, **SCENE),
+        *(col.eccentric(A, B, 0.1, friction=0.5, law=law, **SCENE) for law in LAWS),
+        col.solve(A, B, 0.1, friction=0.5, tolerance=0.5, **SCENE),
+        col.reconstruct.speeds(A, B, course_a=0.0, course_b="90 deg", delta_v_a=6.0, speed_b=10.0, restitution=0.1, friction=0.5, **SCENE)[0],
+        col.reconstruct.planar(IMPACT.a.after, IMPACT.b.after, restitution=0.1, friction=0.5, **SCENE),
+    ],
+)  # fmt: skip
+def test_the_page_starts_at_the_impact(impact):
+    """Whatever the impact was given, and however it was found: nothing of it is left out."""
+    at = results(impact, {})
+    for name in ("a.delta_v", "b.delta_yaw_rate", "a.pdof", "b.after.speed", "closing_speed", "energy_loss"):
+        assert at[name] == pytest.approx(attrgetter(name)(impact), rel=1e-9), name
+    speed = {"speed_a": (0.5 * impact.a.before.speed, 2.0 * impact.a.before.speed)}
+    (row,) = answers(script(what_if(impact, speed)), [[impact.a.before.speed]])
+    assert dict(zip(at, row, strict=True))["a.delta_v"] == pytest.approx(impact.a.delta_v, rel=1e-9)
 
 
 def test_the_page():

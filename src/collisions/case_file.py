@@ -49,6 +49,8 @@ OTHERS = {
 }
 # Arguments that a file has no use for, or that come from the rest of it.
 _NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknowns", "impact", "uncertainty", "form", "rest"}
+# Annotations of arguments that may be several numbers.
+SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
 _UNCERTAIN = re.compile(r"(.*?)(\+/-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
 _LARGEST_FILE = 1_000_000  # bytes
@@ -319,12 +321,12 @@ class _Reader:
 
     def value(self, key: str, value: Any, kind: str) -> Any:
         """An argument: a number or a text as it is, or what stands there in place of a number."""
-        if not any(name in kind for name in ("Input", "Pair", "Segments")):
+        if not any(name in kind for name in ("Input", *SEVERAL)):
             return value
         if isinstance(value, dict):
             return self.function(key, value)
         if isinstance(value, tuple):
-            if any(name in kind for name in ("Pair", "Segments", "Sequence", "tuple")):
+            if any(name in kind for name in SEVERAL):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
             self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
         elif isinstance(value, str) and (found := _UNCERTAIN.fullmatch(value)):

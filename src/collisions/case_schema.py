@@ -7,7 +7,7 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Any, get_args
 
-from .case_file import DISTRIBUTIONS, FUNCTIONS, OTHERS, SOLVERS, STUDIES, descriptions, parameters, vehicles
+from .case_file import DISTRIBUTIONS, FUNCTIONS, OTHERS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .reporting import report
 from .vehicle import Vehicle
 from .what_if_page import what_if
@@ -64,7 +64,7 @@ def _argument(parameter: Parameter, function: Callable[..., Any]) -> dict[str, A
     choices = get_args(getattr(sys.modules[function.__module__], kind, None)) if kind.isidentifier() else ()
     if choices and all(isinstance(choice, str) for choice in choices):
         return found | {"enum": list(choices)}
-    if any(name in kind for name in ("Pair", "Segments", "Sequence[Input]", "tuple")):
+    if any(name in kind for name in SEVERAL):
         return found | {"anyOf": [_NUMBER, {"$ref": "#/$defs/pair"}]}
     return found | ({"allOf": [_NUMBER]} if "Input" in kind else {})
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from html import escape
 from operator import attrgetter
 from pathlib import Path
@@ -16,11 +17,10 @@ from .document import Document
 from .errors import InputError, Status
 from .formatting import SI_UNITS, UnitSystem, decimals_of, scale_of, typeset, unit_of
 from .impact import Impact, build
-from .inputs import Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION
 from .kernels.javascript import javascript
-from .models import BY_NAME, MODELS
+from .models import BY_NAME, MODELS, model_of
 from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
@@ -118,12 +118,14 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
 
 def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
     """The numbers of the page for these values of its sliders: floats, arrays, or operands of a recording."""
-    was, model = impact.inputs, BY_NAME[impact.model]
+    was = impact.inputs
     a, b = (_body(getattr(was, label), label, given) for label in "ab")
     normal = from_degrees(given["normal"]) if "normal" in given else was.normal
     point = was.point and (given.get("point_x", was.point[0]), given.get("point_y", was.point[1]))
-    rest = given.get("restitution", was.restitution), normal, was.rule, given.get(was.rule, was.rule_value), was.law, point
-    inputs = Inputs(model.name, a, b, *rest)
+    contact = {"normal": normal, "point": point, "rule_value": given.get(was.rule, was.rule_value)}
+    contact |= {"restitution": given.get("restitution", was.restitution), "contact_velocity": None, "tolerance": None}
+    inputs = replace(was, model=impact.model, a=a, b=b, **contact)
+    model = model_of(inputs)
     raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
     answer = build(inputs, raw)
     paths = [*_OF_BOTH, *(f"{label}.{name}" for label in "ab" for name in _OF_EACH)]
