@@ -10,6 +10,7 @@ import re
 import statistics
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,6 +22,7 @@ import collisions as col
 from collisions import reconstruct, reference, travel, uncertainty
 from collisions.diagnostics import LIMITS, diagnose
 from collisions.kernels.status import Answer
+from collisions.reconstruct.posterior_result import notes_of
 
 EPS = 2.0**-52
 GRAVITY = 9.80665
@@ -670,7 +672,38 @@ def test_every_warning_has_its_rows():
             elif any(isinstance(part, ast.Name) and part.id in categories for part in call.args):
                 words = [part.value for part in call.args if isinstance(part, ast.Constant)]
                 found |= {word for word in words if re.fullmatch("[a-z_]+", word)}
-    assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | {"nearly_plastic", "undetermined", "fold"}
+    elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
+    assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | elsewhere
+
+
+POSTERIOR = reconstruct.posterior(
+    lambda x: {"y": x}, {"x": uncertainty.Normal(0.0, 1.0)}, {"y": uncertainty.Normal(0.0, 1.0)}, samples=512, seed=1
+)
+
+
+class Uneven:
+    """An unknown whose mean has an error of this share of its deviation."""
+
+    std = 2.0
+
+    def __init__(self, share):
+        self.mean_standard_error = share * self.std
+
+
+@pytest.mark.parametrize(
+    ("code", "within", "beyond"),
+    [
+        ("islands_disagree", {"log_evidence_error": 0.495}, {"log_evidence_error": 0.505}),
+        ("islands_disagree", {"unknowns": {"x": Uneven(0.099)}}, {"unknowns": {"x": Uneven(0.101)}}),
+        ("collapsed", {"moved": 0.505}, {"moved": 0.495}),
+    ],
+)
+def test_a_posterior_warns_just_beyond_its_limits(code, within, beyond):
+    """A tenth of a deviation, half a unit of log evidence, and half of the samples moved."""
+    well = {"unknowns": {"x": Uneven(0.0)}, "log_evidence_error": 0.0, "moved": 1.0}
+    for change, warns in ((within, False), (beyond, True)):
+        notes = notes_of(replace(POSTERIOR, **(well | change)))
+        assert (code in [note.code for note in notes]) is warns
 
 
 @pytest.mark.parametrize("row", WARNINGS, ids=lambda row: row.name)
