@@ -24,7 +24,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import tracemalloc
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
@@ -38,6 +37,7 @@ if str(ROOT / "src") not in sys.path:
     sys.path.insert(0, str(ROOT / "src"))
 
 import batch_speed
+import budgets
 import ladder
 import speed_errors
 import speed_rivals
@@ -339,29 +339,6 @@ def quantity_works(count: int) -> dict[str, Work]:
     }
 
 
-def memory(count: int) -> float:
-    """MiB that a batch takes at most, beyond its inputs and what is kept of it."""
-    scene = batch_speed.states(batch_speed.scenes(count))
-    batch_speed.library(**scene)
-    gc.collect()
-    tracemalloc.start()
-    try:
-        impact = col.eccentric(**scene, on_failure="nan")
-        solving = _beyond_what_is_kept()
-        kept = nine(impact)
-        reading = _beyond_what_is_kept()
-    finally:
-        tracemalloc.stop()
-    assert len(kept) == 9
-    return max(solving, reading) / 2**20
-
-
-def _beyond_what_is_kept() -> int:
-    held, most = tracemalloc.get_traced_memory()
-    tracemalloc.reset_peak()
-    return most - held
-
-
 # --- Where the time goes ---------------------------------------------------------------------------------------------------
 
 
@@ -491,41 +468,6 @@ def integrated(steps: int) -> dict[str, Work]:
 
 # --- Everything ------------------------------------------------------------------------------------------------------------
 
-BUDGETS = (
-    ("import", "`import collisions` against `import numpy`, best", 1.2, 1.05),
-    ("vehicle", "`Vehicle` from six floats against a bare frozen dataclass with slots", 4.0, 2.5),
-    ("eccentric", "one `eccentric` against the textbook formula as a bare function of floats", 3.0, 2.5),
-    ("nine", "the same with nine outputs read", 8.0, 5.0),
-    ("linear", "one `linear_central` against that formula", 1.15, 0.8),
-    ("batch", "a batch of `eccentric`, nine outputs read, against plain numpy", 0.6, 0.4),
-    ("threads", "the same on two threads against one", 0.8, 0.65),
-    ("batch_linear", "a batch of `linear_central` against copying its arrays once", 5.0, 3.5),
-    ("memory", "memory of a batch beyond inputs and outputs, MiB", 8.0, None),
-    ("quantities", "`Vehicle` from six Quantities against six `.to(...).magnitude` of pint", 0.15, 0.08),
-)
-
-
-def budgets(single: Times, batch: Times, imported: dict[str, Any], mebibytes: float) -> list[dict[str, Any]]:
-    """The budgets the project set itself, and whether they hold."""
-    row = imported["rows"]["collisions"]
-    size = speed_errors.rounded(mebibytes)
-    measured = {
-        "import": dict.fromkeys(("median", "low", "high"), row["best"]),
-        "vehicle": ratio(single, "vehicle", "bare"),
-        "eccentric": ratio(single, "eccentric", UNIT),
-        "nine": ratio(single, "eccentric_nine", UNIT),
-        "linear": ratio(single, "linear_central", UNIT),
-        "batch": ratio(batch, "eccentric", "numpy"),
-        "threads": ratio(batch, "eccentric_threads", "eccentric"),
-        "batch_linear": ratio(batch, "linear_central", "moved"),
-        "memory": dict.fromkeys(("median", "low", "high"), size),
-        "quantities": ratio(single, "vehicle_quantities", "to"),
-    }
-    return [
-        {"key": key, "name": name, "budget": budget, "aim": aim, **measured[key], "held": measured[key]["median"] <= budget}
-        for key, name, budget, aim in BUDGETS
-    ]
-
 
 def machine() -> dict[str, Any]:
     """What class of machine it was."""
@@ -557,11 +499,15 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
     batch_times = timed(batch, effort.batch_rounds, 0.0)
     of_batch = costs(batch, batch_times, UNIT)
     del batch, compiled
-    mebibytes = memory(effort.cases)
     taken = speed_errors.memory(effort.cases)
     shares = parts(effort)
     say("imports")
     imported = imports(effort.imports, MODULES if effort is FULL else MODULES[:2])
+    say("budgets")
+    quick = effort is QUICK
+    flags = ("--cases", str(effort.cases), *(["--quick"] if quick else []), *(["--busy"] if "--busy" in sys.argv else []))
+    held = budgets.measure(1 if quick else budgets.RUNS, None, flags)
+    of_sizes = budgets.sizes(effort.cases if quick else budgets.SIZES[-1])
     say("errors")
     contacts = time_resolved.measure(steps=effort.steps)
     versions = {
@@ -575,7 +521,8 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
         "unit": single[UNIT].name,
         "single": [*costs(single, single_times, UNIT), costs(long, long_times, UNIT)[-1]],
         "batch": of_batch,
-        "budgets": budgets(single_times, batch_times, imported, mebibytes),
+        "budgets": held,
+        "sizes": of_sizes,
         "memory": taken,
         "parts": shares,
         "imports": imported,
@@ -596,6 +543,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="measure less, to see that everything runs")
     parser.add_argument("--json", type=Path, help="where to write the numbers; no figures are written then")
+    parser.add_argument("--busy", action="store_true", help="budgets by processor time, on a machine that is not idle")
     options = parser.parse_args()
     found, contacts = measure(QUICK if options.quick else FULL)
     data = options.json or DATA

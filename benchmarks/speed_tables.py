@@ -101,12 +101,18 @@ WHY = {
     "nine": "Attributes are worked out when they are read, and the states after are vehicles of their own.",
     "linear": "Checks and the result object cost more than so small a formula.",
     "batch": "The forms that keep their accuracy need more operations than the textbook, and all is checked.",
-    "threads": "Both cores have to be idle: before each of some two hundred numpy calls a block, a thread waits for the "
-    "interpreter, which the other one may have. Longer blocks make that rarer, and take more scratch.",
+    "batch_c": "numpy reads and writes every intermediate result, which compiled code keeps in registers.",
     "batch_linear": "Some answers are worked out and kept that nobody may read.",
-    "memory": "Scratch is taken for a block of cases, once a thread.",
+    "batch_8192": "Reading the arguments and checking them costs as much for a few cases as for many.",
+    "batch_10": "A call of numpy costs as much for ten numbers as for a hundred.",
+    "processes": "Both cores have to be idle, and they share the memory.",
+    "memory": "The states after are arrays of their own.",
     "quantities": "The type, the dimension and the factor of every argument are looked up.",
+    "propagate": "The cases are drawn from the distributions, and a few are asked again alone.",
+    "speeds": "Every regime of the contact has candidates of its own, each refined by the forward formulas.",
+    "solve": "It asks for the impulse by all models before it takes one.",
 }
+PROCESSOR = "A thread waits for Python's interpreter lock before each of some two hundred numpy calls a block"
 
 
 def why(found: dict[str, Any], key: str) -> str:
@@ -128,11 +134,19 @@ def why(found: dict[str, Any], key: str) -> str:
 
 def threads(found: dict[str, Any]) -> str:
     """Whether a second thread was worth it in this run."""
-    row = rows(found, "budgets")["threads"]
-    share = f"takes {row['median']:.2f} of the time on one (half of the rounds {row['low']:.2f} to {row['high']:.2f})"
-    if row["median"] < 0.9:
-        return f"With an idle second core, a batch of `eccentric` on two threads {share}."
-    return f"In this run a second thread was **not** worth it: a batch of `eccentric` on two threads {share}. {WHY['threads']}"
+    known = rows(found, "batch")
+    share = known["eccentric_threads"]["median"] / known["eccentric"]["median"]
+    two = rows(found, "budgets").get("processes")
+    processes = "" if two is None else f" Two processes with half of the cases each took {two['median']:.2f} of one's time."
+    took = f"a batch of `eccentric` on two threads took {share:.2f} of the time on one"
+    worth = f"In this run {took}." if share < 0.9 else f"In this run a second thread was **not** worth it: {took}."
+    return f"{worth} {PROCESSOR}; processes do not.{processes}"
+
+
+def sizes(found: dict[str, Any]) -> str:
+    """Batches of every size against plain numpy."""
+    lines = [[f"{row['cases']:,}".replace(",", " "), number(row["ratio"])] for row in found["sizes"]]
+    return table(["cases, nine outputs read", "cost of plain numpy"], lines)
 
 
 def solving(found: dict[str, Any]) -> str:
@@ -156,8 +170,7 @@ def memory(found: dict[str, Any]) -> str:
         f"Beyond inputs and answers a batch of {cases} cases takes {number(taken['eccentric'])} MiB in `eccentric`, "
         f"{number(taken['solve'])} MiB in `solve` and {number(taken['left_out'])} MiB in `left_out`, and no more with more "
         f"cases. Each thread has scratch of its own: with two threads `eccentric` takes "
-        f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB. The budget of 8 MiB below is "
-        f"that of `eccentric` on one thread."
+        f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB."
     )
 
 
@@ -215,7 +228,7 @@ def budgets(found: dict[str, Any]) -> str:
         if row["low"] != row["high"]:
             measured += f" ({row['low']:.3g} to {row['high']:.3g})"
         lines.append([row["name"], f"{row['budget']:g}", aim, measured, outcome])
-    text = table(["what", "budget", "aim", "measured (half of the rounds)", ""], lines)
+    text = table(["what", "budget", "aim", "median of five runs (their range)", ""], lines)
     return text.replace("| --- | ---: | ---: | ---: | ---: |", "| --- | ---: | ---: | ---: | --- |")
 
 
