@@ -42,6 +42,7 @@ def off(run):
     return np.sqrt([np.mean((getattr(run, name) - truth) ** 2) for name, truth in zip(NAMES, TRUTH, strict=True)])
 
 
+@pytest.mark.filterwarnings("ignore:by the yaw")
 def test_a_denser_survey_is_never_worse(body):
     """Three points at 0.8 m give the course to 10 degrees, least squares over 7 m to 1.9; denser is better still.
 
@@ -112,6 +113,19 @@ def test_windows_and_errors_of_a_batch(body):
     assert small.speed.dtype == small.course_error.dtype == np.float32
     empty = travel.path([(0, 0), (np.array([]), 1)], [0, 1], **GROUND, point_error=0.1, heading_error=0.1)
     assert empty.speed_error.shape == (0,)
+
+
+def test_a_fast_yaw_is_warned_of():
+    """Above 0.5 of the speed over 1.5 m; the drag is then that of wheels which slip less than these did, as simulate shows."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=12.0, yaw_rate=5.0)
+    way = travel.simulate(car, friction=0.7, lock=0.6, moments=31)
+    points, headings = np.column_stack([way.x, way.y])[::2], way.heading[::2]
+    with pytest.warns(col.OutOfRangeWarning, match=r"by the yaw the wheels slip at more than 0\.5 of the speed"):
+        run = travel.path(points, headings, friction=0.7, lock=0.6)
+    assert 1.03 * 12.0 < run.speed < 1.15 * 12.0
+    slower = travel.simulate(car.replace(yaw_rate=1.0), friction=0.7, lock=0.6, moments=31)
+    run = travel.path(np.column_stack([slower.x, slower.y])[::2], slower.heading[::2], friction=0.7, lock=0.6)
+    assert run.speed == pytest.approx(12.0, rel=0.01)
 
 
 def test_an_error_without_bound_is_said_to_be_infinite():

@@ -178,6 +178,12 @@ def path(**numbers: Any) -> Any:
     return travel.path(points, [numbers.pop(f"heading[{i}]") for i in range(3)], **numbers)
 
 
+def simulate(**numbers: Any) -> Any:
+    vehicle = col.Vehicle(**{name: numbers.pop(name) for name in (*BODY_AT_REST, "vx", "vy", "yaw_rate")})
+    return travel.simulate(vehicle, **numbers, moments=2).rest
+
+
+BODY_AT_REST = ("mass", "yaw_inertia", "x", "y", "heading")
 STATE = tuple(
     f"{side}.{when}.{name}"
     for side in "ab"
@@ -412,6 +418,9 @@ def calls() -> Iterator[tuple[str, Call]]:
     }
     ground = {"friction": 0.7, "lock": 0.3, "grade": 0.02, "end_speed": 2.0}
     yield "path", Call(path, {**places, **ground}, ({"heading[1]": 4.0}, {"x[1]": 0.0, "y[1]": 0.0}, {"friction": 1e308}))
+    car = {"mass": 1500.0, "yaw_inertia": 2400.0, "x": 1.0, "y": 2.0, "heading": 0.3, "vx": 6.0, "vy": 1.0, "yaw_rate": 1.0}
+    wheels = {"friction": 0.7, "lock": 0.6, "wheelbase": 2.7, "track": 1.5, "steer": 0.1, "cornering": 9.5, "limit": 20.0}
+    yield "simulate", Call(simulate, {**car, **wheels}, ({"friction": 0.0}, {"limit": 0.1}, {"mass": math.inf}))
     yield (
         "reference.restitution",
         Call(reference.restitution, {"closing_speed": 3.0}, ({"closing_speed": 30.0}, {"closing_speed": 0.01})),

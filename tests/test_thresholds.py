@@ -434,6 +434,11 @@ def two_marks(**more):
     return travel.path([(0.0, 0.0), (9.0, 1.0)], **{"headings": [0.0, 0.0], "friction": 0.7, "lock": 0.5, **more})
 
 
+def yawing(ratio):
+    """Locked wheels from 2 m: turn over the time, 2 m over half the speed, so that 1.5 m times it over the speed is ``ratio``."""
+    return travel.path([(0.0, 0.0), (2.0, 0.0)], [0.0, ratio * 4.0 / 1.5], friction=0.7, lock=1.0)
+
+
 def force_over(duration):
     pytest.importorskip("matplotlib")
     from matplotlib import pyplot
@@ -641,6 +646,7 @@ WARNINGS = [
     Warned("fit that bends", 0.2, CONDITION, "not_linear", a_bent_reading),
     Warned("fit within its bounds", 1.0, CONDITION, "told_by_bounds", one_reading, below=True),
     Warned("turn between two marks", math.radians(90.0), RANGE, "wide_segment", lambda x: two_marks(headings=[0.0, x])),
+    Warned("yaw over speed", 0.5, RANGE, "fast_yaw", yawing),
     Warned("ends of a half turn", 2.0, RANGE, "may_wrap", lambda x: to_both_sides(near=x)),
     Warned("shares between them", 0.16, RANGE, "may_wrap", lambda x: to_both_sides(between=x), below=True),
     Warned("local method", 0.1, RANGE, "not_local", a_bump_beside_the_middle),
