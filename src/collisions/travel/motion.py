@@ -17,7 +17,9 @@ _STANDING = 1e-3
 _ENDING = 1e-3
 _TOLERANCE = 1e-6
 _LONGEST_STEP = 0.25
-_MOST_STEPS = 20_000
+# Shorter steps are of a motion that cannot be followed, such as a spin without measure.
+_SHORTEST_STEP = 1e-9
+_MOST_STEPS = 10_000
 
 # The embedded pair of orders 5 and 4 of Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19.
 _STAGES = (
@@ -158,7 +160,7 @@ def integrate(wheels: Wheels, state: Any, limit: Any) -> tuple[Any, Any]:
             _come_to_rest(state[:, i], slope[:, i])
         states.append(state.copy())
         slopes.append(slope / np.where(slope[6] > 0.0, slope[6], 1.0))
-        going = going[~over[going] & (state[6, going] < limit[going]) & np.isfinite(wrong)]
+        going = going[~over[going] & (state[6, going] < limit[going]) & (width[going] > _SHORTEST_STEP)]
     return np.array(states), np.array(slopes)
 
 

@@ -195,7 +195,7 @@ def simulate(
         way, ended = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
     if shape is None:
         _refuse_one(*map(float, (*ended[:, 0], flat["limit"][0])))
-        found = way[..., 0]
+        found, still = way[..., 0], 0.0
     else:
         limits = flat["limit"].reshape(shape)
         checks = [
@@ -206,11 +206,12 @@ def simulate(
         time, speed = ended.reshape(2, *shape)
         checks += [("out_of_range", ~np.isfinite(time)), ("never_stops", time >= limits), ("no_convergence", speed > 0.0)]
         finite = {name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")}
-        (answered,) = settle([np.zeros(shape)], finite, shape, checks)
-        found = (way.reshape(len(way), moments, *shape) + answered).astype(precision(named.values()))
+        # 0, or NaN where a case is refused.
+        still = write_locked(settle([np.zeros(shape)], finite, shape, checks)[0].astype(precision(named.values())))
+        found = (way.reshape(len(way), moments, *shape) + still).astype(still.dtype)
     time, x, y, heading, *tracks = write_locked(tuple(found))
     end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
-    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), 0.0)
+    state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), still)
     state |= {name: float(part) if shape is None else part for name, part in end.items()}
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     return SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=vehicle_of(state))
