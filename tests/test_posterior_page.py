@@ -1,0 +1,70 @@
+"""The page of posteriors: its figures are of a run of the script, and the intervals hold within what the page promises."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not (ROOT / "benchmarks").is_dir(), reason="the sdist has no benchmarks")]
+
+
+@pytest.fixture(scope="module")
+def committed():
+    return json.loads((ROOT / "docs" / "_generated" / "posterior.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def script():
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        import posterior
+    finally:
+        sys.path.remove(str(ROOT / "benchmarks"))
+    return posterior
+
+
+def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_path):
+    path = tmp_path / "posterior.json"
+    command = [sys.executable, str(ROOT / "benchmarks" / "posterior.py"), "--quick", "--json", str(path), "--processes", "1"]
+    subprocess.run(command, check=True, capture_output=True, timeout=300)
+    quick = json.loads(path.read_text(encoding="utf-8"))
+    for found in (quick, committed):
+        assert [(scene["key"], list(scene["unknowns"])) for scene in found["scenes"]] == [
+            (scene.key, list(scene.priors)) for scene in script.SCENES
+        ]
+        for text in (
+            script.overall(found),
+            script.coverage_table(found),
+            script.cost_table(found),
+        ):
+            assert "nan" not in text
+    assert all(scene["replicates"] >= 300 and len(scene["unknowns"]) >= 6 for scene in committed["scenes"])
+    assert "nan" not in script.compare_table(quick)
+
+
+def test_intervals_hold_at_their_rate(committed, script):
+    """Counts of each unknown within 3.5 binomial errors, of all unknowns of a scene within what half as many would leave open."""
+    for scene in committed["scenes"]:
+        tried = scene["replicates"]
+        for k, share in enumerate(script.COVERAGES):
+            error = (share * (1.0 - share) / tried) ** 0.5
+            held = [row["held"][k] / tried for row in scene["unknowns"].values()]
+            assert all(abs(one - share) < 3.5 * error for one in held), (scene["key"], share, held)
+            # Unknowns of one crash are not independent.
+            assert abs(sum(held) / len(held) - share) < 3.5 * error / 2.0**0.5
+        for name, row in scene["unknowns"].items():
+            assert script.uniformity(row["ranks"]) > 1e-4, (scene["key"], name)
+
+
+def test_errors_of_sampling_are_as_stated(committed):
+    """Scatter over six seeds against the stated error: chi-squared of five degrees of freedom is within 0.2**2 and 2.1**2 of its mean."""
+    for row in committed["cost"]:
+        for name in ("mean", "evidence"):
+            assert 0.2 < row[name] / row[f"{name}_stated"] < 2.5, row
+    for key in {row["key"] for row in committed["cost"]}:
+        stated = [row["mean_stated"] for row in committed["cost"] if row["key"] == key]
+        assert stated == sorted(stated, reverse=True)
