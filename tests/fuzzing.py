@@ -42,6 +42,7 @@ from collisions.reconstruct.fit_result import Direction, Estimate, Residual, Val
 from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.reconstruct.posterior_result import PosteriorOutput
 from collisions.side import Side
+from collisions.uncertainty.distribution import GivenUnit
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
 _FEW = 12
@@ -281,7 +282,7 @@ class Case(random.Random):
             free = documented is None or self.mood != "plain" or label in documented
             assert free or math.isfinite(value), f"{label} is {value}"
             return
-        if kind.__module__.partition(".")[0] == "collisions" and kind is not col.Status:
+        if kind.__module__.partition(".")[0] == "collisions" and kind not in (col.Status, GivenUnit):
             self._look_at(value, kind, documented, thorough)
         if isinstance(value, Mapping | tuple | list) and id(value) not in self._within:
             around, self._within = self._within, self._within | {id(value)}
