@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
+from operator import attrgetter
 from types import ModuleType
 from typing import Any
 
@@ -272,6 +273,20 @@ def calls() -> Iterator[tuple[str, Call]]:
                 forward("eccentric"), pinned, ({"b.vx": 3.0}, {"a.mass": INF, "a.yaw_inertia": INF, "a.yaw_rate": 0.0}), FORWARD
             ),
         )
+    held = {**STILL, "a.vx": 0.4, "duration": 0.3, "drag": 0.7, "restitution": 0.3}
+    timed = {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}
+    yield (
+        "time_resolved, first_contact",
+        Call(
+            forward("time_resolved"),
+            timed,
+            (*special, held, {"drag": -0.1}),
+            FORWARD,
+            {"geometry": "first_contact", "steps": 25},
+        ),
+    )
+    spinning = {**STILL, "a.vx": 3.0, "a.yaw_rate": 15.0, "duration": 0.5}
+    yield "time_resolved", Call(forward("time_resolved"), timed, (spinning,), FORWARD, {"steps": 25})
     yield "left_out", Call(left_out, {**free, "friction": 0.4, "duration": 0.1, "drag": 0.7}, special)
     yield (
         "methods",
@@ -572,6 +587,11 @@ def parts(found: Any) -> list[Any]:
     return list(found) if isinstance(found, tuple) and found and isinstance(found[0], col.Impact) else [found]
 
 
+def at_rest(impact: Any, output: str) -> bool:
+    """Whether this is the course of a vehicle at rest, to which rounding may give one."""
+    return output.endswith(".course") and attrgetter(output.removesuffix("course") + "speed")(impact) < 1e-12
+
+
 def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) -> tuple[int, int]:
     """Looks at these cases of a call in the answer to all of them; gives how many were answered and how many refused."""
     call, columns = CALLS[name], columns_of(name)
@@ -590,6 +610,8 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
             elif place == 0:
                 for (output, value), (same, value_alone) in zip(outputs(part), outputs(parts(one)[0]), strict=True):
                     assert output == same
+                    if isinstance(value_alone, np.ndarray) or at_rest(parts(one)[0], output):
+                        continue  # a history of the contact, which a batch does not keep; a course that is none
                     value = at(value, shape, number)
                     assert is_nothing(value) == is_nothing(value_alone), f"{here}: {output} is {value!r}, alone {value_alone!r}"
     return answered, refused
@@ -733,11 +755,11 @@ def test_every_reason_of_refusal_is_met() -> None:
     assert {status.label for status in col.Status if status > GAIN} == {col.Status(code).label for code in seen if code > GAIN}
 
 
-NOT_TO_RAISE = ("linear_central", "oblique_central", "eccentric", "solve", "central", "planar", "momentum")
+NOT_TO_RAISE = ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved", "central", "planar", "momentum")
 # Of the public functions those that take one case, or none.
 ONE_CASE = {
-    col: {"diagnose", "explain", "impact_schema", "report"},
-    reconstruct: {"fit", "recorded_pulse"},
+    col: {"diagnose", "explain", "impact_schema", "report", "what_if"},
+    reconstruct: {"fit", "recorded_pulse", "posterior", "compare"},
     reference: {"drag_factor", "restitution_by_overlap"},
     travel: set(),
 }

@@ -303,7 +303,7 @@ def test_what_counts_needs_a_word_of_what_it_counts():
 @pytest.mark.parametrize(
     ("field", "given", "said"),
     [
-        ("vx", "80 kmph", "kilo-mile per hour"),
+        ("vx", "80 kmph", "'kmph' is written 'km/h'"),
         ("vx", "50 hmph", "hecto-mile per hour"),
         ("vx", "5 kiloknot", "kilo-knot"),
         ("vx", "100 dkph", "deci-kilometer per hour"),

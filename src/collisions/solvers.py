@@ -248,7 +248,7 @@ def eccentric(
     ...     impact = col.eccentric(a, b, 0.3, normal=0.0, point=(0.0, 0.0), friction=0.5, outside_b=braking)
     ...     print(round(impact.b.delta_v, 2), round(impact.b.outside_work))
     1.95 0
-    1.61 -828
+    1.61 -827
     """
     tangential = friction, impulse_ratio, critical_fraction
     inputs, plain = read_inputs(

@@ -116,7 +116,7 @@ def diagnose(
     ('restitution', 0.8, 0.3)
     >>> diagnose(impact, limits={"restitution": 0.9, "normal": 1.0})
     No findings
-    23 checks were made.
+    25 checks were made.
     A finding is a reason to look again, not an error; no finding is no proof.
     """
     # An implausible limit is intended, so the unit check is skipped.

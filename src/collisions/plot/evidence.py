@@ -181,9 +181,9 @@ def _pair(axes: Axes, x: Any, y: Any) -> None:
     # A cell and its neighbours, so that the lines are not those of chance.
     wide = np.lib.stride_tricks.sliding_window_view(np.pad(counts, 1), (3, 3))
     smooth = np.einsum("ijkl,k,l->ij", wide, _KERNEL, _KERNEL)
-    falling = np.sort(smooth.ravel())[::-1]
-    sums = np.cumsum(falling)
-    levels = sorted({float(falling[np.searchsorted(sums, share * sums[-1])]) for share in _SHARES})
+    falling = np.argsort(-smooth, axis=None)
+    sums = np.cumsum(counts.ravel()[falling])
+    levels = sorted({float(smooth.ravel()[falling[np.searchsorted(sums, share * sums[-1])]]) for share in _SHARES})
     axes.pcolormesh(xs, ys, smooth.T, cmap="Greys", rasterized=True)
     middles = (0.5 * (ends[1:] + ends[:-1]) for ends in (xs, ys))
     axes.contour(*middles, smooth.T, levels, colors=[FORCE], linewidths=1.1).set_gid("shares")

@@ -247,7 +247,7 @@ def speeds(
         try:
             plain = cases.shape is None and function is None
             scene, found = roots_of(ComponentScene(*known_of) if measured else Scene(*known_of, plain))
-        except ZeroDivisionError:
+        except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(Scene(*known_of))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function)
