@@ -72,6 +72,12 @@ CAR_B = {
 CONTACT = {"restitution": 0.2, "normal": 0.1, "point[0]": 0.1, "point[1]": 0.2}
 RULES = {"friction": 0.4, "impulse_ratio": 0.1, "critical_fraction": 0.5}
 LAWS = ("brach", "kudlich-slibar")
+OTHERWISE: dict[str, dict[str, Any]] = {
+    "stronge": {"law": "stronge"},
+    "stronge, incomplete": {"law": "stronge", "incomplete": True},
+    "incomplete": {"incomplete": True},
+    "pushed": {"outside_a": (300.0, -100.0, 50.0), "outside_b": (0.0, 200.0, 0.0)},
+}
 
 
 def body(numbers: Mapping[str, Any], label: str) -> col.Vehicle:
@@ -250,6 +256,9 @@ def calls() -> Iterator[tuple[str, Call]]:
                 f"eccentric, {rule}, {law}",
                 Call(forward("eccentric"), {**free, rule: bound}, (*special, *jammed, *pulls), FORWARD, {"law": law}),
             )
+        for name, options in OTHERWISE.items() if rule == "friction" else ():
+            echoes = (*FORWARD, *(f"{side}.outside_{axis}" for side in "ab" for axis in ("x", "y", "yaw")))
+            yield f"eccentric, {name}", Call(forward("eccentric"), {**free, rule: bound}, special, echoes, options)
         for tolerance in (0.0, 0.3, 100.0):
             inputs = {**free, rule: bound, "tolerance": tolerance}
             yield (

@@ -307,6 +307,7 @@ def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, na
     Until then any impact passes as the plastic one, which under an energetic law is not in proportion to the whole.
     """
     e, found = inputs.restitution, [getattr(answer, name) for name in names]
+    refused = answer.status > Status.ENERGY_GAIN
     if LAWS[inputs.law or BRACH].energetic:
         plastic = replace(inputs, restitution=0.0 * e, given=None)
         with quietly():
@@ -314,7 +315,8 @@ def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, na
                 answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
             else:
                 answer, _ = solve_least(plastic, False, "nan", 1, None, choice)
-        compressed = [getattr(answer, name) for name in names]
+        # The plastic one may answer where the restitution itself was refused.
+        compressed = [select(refused, math.nan, getattr(answer, name)) for name in names]
     else:
         compressed = [value / (1.0 + e) for value in found]
     pairs = zip(found, compressed, strict=True)
