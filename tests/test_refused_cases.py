@@ -637,10 +637,10 @@ EVERY_RUN = (
     "planar, friction, kudlich-slibar, closing_speed",
     "speeds, friction, speed_b, delta_v_a",
 )
-PLANAR = ("oblique_central, ", "eccentric, ", "solve, ", "planar, ", "speeds, ")
+LONG = ("oblique_central, ", "eccentric, ", "solve, ", "planar, ", "speeds, ", "simulate", "time_resolved")
 every_call = pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if name.startswith(PLANAR) and name not in EVERY_RUN else ()) for name in CALLS],
+    [pytest.param(name, marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else ()) for name in CALLS],
 )
 
 

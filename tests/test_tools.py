@@ -575,7 +575,9 @@ def in_own_units(a=None, b=None, **contact):
     return col.eccentric(*made, **{"restitution": 0.1, "normal": 0.0, "point": (1.0, 0.2), "friction": 0.4, **contact})
 
 
-@pytest.mark.parametrize("what", IN_OWN_UNITS)
+@pytest.mark.parametrize(
+    "what", [name if name in ("a.vx", "normal") else pytest.param(name, marks=pytest.mark.slow) for name in IN_OWN_UNITS]
+)
 def test_a_unit_that_has_changed_since_the_record_was_written_is_refused(what):
     """A text would read as another number than the one that was solved; a record must never do that without a word."""
     before = pint.get_application_registry().get()
