@@ -428,7 +428,7 @@ class Scene:
             middle = size * (behind + ahead) / (behind - ahead)
             low = np.where(ahead > behind, np.maximum(low, middle), low)
             high = np.where(ahead < behind, np.minimum(high, middle), high)
-            high = np.where((ahead == behind) & ~(ahead > 0.0), -np.inf, high)
+            high = np.where((ahead == behind) & np.logical_not(ahead > 0.0), -np.inf, high)
         nearest = np.maximum(low, np.minimum(high, 0.0))
         low, high = np.maximum(low, nearest - size), np.minimum(high, nearest + size)
         wide = high - low > ROOT_TOL * size
