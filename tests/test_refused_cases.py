@@ -755,6 +755,7 @@ def test_a_refused_case_may_lack_a_position(place: dict[str, float], answered: i
         assert impact.b.kinetic_energy_change[0] == pytest.approx(0.5 * 1000.0 * 6.0**2, rel=1e-15)
 
 
+@pytest.mark.slow
 def test_every_reason_of_refusal_is_met() -> None:
     """No status is left out of the table."""
     seen = {0}

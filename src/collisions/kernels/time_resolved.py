@@ -337,7 +337,7 @@ def _start(
     near = np.zeros(passing.closing.shape, dtype=bool) if rest is not None else False
     for step, enough in ((max(_COARSE, contact.step), _ROUGHLY), (contact.step, _NEAR)):
         some, older = rest, None
-        part, now = kept((contact._replace(step=step), a, b, spring, moving), some), kept(guess, some)
+        part, now = cases_of((contact._replace(step=step), a, b, spring, moving), some), cases_of(guess, some)
         for _ in range(_CORRECTIONS):
             start = _moved_back(part[0], part[1], part[2], now)
             first_a, first_b, first = part[4]
@@ -354,21 +354,21 @@ def _start(
             now = reached if older is None else _secant(reached, off, *older)
             if some is not None:
                 left = np.logical_not(arrived)
-                some, part, now, off, reached = kept((some, part, now, off, reached), left)
+                some, part, now, off, reached = cases_of((some, part, now, off, reached), left)
             older = off, reached
     return _moved_back(contact, a, b, guess), near
 
 
-def kept(parts: Any, some: Any) -> Any:
+def cases_of(parts: Any, some: Any) -> Any:
     """Some cases of arrays, also of those in tuples and lists; all where there is nothing to choose."""
     if some is None:
         return parts
     if isinstance(parts, np.ndarray):
         return parts[some]
     if isinstance(parts, list):
-        return [kept(part, some) for part in parts]
+        return [cases_of(part, some) for part in parts]
     if isinstance(parts, tuple):
-        values = (kept(part, some) for part in parts)
+        values = (cases_of(part, some) for part in parts)
         return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
     return parts
 
@@ -459,7 +459,7 @@ def block_run(settings: Settings) -> Run:
                 break
             if 2 * count < active.size and active.size > _LEAST:
                 # Most have ended: go on without them.
-                whole: Moving = put(moving, active, run(kept(fixed, active), kept(moving, active), engaging, note))
+                whole: Moving = put(moving, active, run(cases_of(fixed, active), cases_of(moving, active), engaging, note))
                 return whole
             moving = advance(*fixed, *moving, engaging, moves, settings.wheels_a, settings.wheels_b)
         return moving

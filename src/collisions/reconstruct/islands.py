@@ -129,16 +129,16 @@ class _Population:
         best = float(np.max(self.likelihood))
         behind = self.likelihood - best
 
-        def kept(more: float) -> float:
+        def effective(more: float) -> float:
             weights = np.exp(more * behind)
             return float(np.sum(weights)) ** 2 / float(np.sum(weights**2))
 
         more = high = 1.0 - self.power
-        if kept(high) < 0.5 * self.count:
+        if effective(high) < 0.5 * self.count:
             low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
             for _ in range(_BISECTIONS):
                 more = math.sqrt(low * high)
-                low, high = (more, high) if kept(more) >= 0.5 * self.count else (low, more)
+                low, high = (more, high) if effective(more) >= 0.5 * self.count else (low, more)
         weights = np.exp(more * behind)
         self.log_evidence += math.log(np.mean(weights)) + more * best
         self.power = 1.0 if more == 1.0 - self.power else self.power + more

@@ -40,7 +40,7 @@ _BESIDE = 0.02
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
 _SQUARED = ("delta_v", "max_crush")
 # Known under another name, but the same observation.
-_SAME = {"ees_a": "energy_loss"}
+_OBSERVED_AS = {"ees_a": "energy_loss"}
 
 
 class Root(NamedTuple):
@@ -91,7 +91,7 @@ class Scene:
 
     def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...], plain: bool = False) -> None:
         self.given, self.rule, self.law, self.names = given, rule, law, kinds
-        self.kinds = tuple(_SAME.get(kind, kind) for kind in kinds)
+        self.kinds = tuple(_OBSERVED_AS.get(kind, kind) for kind in kinds)
         masses = np.minimum(given["a.mass"], given["b.mass"])
         sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else abs(given[kind]) for kind in kinds]
         self.mass_unit = _power_of_two(masses)
