@@ -309,7 +309,8 @@ class _Reader:
         for name, one in takes.items():
             # What may be None is not known, which a file says by leaving it out.
             if one.default is Parameter.empty and name not in given and "None" not in str(one.annotation):
-                self.refuse(f"{key}.{name}", f"is missing; give it: {descriptions(function).get(name, name).replace('``', '')}\")
+                what = descriptions(function).get(name, name).replace("``", "")
+                self.refuse(f"{key}.{name}", f"is missing; give it: {what}")
         prefix = "" if key in SOLVERS else f"{key}."
         read = {
             name: value if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
