@@ -73,6 +73,7 @@ def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
     assert done.stdout.splitlines()[-1] == "all checks passed"
 
 
+@pytest.mark.slow
 def test_a_failed_comparison_fails_the_example(tmp_path):
     """The checks at the end are real: with one paper figure altered, the script fails and names it."""
     script = (ROOT / "examples" / "paper_examples.py").read_text(encoding="utf-8")

@@ -91,6 +91,7 @@ def test_a_record_reads_back():
     assert "half back" in col.impact_schema()["properties"]["inputs"]["properties"]["law"]["enum"]
 
 
+@pytest.mark.slow
 def test_explained_reported_and_diagnosed():
     impact = col.eccentric(A, B, 0.3, **CONTACT)
     page = explain(impact)

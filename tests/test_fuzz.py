@@ -385,6 +385,7 @@ def test_a_vehicle_of_anything(fields: dict[str, Any], name: Any, how: int) -> N
         look_at_vehicle(vehicle)
 
 
+@pytest.mark.slow
 @examples()
 @given(some_of(("speed", "course", "mass", "yaw_rate", "vx", "heading")))
 def test_a_vehicle_from_any_speed_and_course(fields: dict[str, Any]) -> None:

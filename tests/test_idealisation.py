@@ -377,6 +377,7 @@ def test_one_impact_of_many_drags():
         assert found.b.tyre_delta_v[index] == pytest.approx(one.b.tyre_delta_v, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [None, 0.5])
 def test_a_large_batch_is_worked_out_in_blocks(tolerance):
     """What its cases give alone, and beyond inputs and answers no more memory than 20 MiB, which is no array of all cases.

@@ -195,8 +195,9 @@ SAMPLE = 20  # of 540 questions on each of nine ends; all of them were asked onc
 REGIMES = (None, "sliding", "sticking", "given", "frictionless")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("motion", [pytest.param(name, marks=() if name == "slides" else pytest.mark.slow) for name in MOTIONS])
+@pytest.mark.parametrize("motion", MOTIONS)
 def test_advice_leads_out(motion, law):
     """What a message advises does not end in one that advises the same, and some of it ends in an answer.
 

@@ -276,6 +276,7 @@ def test_without_matplotlib_the_error_says_what_to_install(picture, monkeypatch)
     assert isinstance(caught.value.__cause__, ImportError)
 
 
+@pytest.mark.slow
 def test_matplotlib_is_imported_when_something_is_drawn_and_not_before():
     code = "import sys, collisions.plot; assert 'matplotlib' not in sys.modules; assert 'pint' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
@@ -946,6 +947,7 @@ def test_there_is_a_cone_only_where_friction_bounds_the_impulse(case, lines):
     assert ("no slip" in names(axes)) == (case != "example 2")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
 @pytest.mark.parametrize("slip", [0.0, 30.0])
 def test_a_contact_that_moves_along_the_normal_alone_has_no_lines_of_slip(angle, slip):

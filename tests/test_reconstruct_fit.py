@@ -629,6 +629,7 @@ def hollows(a):
     return {"o": np.sin(30.0 * a) + 0.5 * a, "q": a}
 
 
+@pytest.mark.slow
 def test_the_best_of_many_hollows_is_found():
     """One of 64 searches over 20 ended at 2.075, chi-squared 2.28; on a grid of 1e-6 the least is at 2.007, 0.02."""
     grid = np.arange(1.9, 2.1, 1e-6)

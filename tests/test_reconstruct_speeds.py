@@ -430,6 +430,7 @@ def solve_forward(closing, e, contact):
     )
 
 
+@pytest.mark.slow
 def test_a_function_under_propagate():
     """The restitution belongs to each sample's own closing speed."""
     contact = {**CONTACT, "friction": 0.5}

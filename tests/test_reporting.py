@@ -879,6 +879,7 @@ def sliding(speed):
     return {"impulse_ratio": answer.impulse_ratio, "a.pdof": answer.a.q.pdof}
 
 
+@pytest.mark.slow
 def test_an_interval_has_a_range_and_no_deviation():
     """The deviation within leaves out how far the interval goes."""
     inputs = {"speed": uncertainty.Interval("40 km/h", "70 km/h"), "restitution": uncertainty.Uniform(0.05, 0.15)}

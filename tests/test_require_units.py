@@ -78,6 +78,7 @@ def test_solvers_and_travel_refuse_too():
             reconstruct.inline_closing_speed(1500, "1500 kg", 0.1, delta_v_b="10 mph")
 
 
+@pytest.mark.slow
 def test_what_follows_from_inputs_with_units_works(tmp_path):
     """Records, pages, findings, pictures, models of a propagation: their numbers are the package's own."""
     pytest.importorskip("matplotlib").use("agg")

@@ -664,6 +664,7 @@ WARNINGS = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_every_warning_has_its_rows():
     """Those of the source whose category is of a limit; others have a test of their own."""
     categories = {row.category.__name__ for row in WARNINGS} - {"CollisionsWarning"}

@@ -125,6 +125,7 @@ def test_speed_and_time_keep_their_digits(segments, end):
     assert type(start) is type(duration) is float
 
 
+@pytest.mark.slow
 @run_often
 @given(lengths, st.floats(0.0, 0.1), st.floats(-0.4, -0.11), speeds)
 def test_downhill_beyond_the_drag_the_condition_is_all_that_is_lost(d, f, g, end):

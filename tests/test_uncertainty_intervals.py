@@ -61,6 +61,7 @@ def test_an_extreme_between_the_bounds(width, peak):
     assert found.interval() == pytest.approx((1.0 - max(peak, 1.0 - peak) ** 2, 1.0), abs=1e-13)
 
 
+@pytest.mark.slow
 def test_extremes_on_a_ridge_and_in_a_valley():
     """A saddle with both extremes inside, in two inputs that are not aligned with it: sin(x + y) cos(x - 2 y)."""
 
@@ -233,6 +234,7 @@ def test_extremes_between_the_places_of_a_grid():
     assert high >= truth.interval()[1] * (1.0 - 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
 def test_an_extreme_inside_of_several_intervals(count):
     """Found to what its curvature leaves, however many there are and however the corners look."""
@@ -247,7 +249,8 @@ def test_an_extreme_inside_of_several_intervals(count):
     assert found.interval()[1] == pytest.approx(truth.interval()[1], rel=1e-9)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4, *(pytest.param(count, marks=pytest.mark.slow) for count in (5, 6, 7))])
+@pytest.mark.slow
+@pytest.mark.parametrize("count", range(1, 8))
 def test_every_corner_is_a_place(count):
     """And there are few enough places to work out."""
     asked = set()

@@ -118,6 +118,7 @@ def test_uniform_and_independent(name):
         assert np.abs(sequences).max() < 5.0 / math.sqrt(4096)
 
 
+@pytest.mark.slow
 def test_the_vector_is_what_its_script_builds():
     """Its first components; each is chosen after the ones before it, so a different construction differs here."""
     source = Path(__file__).resolve().parents[1] / "benchmarks" / "lattice.py"

@@ -174,6 +174,7 @@ def test_a_text_without_a_unit_is_no_angle_after_it_was_a_proportion():
             col.Vehicle(mass=1500, **{argument: text})
 
 
+@pytest.mark.slow
 def test_texts_are_read_by_the_registry_of_the_moment():
     """A unit that one application registry defines is unknown to the next, and one defined differently differs."""
     before = pint.get_application_registry().get()
@@ -622,6 +623,7 @@ def test_a_unit_normal_can_be_given_again():
         assert col.oblique_central(one, b, 0.5, normal=n, friction=0.0).normal == n
 
 
+@pytest.mark.slow
 def test_pint_is_loaded_only_for_units():
     """Importing and solving with numbers never loads pint; the first unit does."""
     code = (
