@@ -12,7 +12,7 @@ import numpy as np
 from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
-from .inputs import CRUSH_UNITS, Inputs, read_inputs
+from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, read_inputs
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
 from .kernels.status import Status
 from .kernels.time_resolved import Passed, Settings, block_run, float_run, time_resolved, wheels_of
@@ -33,7 +33,6 @@ DOMAINS = {
 }
 # A step of a car's contact is then 2 ms or 1 us.
 _FEWEST, _MOST = 10, 100_000
-_KINDS = ("duration", "stiffness", "crush_a", "crush_b")
 _STEPS = 100
 _SIZES = {"wheelbase": 2.7, "track": 1.5}
 # Cases of a block; fewer than so many are faster one by one.
@@ -92,7 +91,7 @@ def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
 def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
     """The numbers in ``extra`` that say how a contact passes; one kind of stiffness has to be among them."""
     found: dict[str, Any] = dict.fromkeys(extra.keys() & DOMAINS.keys())
-    kinds = [name for name in _KINDS if extra.get(name) is not None]
+    kinds = [name for name in STIFFNESSES if extra.get(name) is not None]
     if not kinds or (len(kinds) > 1 and kinds != ["crush_a", "crush_b"]):
         text = f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long the contact takes"
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
@@ -100,7 +99,7 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
         if name not in extra:
             continue
         value = extra[name]
-        if value is None and name in _KINDS:
+        if value is None and name in STIFFNESSES:
             continue
         if name == "drag":
             found[name] = read_drag(reader, value, name)

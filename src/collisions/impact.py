@@ -10,10 +10,9 @@ from typing import Any, cast
 
 import numpy as np
 
-from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
-from .inputs import OUTSIDE, Inputs, OnFailure, index_of, part_of, part_of_inputs
+from .inputs import ARGUMENTS, STIFFNESSES, Inputs, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .kernels.time_resolved import Passed
@@ -442,12 +441,7 @@ class Impact(Frozen, Summarized):
         16.69
         """
         inputs, rules = self.inputs, [name for name in RULES if name in changes]
-        takes = {"a", "b", "restitution", "normal", "incomplete"}
-        takes |= {"law", *RULES} if inputs.model != "linear_central" else set()
-        placed = {"point", *OUTSIDE}
-        takes |= {"eccentric": placed, "solve": placed | {"tolerance", "duration", "drag"}}.get(inputs.model, set())
-        if inputs.model == "time_resolved":
-            takes = takes - {"law", "incomplete", *RULES} | {"point", "friction", *TIME_DOMAINS, "geometry", "steps"}
+        takes = {"a", "b", "restitution", "normal", *ARGUMENTS[inputs.model]}
         unknown = changes.keys() - takes
         if unknown:
             raise TypeError(f"again() takes the arguments of {inputs.model}: {', '.join(sorted(takes))}; got {min(unknown)!r}")
@@ -457,9 +451,8 @@ class Impact(Frozen, Summarized):
         changed |= {"rule": rules[0], "rule_value": changes[rules[0]]} if rules else {}
         same_as_before = takes - changes.keys() - (RULES.keys() if rules else set())
         given = {name: text for name, text in (inputs.given or {}).items() if name.partition("[")[0] in same_as_before}
-        kinds = {"duration", "stiffness", "crush_a", "crush_b"}
-        if inputs.model == "time_resolved" and changes.keys() & kinds:
-            changed = dict.fromkeys(kinds - changes.keys()) | changed
+        if inputs.model == "time_resolved" and changes.keys() & set(STIFFNESSES):
+            changed = dict.fromkeys(STIFFNESSES) | changed
         return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
 
     def case(self, index: int | tuple[int, ...]) -> Impact:

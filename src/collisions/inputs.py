@@ -26,9 +26,20 @@ OnFailure: TypeAlias = Literal["raise", "nan"]
 _ALONG_X = (1.0, 0.0)
 # Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
-# The models that have places, and no law.
-_PLACED, _LAWLESS = ("eccentric", "time_resolved"), ("linear_central", "time_resolved")
 _NO_IMPULSE = (0.0, 0.0, 0.0)
+OUTSIDE = ("outside_a", "outside_b")
+_SLIP = (*RULES, "law", "incomplete")
+STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
+# By solver, its arguments beyond vehicles, restitution and normal.
+ARGUMENTS = {
+    "linear_central": ("incomplete",),
+    "oblique_central": _SLIP,
+    "eccentric": (*_SLIP, "point", *OUTSIDE),
+    "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag"),
+    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", "geometry", "steps"),
+}
+# The models that need places, and the solvers that take pinned bodies.
+PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +124,6 @@ class Inputs:
 
 
 # The numbers and pairs with their units: records and their schema list each by name.
-OUTSIDE = ("outside_a", "outside_b")
 UNITS: dict[str, Any] = {f.name: f.metadata["unit"] for f in fields(Inputs) if "unit" in f.metadata}
 
 
@@ -205,7 +215,7 @@ def read_inputs(
     normal shares its precision.
     """
     friction = tangential[0]
-    law_used = None if model in _LAWLESS else law
+    law_used = law if "law" in ARGUMENTS[model] else None
     if (
         type(a) is type(b) is Vehicle
         and a.given is b.given is None
@@ -220,8 +230,8 @@ def read_inputs(
         and not problems
         and incomplete is False
         and outside_a is outside_b is None
-        and (a.pivot is b.pivot is None or model in ("solve", "eccentric"))
-        and (model not in _PLACED or not missing_numbers(a, b, point))
+        and (a.pivot is b.pivot is None or model in _PINNED)
+        and (model not in PLACED or not missing_numbers(a, b, point))
         and (
             point is None
             or (
@@ -247,9 +257,9 @@ def read_inputs(
         return inputs, True
     reader = ArgumentReader()
     reader.problems.extend(problems)
-    if model in _PLACED:
+    if model in PLACED:
         reader.problems.extend(missing_numbers(a, b, point, model))
-    if model not in ("solve", "eccentric"):
+    if model not in _PINNED:
         reader.problems.extend(_pinned(model, a, b))
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):

@@ -10,16 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from .contact_time import DOMAINS as TIME_DOMAINS
 from .directions import direction
 from .errors import InputError, Status
 from .formatting import KIND_OF, bad_system, scale_of
 from .formatting import unit_of as system_unit
-from .inputs import OUTSIDE, UNITS, Inputs
+from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
-from .models import BY_NAME, TIME_RESOLVED, read_again
+from .models import read_again
 from .provenance import Reconstruction
 from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
@@ -31,8 +30,9 @@ from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
 _OPTIONS = ("geometry", "steps")
-_SOLVERS = (*BY_NAME, "solve")
-_OUTSIDE_SOLVERS = ("eccentric", "solve")
+# The arguments that not every solver takes, and what stands for one that it does not take.
+_OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes if name not in RULES)
+_LEFT_OUT = {"incomplete": False}
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
 _MOTION = ("vx", "vy", "yaw_rate")
@@ -119,14 +119,11 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         model, rule, law = (found[name] for name in _LABELS)
         if rule not in RULES or not isinstance(model, str):
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
-        if model not in _SOLVERS:
-            raise bad_record(f"its model is {shown(model)}; known are {', '.join(_SOLVERS)}")
-        if model != "solve" and found["tolerance"] is not None:
-            raise bad_record(f"only solve has a tolerance, and its model is {shown(model)}")
-        stray = [name for name in (*TIME_DOMAINS, *_OPTIONS) if found[name] is not None]
-        stray = [name for name in stray if model != "solve" or name not in ("duration", "drag")]
-        if model != TIME_RESOLVED.name and stray:
-            raise bad_record(f"only time_resolved has {stray[0]}, and its model is {shown(model)}")
+        if model not in ARGUMENTS:
+            raise bad_record(f"its model is {shown(model)}; known are {', '.join(ARGUMENTS)}")
+        stray = [name for name in _OF_SOME if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)]
+        if stray:
+            raise bad_record(f"{model} takes no {stray[0]}")
         status = record["results"]["status"]
         status = np.array(status["values"]).reshape(status["shape"]) if isinstance(status, Mapping) else status
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
@@ -139,10 +136,6 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
         numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS, "incomplete")}
-        if model not in _OUTSIDE_SOLVERS and any(numbers[name] is not None for name in OUTSIDE):
-            raise bad_record(f"an impulse from outside is none that {model} takes")
-        if model == TIME_RESOLVED.name and numbers["incomplete"] is not False:
-            raise bad_record(f"no impact of {model} is incomplete")
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])

@@ -9,7 +9,7 @@ from typing import Any, get_args
 from .contact_time import Geometry
 from .errors import Status
 from .impact import Impact
-from .inputs import OUTSIDE, UNITS, Inputs
+from .inputs import ARGUMENTS, PLACED, UNITS, Inputs
 from .kernels.contact_laws import LAWS, RULES
 from .models import BY_NAME
 from .provenance import Reconstruction
@@ -91,12 +91,12 @@ def impact_schema() -> dict[str, Any]:
 
 
 def _inputs() -> dict[str, Any]:
-    """The inputs; law and point only for the models that take them."""
+    """The inputs of every solver."""
     given, vehicle = {"$ref": "#/$defs/given"}, {"$ref": "#/$defs/vehicle_inputs"}
     null, pair = {"type": "null"}, {"$ref": "#/$defs/pair"}
     question = _closed(
         {
-            "model": {"enum": sorted([*_MODELS, "solve"]), "description": "The solver that was called."},
+            "model": {"enum": sorted(ARGUMENTS), "description": "The solver that was called."},
             "rule": {"enum": list(RULES), "description": "What was said of the tangent, ..."},
             "law": {"enum": [*LAWS, None]},
             "a": vehicle,
@@ -123,14 +123,16 @@ def _inputs() -> dict[str, Any]:
             },
         }
     )
-    return question | {
-        "allOf": [
-            _where(["linear_central", "time_resolved"], {"law": null}, {"law": {"type": "string"}}),
-            _where(["eccentric", "time_resolved"], {"point": {"type": "array"}}, {}),
-            _where(["linear_central", "oblique_central"], {"point": null}, {}),
-            _where(["eccentric", "solve"], {}, dict.fromkeys(OUTSIDE, null)),
-        ]
-    }
+    return question | {"allOf": [_of_solver(name, takes) for name, takes in ARGUMENTS.items()]}
+
+
+def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
+    """The inputs of one solver: none that it does not take, and those that it needs."""
+    others = {argument for every in ARGUMENTS.values() for argument in every if argument not in (*takes, *RULES)}
+    needed = {"law": {"type": "string"}} if "law" in takes else {}
+    needed |= {"point": {"type": "array"}} if name in PLACED else {}
+    properties = {argument: {"enum": [None, False]} for argument in sorted(others)} | needed
+    return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
 
 
 def _results() -> dict[str, Any]:
@@ -218,11 +220,6 @@ def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
 def _each(value: dict[str, Any]) -> dict[str, Any]:
     """A label, a count or a truth value, or one for each case of a batch."""
     return {"anyOf": [value, _batch(value, {"type": "string"})]}
-
-
-def _where(models: list[str], then: dict[str, Any], otherwise: dict[str, Any]) -> dict[str, Any]:
-    condition = {"properties": {"model": {"enum": models}}}
-    return {"if": condition, "then": {"properties": then}, "else": {"properties": otherwise}}
 
 
 _LISTED = {

@@ -11,6 +11,7 @@ from ..document import Document
 from ..errors import InputError, ShapeError, Status
 from ..formatting import SI_UNITS, UnitSystem, bad_system
 from ..impact import Impact
+from ..inputs import PLACED
 from ..kernels.contact_laws import RULES
 from ..reading import ArgumentReader, at_least_zero, need_one_case
 from ..reconstruct import Fit, MomentumSolution
@@ -34,8 +35,6 @@ NOT_EXPLAINED = (
 )
 _MODELS = {"linear_central": linear, "oblique_central": oblique, "eccentric": eccentric, "time_resolved": time_resolved}
 
-# The models that have places and yaw rates.
-_PLACED = ("eccentric", "time_resolved")
 _CRUSH = "crush stiffness A of {0}; crush stiffness B of {0}; width of the crush of {0}"
 _IN_TIME = {
     "duration": ("nominal duration", ("duration",)),
@@ -224,7 +223,7 @@ def impact_inputs(impact: Impact) -> Iterator[tuple[str, str, tuple[str, ...], t
         if vehicle.pivot is not None:
             yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
-    if impact.point is not None and impact.model in _PLACED:
+    if impact.point is not None and impact.model in PLACED:
         yield "contact", "contact point (x, y)", ("point[0]", "point[1]"), impact.point, "length"
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
@@ -275,7 +274,7 @@ def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]
     """The rows of results, rounded."""
     for label, side in (("a", impact.a), ("b", impact.b)):
         for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
-            if impact.model not in _PLACED and name.endswith("yaw_rate"):
+            if impact.model not in PLACED and name.endswith("yaw_rate"):
                 continue
             if side.before.pivot is None and name.startswith("pivot"):
                 continue
