@@ -6,6 +6,7 @@ import pint
 import pytest
 
 import collisions as col
+from collisions.quantities import Frozen, derived
 
 
 @pytest.mark.parametrize(
@@ -73,3 +74,15 @@ def test_a_list_of_texts_names_the_quantity_to_write():
         with pytest.raises(col.UnitsError, match=re.escape("pint.Quantity([40, 50], 'mph')")):
             col.Vehicle(mass=1500.0, vx=other)
     assert col.Vehicle(mass=1500.0, vx=pint.Quantity([40, 50.5], "mph")).vx[1] == pytest.approx(50.5 * 0.44704)
+
+
+def test_an_attribute_that_cannot_be_worked_out_says_why():
+    """Python asks ``__getattr__`` also when the attribute is there and raises an AttributeError itself."""
+
+    class Answer(Frozen):
+        @derived()
+        def slope(self):
+            return (1).slope_of_a_number
+
+    with pytest.raises(AttributeError, match="'int' object has no attribute 'slope_of_a_number'"):
+        _ = Answer().slope

@@ -9,7 +9,7 @@ from collisions.derivation import explain
 from collisions.derivation.expressions import System
 from collisions.diagnostics import diagnose
 from collisions.diagnostics.case import MomentumCase
-from collisions.formatting import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of
+from collisions.formatting import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of, with_decimals
 from collisions.plot.canvas import Units
 from collisions.reporting import report
 
@@ -65,3 +65,12 @@ def test_units_are_checked_in_one_way(units):
         assert (caught.value.code, caught.value.fields["argument"]) == ("bad_option", "units")
         said.add(str(caught.value))
     assert len(said) == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "decimals", "text"),
+    [(9.994e14, -12, "999000000000000"), (1e15, 2, "1e+15"), (-1.7e308, -305, "-1.7e+308"), (-0.004, 2, "0.00")],
+)
+def test_numbers_beyond_what_a_float_holds_are_short(value, decimals, text):
+    """A float has at most 17 digits, so an impulse of 1e150 N s is not printed with 150."""
+    assert with_decimals(value, decimals) == text

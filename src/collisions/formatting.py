@@ -31,8 +31,10 @@ def places(value: float, figures: int) -> int:
 
 def with_decimals(value: float, decimals: int, thousands: str = "") -> str:
     """A number with so many decimals, or rounded to a power of ten, and never -0."""
-    # Above 1e300 a digit before the point can round beyond the range of floats.
-    rounded = value if decimals >= 0 or abs(value) > 1e300 else round(value, decimals)
+    if abs(value) >= 1e15:
+        # A float does not hold the last digits before the point.
+        return f"{value:.6g}"
+    rounded = value if decimals >= 0 else round(value, decimals)
     text = f"{rounded:,.{max(decimals, 0)}f}".replace(",", thousands)
     return text if text.strip("-0.") else text.lstrip("-")
 

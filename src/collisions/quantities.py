@@ -68,6 +68,9 @@ class Frozen:
     if not TYPE_CHECKING:  # with it type checkers would take any name
 
         def __getattr__(self, name: str) -> Any:
+            if hasattr(type(self), name):
+                # Working it out raised an AttributeError, which is raised again.
+                return object.__getattribute__(self, name)
             places = [where for kind, where in self._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
             hint = f"; write {places[0].format(name)}" if places else ""
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=self)
