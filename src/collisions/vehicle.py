@@ -101,8 +101,8 @@ class Vehicle(_AsGiven):
     ) -> None:
         if unknown:
             raise _unknown(next(iter(unknown)))
-        if not (
-            # Valid plain floats skip the reader; everything else goes through it.
+        given = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name)
+        plain = (
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
             and mass > 0.0
             and _isfinite(vx + vy)
@@ -114,20 +114,9 @@ class Vehicle(_AsGiven):
             and pivot is None
             and type(name) is str
             and not units_required.get()
-        ):
-            _fill(self, _read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
-            return
-        _set_mass(self, mass)
-        _set_vx(self, vx)
-        _set_vy(self, vy)
-        _set_yaw_rate(self, yaw_rate)
-        _set_yaw_inertia(self, yaw_inertia)
-        _set_x(self, x)
-        _set_y(self, y)
-        _set_heading(self, heading)
-        _set_pivot(self, pivot)
-        _set_name(self, name)
-        _set_given(self, None)
+        )
+        # Valid plain floats need no reader.
+        _fill(self, (*given, None) if plain else _read_fields(*given))
 
     @classmethod
     def barrier(cls, **rest: Any) -> Vehicle:
@@ -182,13 +171,13 @@ class Vehicle(_AsGiven):
             cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle))
             (magnitude,) = widened((magnitude,), numbers_of(vehicle))
             with np.errstate(all="ignore"):
-                _set_vx(vehicle, lock(magnitude * cx + 0.0))
-                _set_vy(vehicle, lock(magnitude * cy + 0.0))
+                _SETTERS["vx"](vehicle, lock(magnitude * cx + 0.0))
+                _SETTERS["vy"](vehicle, lock(magnitude * cy + 0.0))
         if reader.texts:
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
             texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
-            _set_given(vehicle, {**(vehicle.given or {}), **texts, **reader.texts})
+            _SETTERS["given"](vehicle, {**(vehicle.given or {}), **texts, **reader.texts})
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -213,7 +202,7 @@ class Vehicle(_AsGiven):
             texts = {name: text for name, text in self.given.items() if name not in changes}
             if {"vx", "vy"} & changes.keys():
                 texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
-            _set_given(vehicle, {**texts, **(vehicle.given or {})})
+            _SETTERS["given"](vehicle, {**texts, **(vehicle.given or {})})
         return vehicle
 
     @property
@@ -385,13 +374,11 @@ UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
-_SETTERS = tuple(getattr(Vehicle, name).__set__ for name in (*NAMES, "given"))
-_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, *_rest = _SETTERS
-_set_pivot, _set_name, _set_given = _rest
+_SETTERS = {name: getattr(Vehicle, name).__set__ for name in (*NAMES, "given")}
 
 
 def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
-    for setter, value in zip(_SETTERS, values, strict=True):
+    for setter, value in zip(_SETTERS.values(), values, strict=True):
         setter(vehicle, value)
 
 
@@ -402,29 +389,19 @@ def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, g
     trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
     _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
     if given:
-        _set_given(vehicle, given)
+        _SETTERS["given"](vehicle, given)
     return vehicle
 
 
 def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, str] | None = None) -> Vehicle:
     """The same body in another motion, without validation: used for results."""
-    other: Vehicle = object.__new__(Vehicle)
-    _set_mass(other, vehicle.mass)
-    _set_yaw_inertia(other, vehicle.yaw_inertia)
-    _set_x(other, vehicle.x)
-    _set_y(other, vehicle.y)
-    _set_heading(other, vehicle.heading)
-    _set_pivot(other, vehicle.pivot)
-    _set_name(other, vehicle.name)
-    _set_given(other, given or None)
     if vehicle.pivot is not None:
         vx, vy = turning_velocity(yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1])
-    if isinstance(vx, np.ndarray):
-        _set_given(other, given or {})
-        lock((vx, vy, yaw_rate))
-    _set_vx(other, vx)
-    _set_vy(other, vy)
-    _set_yaw_rate(other, yaw_rate)
+    texts = given or ({} if isinstance(vx, np.ndarray) else None)
+    lock((vx, vy, yaw_rate))
+    other: Vehicle = object.__new__(Vehicle)
+    place = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
+    _fill(other, (vehicle.mass, vx, vy, yaw_rate, vehicle.yaw_inertia, *place, vehicle.name, texts))
     return other
 
 
