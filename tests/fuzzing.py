@@ -49,10 +49,14 @@ _FEW = 12
 _HANGS = 60.0  # seconds
 _MOST_FAILURES = 25
 _PACKAGE = str(Path(col.__file__).parent)
-# What Python itself says of a keyword that is unknown or left out.
+# What Python itself says of a keyword that is unknown or left out, and what a Vehicle does, with what to write.
 _MISSPELT = re.compile(
-    r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle"
+    r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle|"
+    r"^Vehicle has no argument '.*'; (write \w+=|write Vehicle\.from_speed|it has mass, )",
+    re.DOTALL,
 )
+# What an impact says of itself to be NaN where it ended while the contact points still approached.
+INCOMPLETE = frozenset({"Impact.common_velocity", "LeftOut.mutual_crush", "LeftOut.residual_crush"})
 
 
 def seeds() -> range:
@@ -274,6 +278,7 @@ class Case(random.Random):
         None are all of them. Only now and then (``thorough``) with units, as a text, a table and a pickle.
         """
         thorough = self.random() < 0.1 if thorough is None else thorough
+        self.last_name, self._call = f"what followed {self.last_name}", ((value,), {})
         self._look(value, "", documented, thorough)
 
     def _look(self, value: Any, label: str, documented: Open, thorough: bool) -> None:
@@ -294,6 +299,8 @@ class Case(random.Random):
         names = _names_of(kind)
         if kind is col.Impact and np.any(value.refused):
             documented = None
+        elif kind is col.Impact and documented is not None and incomplete(value):
+            documented |= INCOMPLETE
         assert names, f"{kind} is given back, and fuzzing.GIVEN_BACK does not have it"
         name = names[0]
         start = time.process_time()
@@ -437,6 +444,11 @@ class Case(random.Random):
     def option(self, *usual: Any) -> Any:
         """One of these, in an odd case at times anything."""
         return self.garbage() if self.mood == "odd" and self.maybe(0.15) else self.choice(usual)
+
+
+def incomplete(impact: col.Impact) -> bool:
+    """Whether the contact points of a single impact still approach in the end."""
+    return impact.inputs.incomplete and np.ndim(impact.restitution) == 0 and impact.restitution < 0.0
 
 
 def _check_refusal(error: Any) -> None:

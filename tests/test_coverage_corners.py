@@ -127,3 +127,42 @@ def test_second_order_terms_too_large_for_a_float():
     with pytest.raises(col.NoSolutionError) as caught:
         propagate(lambda x: {"y": 1e300 * x * x}, {"x": Normal(1.0, 1e5, truncate=None)}, method="second_order")
     assert caught.value.code == "out_of_range"
+
+
+LONG = 10**5000  # Python writes no int of more than 4,300 digits
+
+
+@pytest.mark.parametrize("name", [LONG, ["x"], np.array([1.0, 2.0])], ids=["long", "list", "array"])
+def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
+    def model(x):
+        return {"s": 2.0 * x}
+
+    known = {"x": Normal(5.0, 1.0)}
+    for found, code in (
+        (propagate(model, known, method="monte_carlo", samples=64, seed=1), "no_output"),
+        (col.reconstruct.fit(model, known, {"s": (9.0, 1.0)}), "unknown_name"),
+        (col.reconstruct.posterior(model, known, {"s": (9.0, 1.0)}, samples=512, seed=1), "unknown_name"),
+    ):
+        with pytest.raises(col.InputError) as caught:
+            found[name]
+        assert caught.value.code == code
+
+
+@pytest.mark.parametrize(
+    ("call", "code"),
+    [
+        (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, correlation={(LONG, "x"): 0.5}), "bad_correlation"),
+        (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, tolerance={LONG: 0.5}), "bad_tolerance"),
+        (lambda: col.diagnose(crash(), limits={LONG: 1.0}), "unknown_finding"),
+        (lambda: crash().to_columns(columns=[LONG]), "unknown_name"),
+        (lambda: crash().to_columns(columns=np.array("x")), "unknown_name"),
+        (
+            lambda: col.reconstruct.recorded_pulse([0.0, 0.1, 0.2], [0.0, 1.0, 2.0], polarity="ISO 8855").inputs(np.zeros(2)),
+            "bad_option",
+        ),
+    ],
+)
+def test_a_key_that_is_no_name_is_refused_in_words(call, code):
+    with pytest.raises(col.InputError) as caught:
+        call()
+    assert caught.value.code == code

@@ -1371,7 +1371,10 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
     for call, code in (
         (lambda: plot.corner(3.0), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=[]), "bad_option"),
+        (lambda: plot.corner(two_speeds, unknowns=3), "bad_option"),
+        (lambda: plot.corner(two_speeds, unknowns=np.array(3.0)), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=["z"]), "unknown_name"),
+        (lambda: plot.corner(two_speeds, unknowns=[["x"]]), "unknown_name"),
         (lambda: plot.corner(sharp, unknowns=["one"]), "no_spread"),
         (lambda: plot.residuals(3.0), "bad_option"),
         (lambda: plot.residuals(sharp), "no_residuals"),

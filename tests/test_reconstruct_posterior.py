@@ -442,7 +442,19 @@ def test_shown_and_read_again():
     assert caught.value.code == "no_shares"
 
 
-@pytest.mark.parametrize("condition", [3.0, lambda at: True, lambda at: at["speed"], lambda at: at["speed"][:3] > 1.0])
+@pytest.mark.parametrize(
+    "condition",
+    [
+        3.0,
+        lambda at: True,
+        lambda at: at["speed"],
+        lambda at: at["speed"][:3] > 1.0,
+        lambda at: at["speed"] > 1.0 and at["speed"] < 3.0,
+        lambda at: at["velocity"] > 1.0,
+        lambda at: at.speed > 1.0,
+        np.float64,
+    ],
+)
 def test_conditions_that_are_none(condition):
     found = posterior(side, *SIDE, samples=512, seed=1)
     with pytest.raises(col.InputError, match="booleans, such as") as caught:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from difflib import get_close_matches
 from typing import Any
@@ -240,10 +240,10 @@ def _chosen(found: Mapping[str, Any], wanted: Any) -> list[str]:
     """The names of the columns that were asked for, by default all."""
     if wanted is None:
         return list(found)
-    names = [wanted] if isinstance(wanted, str) or not isinstance(wanted, Iterable) else list(wanted)
+    names = list(wanted) if np.iterable(wanted) and not isinstance(wanted, str) else [wanted]
     for name in names:
         if not isinstance(name, str) or name not in found:
-            near = get_close_matches(str(name), found, 3) or list(found)[:3]
+            near = get_close_matches(shown(name), found, 3) or list(found)[:3]
             raise InputError(
                 f"columns: there is no column {shown(name)}; write for example {', '.join(near)}, without a unit",
                 code="unknown_name",

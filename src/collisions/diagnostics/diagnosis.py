@@ -175,7 +175,7 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
         reader.refuse(InputError(text, code="bad_limit", argument="limits"))
         return limits
     for code, value in (given or {}).items():
-        name = f"limits[{code!r}]"
+        name = f"limits[{shown(code)}]"
         if code not in LIMITS:
             text = f"{name}: there is no finding {shown(code)}; known are {', '.join(LIMITS)}"
             reader.refuse(InputError(text, code="unknown_finding", argument="limits"))

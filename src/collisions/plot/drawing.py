@@ -126,14 +126,22 @@ class Drawing:
             rows = label.text.split("\n")
             size = _FONT * _LETTER * max(map(len, rows)), _FONT * _LINE * len(rows)
             along = math.atan2(label.direction[1], label.direction[0])
-            tried: list[tuple[float, _Box, Place, Any]] = []
-            for later, place in enumerate(label.places):
-                at = in_points(place) * points
-                for distance, turn in product(_AWAY, _TURNS):
-                    box = _box(at, size, along + turn, distance)
-                    cost = _cost(box, at, lines, boxes, inside) + 0.4 * distance + 3.0 * abs(turn) + 2.0 * later
-                    tried.append((cost + 300.0 * sum(_on(box, area) for area in foreign), box, place, at))
-            _, best, place, at = min(tried, key=lambda one: one[0])
+            near = [in_points(place) * points for place in label.places]
+            tried = product(range(len(near)), _AWAY, _TURNS)
+            natural = sorted(
+                (0.4 * away + 3.0 * abs(turn) + 2.0 * which, i, which, away, turn)
+                for i, (which, away, turn) in enumerate(tried)
+            )
+            best, chosen, lowest = _box(near[0], size, along, _AWAY[0]), 0, math.inf
+            # From the most natural on, until none can be better than the best so far.
+            for least, _, which, away, turn in natural:
+                if least >= lowest:
+                    break
+                box = _box(near[which], size, along + turn, away)
+                cost = least + _cost(box, near[which], lines, boxes, inside) + 300.0 * sum(_on(box, area) for area in foreign)
+                if cost < lowest:
+                    best, chosen, lowest = box, which, cost
+            place, at = label.places[chosen], near[chosen]
             boxes.append(best)
             self.axes.annotate(
                 label.text,

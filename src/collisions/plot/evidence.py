@@ -66,10 +66,12 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
             code="bad_option",
             argument="posterior",
         )
-    names = list(posterior if unknowns is None else [unknowns] if isinstance(unknowns, str) else unknowns)
+    given: Any = posterior if unknowns is None else [unknowns] if isinstance(unknowns, str) else unknowns
+    names = list(given) if np.iterable(given) else []
     if not 1 <= len(names) <= _MOST:
+        got = f"{len(names)}" if names else shown(unknowns)
         raise InputError(
-            f"a corner plot shows 1 to {_MOST} unknowns, got {len(names)}; write unknowns=['{next(iter(posterior))}', ...]",
+            f"a corner plot shows 1 to {_MOST} unknowns, got {got}; write unknowns=['{next(iter(posterior))}', ...]",
             code="bad_option",
             argument="unknowns",
         )

@@ -178,9 +178,11 @@ class Fit(Shown):
     _title = "Fit to evidence"
 
     def __getitem__(self, name: str) -> Estimate:
-        if name not in self.names:
+        if not isinstance(name, str) or name not in self.names:
             raise InputError(
-                f"{name!r} is none of the unknowns, which are {', '.join(self.names)}", code="unknown_name", argument="name"
+                f"{shown(name)} is none of the unknowns, which are {', '.join(self.names)}",
+                code="unknown_name",
+                argument="name",
             )
         low, high = self.bounds[name]
         return Estimate(

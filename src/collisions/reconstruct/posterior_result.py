@@ -15,6 +15,7 @@ from ..records import strict
 from ..summary import Cells, Part, Summarized, Summary, all_numbers
 from ..uncertainty.censored import Censored
 from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
+from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.result import Sampled, Shares, outputs_part, units_of
 from ..units import shown, to_quantity
@@ -115,10 +116,10 @@ class Posterior(Summarized):
     def __getitem__(self, name: str) -> PosteriorOutput:
         try:
             return (self.predicted | self.unknowns)[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise InputError(
-                f"{name!r} is none of the unknowns, which are {', '.join(self.unknowns)}, nor of the outputs of the model, "
-                f"which are {', '.join(self.predicted)}",
+                f"{shown(name)} is none of the unknowns, which are {', '.join(self.unknowns)}, nor of the outputs of the "
+                f"model, which are {', '.join(self.predicted)}",
                 code="unknown_name",
                 argument="name",
             ) from None
@@ -148,14 +149,20 @@ class Posterior(Summarized):
         InputError
             A condition that does not return a boolean for every sample.
         """
-        found = condition(dict(self.draws)) if callable(condition) else condition
+        raised: Exception | None = None
+        try:
+            found = condition(dict(self.draws)) if callable(condition) else condition
+        except (TypeError, ValueError, AttributeError, LookupError) as error:
+            # What 'and' between arrays, and a name that is not there, come to.
+            found, raised = None, error
         if not isinstance(found, np.ndarray) or found.shape != (self.samples,) or found.dtype != np.bool_:
             raise InputError(
-                f"condition must be a function that takes a dict of arrays and returns {self.samples} booleans, such as "
-                f"lambda at: at['{next(iter(self.unknowns))}'] > 13.9; join two of them by & or |, not by 'and'",
+                f"condition must be a function that takes a dict of arrays ({', '.join(self.draws)}) and returns "
+                f"{self.samples} booleans, such as lambda at: at['{next(iter(self.unknowns))}'] > 13.9; join two of them by & "
+                f"or |, not by 'and'{f'. It raised {described(raised)}' if raised else ''}",
                 code="bad_condition",
                 argument="condition",
-            )
+            ) from raised
         holds = PosteriorOutput("condition", None, found.astype(np.float64), next(iter(self.unknowns.values()))._islands)
         return float(holds.mean), float(holds.mean_standard_error)
 

@@ -80,7 +80,7 @@ class RecordedPulse(Shown):
         InputError
             The pulse ended early (code ``pulse_cut``): about a lower bound there is no range. See ``evidence``.
         """
-        if label not in ("a", "b"):
+        if not isinstance(label, str) or label not in ("a", "b"):
             raise InputError(f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label")
         if not self.ended:
             cut = _cut(self.time, self.delta_v)

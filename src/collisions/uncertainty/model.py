@@ -71,7 +71,7 @@ class Model:
             )
             # Raised by Python and numpy where an array is used as a number, or a number as a Quantity.
             if isinstance(error, (TypeError, ValueError, AttributeError)) and not isinstance(error, CollisionsError):
-                raise _bad_model(f"model raised {_described(error)}. It is {called}") from error
+                raise _bad_model(f"model raised {described(error)}. It is {called}") from error
             error.add_note(f"The model is {called}.")
             raise
         if not isinstance(answered, Mapping) or not answered:
@@ -146,7 +146,7 @@ def check_elementwise(
                 continue
             raise _bad_model(
                 f"model answers a case ({listed}) among others, but not alone, as arrays of one number: "
-                f"{_described(error.__cause__ or error)}. Every case must be worked out by itself, however many there are"
+                f"{described(error.__cause__ or error)}. Every case must be worked out by itself, however many there are"
             ) from error
         compared |= answered
         for name, column in answers.items():
@@ -195,7 +195,8 @@ def _bad_model(text: str, **fields: Any) -> InputError:
     return InputError(text, code="bad_model", argument="model", **fields)
 
 
-def _described(error: BaseException) -> str:
+def described(error: BaseException) -> str:
+    """What was raised in the caller's function, for a message that goes on."""
     return f"{type(error).__name__}: {str(error).rstrip('.')}"
 
 

@@ -236,16 +236,16 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
         raise InputError(
             f"tolerance names no output; the model returned {', '.join(units)}", code="bad_tolerance", argument="tolerance"
         )
-    reader = ArgumentReader(trusted=tuple(f"tolerance[{name!r}]" for name in given))
+    reader = ArgumentReader(trusted=tuple(f"tolerance[{shown(name)}]" for name in given))
     found: dict[str, float] = {}
     for name, value in given.items():
         if name not in units:
             raise InputError(
-                f"tolerance names {name!r}, which is no output; the model returned {', '.join(units)}",
+                f"tolerance names {shown(name)}, which is no output; the model returned {', '.join(units)}",
                 code="bad_tolerance",
                 argument="tolerance",
             )
-        found[name] = reader.number(value, units[name] or "", f"tolerance[{name!r}]")
+        found[name] = reader.number(value, units[name] or "", f"tolerance[{shown(name)}]")
     reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:

@@ -398,9 +398,11 @@ class Propagation(Summarized):
     def __getitem__(self, name: str) -> Output:
         try:
             return self.outputs[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise InputError(
-                f"there is no output {name!r}; the model returned {', '.join(self.outputs)}", code="no_output", argument="name"
+                f"there is no output {shown(name)}; the model returned {', '.join(self.outputs)}",
+                code="no_output",
+                argument="name",
             ) from None
 
     def __iter__(self) -> Iterator[str]:

@@ -123,7 +123,7 @@ def _read_correlation(inputs: Mapping[str, Distribution], correlation: Any) -> d
             raise _bad(f"its keys are pairs of two names, got {shown(pair)}")
         for name in pair:
             if name not in inputs:
-                raise _bad(f"{name!r} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
+                raise _bad(f"{shown(name)} is not an input with a distribution; these are {', '.join(inputs) or 'none'}")
             if getattr(inputs[name], "group", None) is not None:
                 raise _bad(f"{name!r} belongs to joint samples, which already say how it goes with the others")
         if not (is_whole(value) or isinstance(value, (float, np.floating))) or not -1.0 <= value <= 1.0:
