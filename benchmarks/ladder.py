@@ -3,13 +3,14 @@
 ``python benchmarks/ladder.py [file.json]`` prints the tables, and writes them when a file is named. Random impacts of
 two cars, not accident statistics: the front of A meets front, side or rear of B, e 0 to 0.3, friction 0.2 to 0.8, 0.1 s
 of contact, locked wheels at 0.7. The error of an answer is hypot of the error of delta-V and of radius of gyration
-times that of the yaw- rate change, for the worse vehicle, as a share of its delta-V; what it is measured against is
+times that of the yaw-rate change, for the worse vehicle, as a share of its delta-V; what it is measured against is
 ``time_resolved`` with everything in it, in 800 steps.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import math
 import sys
@@ -25,19 +26,18 @@ SOURCE = Path(__file__).resolve().parent.parent / "src"
 if str(SOURCE) not in sys.path:
     sys.path.insert(0, str(SOURCE))
 
-import itertools
-
 import collisions as col
 from collisions.contact_time import _arguments as arguments
 from collisions.kernels.contact_step import Motion, Passing
 from collisions.kernels.time_resolved import float_run, time_resolved
 
 DURATION, DRAG = 0.1, 0.7
-SCENES, CHOICES, SEED = 1500, 5000, 20250101
+SCENES, CHOICES, SEED = 1500, 5100, 20250101
 STEPS = (10, 25, 50, 100, 200)
 REFERENCE = 800
 TOLERANCES = (0.5, 1.0, 2.0)
 SPEEDS = (2.0, 5.0, 10.0, 20.0, 40.0)
+TYRES = "eccentric, geometry of maximum engagement, tyres as outside impulses"
 NAMES = ("mass", "yaw_inertia", "vx", "vy", "x", "y", "heading")
 
 
@@ -113,6 +113,24 @@ def in_time(scene: dict[str, Any], steps: int, geometry: str = "maximum_engageme
     return solved(scene, col.time_resolved, steps=steps, geometry=geometry, drag=DRAG, on_failure="nan", **kind)
 
 
+def with_tyres(scene: dict[str, Any]) -> Any:
+    """The impulse with that of the tyres as ``left_out`` estimates it, as impulses from outside."""
+    bare = solved(scene, col.eccentric, on_failure="nan")
+    found = col.left_out(bare, duration=DURATION, drag=DRAG)
+    return solved(scene, col.eccentric, on_failure="nan", outside_a=found.outside_a, outside_b=found.outside_b)
+
+
+def summary(answer: Any, reference: Any) -> dict[str, Any]:
+    """What an answer errs by, over the cases that have one."""
+    _, share = apart(answer, reference)
+    known = share[np.isfinite(share)]
+    return {
+        "median": figures(np.median(known)),
+        "most_of_10": figures(np.quantile(known, 0.9)),
+        "no_answer": int(share.size - known.size),
+    }
+
+
 def apart(answer: Any, other: Any) -> tuple[Any, Any]:
     """How far two answers are apart for the worse vehicle, in m/s, and as a share of that vehicle's delta-V."""
     sizes = []
@@ -176,6 +194,7 @@ def rungs(count: int = SCENES) -> dict[str, Any]:
         "oblique_central": solved(scene, col.oblique_central, on_failure="nan"),
         "eccentric, geometry of first contact": solved(scene, col.eccentric, on_failure="nan"),
         "eccentric, geometry of maximum engagement": solved(late, col.eccentric, on_failure="nan"),
+        TYRES: with_tyres(late),
     }
     for steps in STEPS:
         answers[f"time_resolved, {steps} steps"] = in_time(scene, steps, "first_contact")
@@ -183,21 +202,19 @@ def rungs(count: int = SCENES) -> dict[str, Any]:
     first = answers["eccentric, geometry of first contact"]
     stiffness = first.effective_mass * (0.5 * math.pi * (1.0 + scene["restitution"]) / DURATION) ** 2
     answers["time_resolved, 100 steps, from maximum engagement"] = in_time(late, 100, stiffness=stiffness)
-    table = {}
-    for name, answer in answers.items():
-        _, share = apart(answer, reference)
-        known = share[np.isfinite(share)]
-        table[name] = {
-            "median": figures(np.median(known)),
-            "most_of_10": figures(np.quantile(known, 0.9)),
-            "no_answer": int(share.size - known.size),
-        }
+    table = {name: summary(answer, reference) for name, answer in answers.items()}
+    # Tyres alone, in places that stay: what the impulses from outside are for; and with all of the weight at the centre.
+    headless = {**late, **{label: {**late[label], "heading": None} for label in "ab"}}
+    alone = {}
+    for place, bodies in (("four wheels", late), ("the centre of mass", headless)):
+        still = in_time(bodies, REFERENCE, "fixed", stiffness)
+        alone[place] = [summary(answers[name], still)["median"] for name in list(answers)[3:5]]
     _, share = apart(answers["eccentric, geometry of first contact"], reference)
     by_speed = []
     for low, high in itertools.pairwise(SPEEDS):
         some = (reference.closing_speed >= low) & (reference.closing_speed < high) & np.isfinite(share)
         by_speed.append({"from": low, "to": high, "median": figures(np.median(share[some])), "impacts": int(some.sum())})
-    return {"impacts": count, "rungs": table, "by_closing_speed": by_speed}
+    return {"impacts": count, "rungs": table, "tyres_alone": alone, "by_closing_speed": by_speed}
 
 
 def choices(count: int = CHOICES) -> list[dict[str, Any]]:
@@ -233,6 +250,12 @@ def costs(repeats: int = 40) -> dict[str, float]:
             a, b, e, **contact, point=(0.0, 0.0), tolerance=1.0, duration=DURATION, drag=DRAG
         ),
     }
+
+    def tyres() -> Any:
+        left = col.left_out(col.eccentric(a, b, e, **contact, point=(0.0, 0.0)), duration=DURATION, drag=DRAG)
+        return col.eccentric(a, b, e, **contact, point=(0.0, 0.0), outside_a=left.outside_a, outside_b=left.outside_b)
+
+    calls[TYRES] = tyres
     for geometry, name in (
         ("first_contact", "time_resolved"),
         ("maximum_engagement", "time_resolved, from maximum engagement"),

@@ -266,7 +266,7 @@ def _away(full: col.Impact, found: dict[str, Any], chosen: Any) -> Any:
 def of_contacts(contacts: dict[str, Any]) -> dict[str, Any]:
     """What an impulse leaves out, of time_resolved.py; and how far off ``left_out`` is that tells how much it is.
 
-    Its two numbers, of tyres and of geometry, are magnitudes; the worse one counts, against the integration with just that.
+    Its two numbers, of tyres and of geometry, are magnitudes; the worse one counts, against a contact with just that.
     """
     rows = contacts["rows"]
     off_by = [
@@ -280,7 +280,7 @@ def of_contacts(contacts: dict[str, Any]) -> dict[str, Any]:
     return {
         "impulse": _summary(np.array([row["all"]["share"] for row in rows])),
         "left_out": _summary(np.array(off_by)),
-        "integrated": _summary(np.array([row["fixed"]["share"] for row in rows])),
+        "time_resolved": _summary(np.array([row["fixed"]["share"] for row in rows])),
     }
 
 

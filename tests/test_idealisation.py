@@ -1,4 +1,4 @@
-"""What the impulse idealisation leaves out: by hand, against a contact integrated in time, and every refusal."""
+"""What the impulse idealisation leaves out: by hand, against a contact that takes time, and every refusal."""
 
 import json
 import math
@@ -648,21 +648,21 @@ def script():
 
 @pytest.fixture(scope="module")
 def measured(script):
-    """All scenes and physics, in steps as long as the contact friction allows."""
-    return script.measure(steps=160)
+    """All scenes, with tyres, motion, both and neither."""
+    return script.measure()
 
 
 @pytest.mark.slow
 def test_the_reference_is_the_impulse_where_nothing_is_left_out(measured):
-    """With the geometry of first contact and no tyres; 0.0005 is what friction that fades out below 10 cm/s takes off."""
+    """With the geometry of first contact and no tyres: 3e-5 at 100 steps, a quarter of that at 200."""
     for row in measured["rows"]:
-        assert row["fixed"]["share"] <= 6e-4, row["scene"]
+        assert row["fixed"]["share"] <= 1e-5, row["scene"]
 
 
 @pytest.mark.slow
-def test_the_reference_has_converged(script, measured):
-    """Half the step changes no delta-V by 0.1 %."""
-    assert measured["halving_the_step"] < 1e-3
+def test_the_reference_has_converged(measured):
+    """Half the step changes a delta-V by 0.2 % at most, where the tyres of a slow car stop during the contact."""
+    assert measured["halving_the_step"] < 2e-3
 
 
 @pytest.mark.slow
@@ -675,18 +675,14 @@ def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
 
 @pytest.mark.slow
 def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
-    """Where it matters at all; with a contact that stays with A or B it may be 0.49 to 1.86 times as much, as the docstring says."""
+    """Where it matters at all; and the places of maximum engagement leave less of it, as the docstring says."""
     for row in measured["rows"]:
         moved = row["moving"]["delta_v"]
         if row["scene"].startswith("rear_end"):
             assert moved == row["left_out"]["geometry_delta_v"] == 0.0
             continue
         assert 1 / 1.5 < row["left_out"]["geometry_delta_v"] / moved < 1.5, row["scene"]
-        # With a force that is the same throughout.
-        assert row["moving_square"]["delta_v"] == pytest.approx(moved, rel=0.25), row["scene"]
-        for carrier in ("moving_with_a", "moving_with_b"):
-            assert 0.49 <= row[carrier]["delta_v"] / moved < 1.86, (row["scene"], carrier)
-        assert row["engaged"]["delta_v"] < 0.55 * moved, row["scene"]
+        assert 0.2 < row["engaged"]["delta_v"] / moved < 0.75, row["scene"]
 
 
 @pytest.mark.slow
@@ -695,8 +691,9 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
     file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
     said = " ".join(col.left_out.__doc__.split())
     assert measured["frictions"] == file["frictions"]
-    # Where it is more than a factor of 1.5 off, as the nine scenes are not, is rare but for geometry with hardly any friction.
-    most_outside = {("drawn_with_little_friction", "moving"): 0.25}
+    # Where it is more than a factor of 1.5 off, as the nine scenes are not, is rare but for geometry with hardly any friction:
+    # a spring lasts longer there than the force that the estimate assumes.
+    most_outside = {("drawn_with_little_friction", "moving"): 0.30, ("drawn", "moving"): 0.09}
     for key, frictions in file["frictions"].items():
         committed = file[key]
         assert measured[key]["impacts"] == committed["impacts"] == 150
@@ -708,7 +705,7 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
             assert measured[key][name]["vehicles"] == row["vehicles"] > 150
             least, low, *_, high, most = row["quantiles"]
             assert re.search(rf"{low:.2f} to {high:.2f} of [\w ]+ in 9 of 10, {least:.2f} to {most:.2f} in all", said)
-            assert 0.0 <= row["outside_1.5"] < most_outside.get((key, name), 0.03)
+            assert 0.0 <= row["outside_1.5"] < most_outside.get((key, name), 0.06)
             assert row["no_estimate"] == 0
 
 
@@ -716,9 +713,9 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
 def test_the_figures_of_the_design(measured):
     """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 5 %."""
     rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
-    assert rows["rear_end_2", "b"]["wheels"]["share"] == pytest.approx(0.43, abs=0.01)
+    assert rows["rear_end_2", "b"]["wheels"]["share"] == pytest.approx(0.48, abs=0.01)
     assert rows["rear_end_20", "b"]["wheels"]["share"] == pytest.approx(0.049, abs=0.001)
-    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.052, abs=0.002)
+    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.048, abs=0.002)
 
 
 @pytest.mark.slow

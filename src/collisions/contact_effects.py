@@ -164,17 +164,15 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
       holds. The contact point goes with the mean of the two places that met, the normal with the
       mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
 
-    Measured against the integration in benchmarks/time_resolved.py, over 150 random impacts of two cars that do not spin
-    before and close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V
-    changes by more than 2 percent: the estimate is 0.83 to 1.11 of the change by tyres in 9 of 10, 0.45 to 1.83 in all; and
-    0.85 to 1.31 of that by geometry in 9 of 10, 0.74 to 1.50 in all. Over as many with a friction of 0 to 0.1 it is worse:
-    0.74 to 1.14 of the change by tyres in 9 of 10, 0.47 to 1.82 in all; and 0.84 to 1.96 of that by geometry in 9 of 10, 0.57
-    to 2.44 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. If the contact stayed with
-    one of the vehicles instead of going between them, that of geometry would be 0.49 to 1.86 times as large, and that on yaw
-    rates could have either sign: none is given.
+    Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two cars without spin that
+    close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V changes by
+    more than 2 percent: the estimate is 0.71 to 1.25 of the change by tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to 1.59
+    of that by geometry in 9 of 10, 0.81 to 1.69 in all. Over as many with a friction of 0 to 0.1 it is worse: 0.69 to 1.29 of
+    the change by tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06 of that by geometry in 9 of 10, 0.68 to 2.41 in all.
+    Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the yaw rates is given: it
+    depends on which vehicle carries the contact.
 
-    Positions at maximum engagement, as they are found in a real crash, leave a half to a seventeenth of the effect of geometry;
-    then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
+    Positions at maximum engagement, as found in a real crash, leave a quarter to three quarters of the effect of geometry; then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
     load and suspension, and crush that moves the centre of mass.
 
     Examples
