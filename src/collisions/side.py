@@ -200,12 +200,12 @@ class Side(Frozen, Summarized):
 
     @derived("J")
     def kinetic_energy_change(self) -> Value:
-        """Work of the contact impulse and of that from outside on this vehicle [J].
+        """Kinetic energy after less that before [J]: the work of the contact, of an impulse from outside, and of the tyres.
 
         It depends on the frame of reference: it is not damage.
         """
         if isinstance(self._answer, Passed):
-            return self._work()
+            return self._work() - self.tyre_loss
         ux, uy, dux, duy = self._at_contact(self._change())
         by_contact = self.impulse_x * (ux + 0.5 * dux) + self.impulse_y * (uy + 0.5 * duy)
         return by_contact if self._outside() is None else by_contact + self.outside_work
