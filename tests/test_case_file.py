@@ -101,6 +101,7 @@ def test_backwards_gives_what_the_call_gives():
     [
         ("50 km/h +/- 3 km/h", Normal("50 km/h", "3 km/h")),
         ("50 km/h±3 km/h", Normal("50 km/h", "3 km/h")),
+        ("50 km/h +- 3 km/h", Normal("50 km/h", "3 km/h")),
         ("0.4 .. 0.7", Uniform(0.4, 0.7)),
         ("0.4..0.7", Uniform(0.4, 0.7)),
         ("-5 deg .. 5 deg", Uniform("-5 deg", "5 deg")),
@@ -124,7 +125,7 @@ def test_texts_of_what_is_not_known_exactly(text, wanted):
 def test_texts_that_are_refused(text):
     """Never read as something near it."""
     (line,) = problems(REAR_END.replace("0.4", f'"{text}"'))
-    assert line.startswith("restitution: ")
+    assert line.startswith("linear_central.restitution: ")
 
 
 def test_the_nominal_case_has_what_was_written():
@@ -132,6 +133,8 @@ def test_the_nominal_case_has_what_was_written():
     impact = solved(REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h").replace("0.4", '"0.2 .. 0.4"'))
     assert impact.a.before.given["vx"] == "80 km/h"
     assert impact.restitution == pytest.approx(0.3, rel=1e-15)
+    assert solved(REAR_END.replace("80 km/h", "35 mph .. 45 mph")).a.before.given["vx"] == "40 mph"
+    assert solved(REAR_END.replace("80 km/h", "35 mph .. 80 km/h")).a.before.vx == pytest.approx((35 * 0.44704 + 80 / 3.6) / 2)
     turned = solved(ECCENTRIC.replace('"0 deg"\npoint', '"-90 deg +/- 5 deg"\npoint'))
     assert turned.normal == (0.0, -1.0)
 
@@ -196,6 +199,37 @@ def test_posterior_of_what_was_observed():
     assert json.dumps(answers(read_text(text.encode())).to_dict(), allow_nan=False)
 
 
+@pytest.mark.slow
+def test_report_of_a_posterior(tmp_path, capsys):
+    """From a file to a page in one command: what was found, observed and known before, what is known exactly, figures."""
+    file, page = tmp_path / "case.toml", tmp_path / "page.html"
+    text = REAR_END.replace('"80 km/h"', '"0 km/h .. 150 km/h"').replace("0.4", '"0.2 .. 0.4"')
+    text += '[posterior]\nsamples = 1024\n[posterior.observed]\n"b.delta_v" = "54 km/h +/- 2 km/h"\n"a.before.speed" = "40 mph .. 60 mph"\n'
+    file.write_text(text + '[report]\nnotes = "Own words."\n', encoding="utf-8")
+    code, said, _ = run(capsys, file, "--report", page)
+    assert code == 0
+    whole = page.read_text(encoding="utf-8")
+    found = solved(text)
+    mean, sd = 3.6 * found["a.vx"].mean, 3.6 * found["a.vx"].std
+    for part in (
+        f"{mean:.1f} ± {sd:.1f} km/h",
+        "54 ± 2 km/h",
+        "at least 40 mph, at most 60 mph",
+        "0.2 to 0.4, all values equally likely",
+    ):
+        assert part in said
+        assert part in whole
+    assert "restitution" in whole
+    assert "Own words." in whole
+    assert "The case is linear_central, with a.mass = 1100 kg, b.mass = 950 kg." in whole
+    assert whole.count("<figure>") == 3  # the residuals, and both unknowns
+    with pytest.raises(col.InputError, match="report of a Posterior"):
+        replay(whole)
+    assert run(capsys, file, "--what-if", page)[0] == 2
+    file.write_text(text + "[report]\nderivation = true\n", encoding="utf-8")
+    assert "report.derivation: derivation is for an Impact" in run(capsys, file, "--report", page)[2]
+
+
 def test_two_answers_are_told_apart():
     """Both are printed; a report or a range needs to know which."""
     body = "yaw_inertia = {}\nx = {}\ny = {}\n"
@@ -229,13 +263,13 @@ def test_two_answers_are_told_apart():
         ("linear_central", "reconstruct.centrall", "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
         ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
         ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass [m/s]"),
-        ("1100 kg", "1100 kgg", "a.mass: mass: '1100 kgg' cannot be taken as kg"),
+        ("1100 kg", "1100 kgg", "a.mass: '1100 kgg' cannot be taken as kg"),
         ('"1100 kg"', "1100 kg", ": is not TOML: "),
         ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart"),
         ("0.4", "1.4", "linear_central.restitution: restitution must be from 0 to 1, got 1.4"),
-        ("0.4", "[0.4, 0.5]", "restitution: takes one value"),
-        ("0.4", "{ travel.sped = { distance = 1 } }", "restitution: is a table that names no function"),
-        ("0.4", "{ Uniform = { low = 1 } }", "restitution.Uniform.high: is missing"),
+        ("0.4", "[0.4, 0.5]", "linear_central.restitution: takes one value"),
+        ("0.4", "{ travel.sped = { distance = 1 } }", "linear_central.restitution: is a table that names no function"),
+        ("0.4", "{ Uniform = { low = 1 } }", "linear_central.restitution.Uniform.high: is missing"),
         ("0.4\n", '0.4\n[report]\nunit = "us"\n', "report.unit: is not known here; did you mean units?"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "a.deltav: is no number of the answer; did you mean a.delta_v?"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "a.pdof: is not known: "),
@@ -243,6 +277,18 @@ def test_two_answers_are_told_apart():
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
         ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
         ("0.4\n", f"0.4\n[propagate]\nseed = {2**63}\n", "propagate.seed: is a whole number of more than 64 bits"),
+        ("0.4", '"50 +/- 3 km/h"', "linear_central.restitution: cannot read '50 +/- 3 km/h': both numbers need the same unit; write for example '50 km/h +/- 3 km/h'"),
+        ("80 km/h", "50 km/h +- 3", "a.vx: cannot read '50 km/h +- 3': both numbers need the same unit; write for example '50 km/h +- 3 km/h'"),
+        ("80 km/h", "50 km/h +/- 5 %", "a.vx: cannot read '50 km/h +/- 5 %': both numbers need the same unit; write for example '50 km/h +/- 3 km/h'"),
+        ("80 km/h", "40..50 mph", "a.vx: cannot read '40..50 mph': both numbers need the same unit; write for example '40 mph .. 50 mph'"),
+        ("80 km/h", "40-50 mph", "a.vx: cannot read '40-50 mph'; a range has two dots: write \"40 mph .. 50 mph\""),
+        ("80 km/h", "0.4...0.7", "a.vx: cannot read '.0.7'"),
+        ("80 km/h", "\u221280 km/h", "a.vx: cannot read '\u221280 km/h': a minus is typed as a hyphen, '-80 km/h'"),
+        ("0.4", '"0.4 to 0.7"', "linear_central.restitution: cannot read '0.4 to 0.7'; a range has two dots: write \"0.4 .. 0.7\""),
+        ("vx", 'speed = "50 km/h"\ncourse = 0\nvx', "a: has its velocity in two ways; leave vx and vy, or speed and course"),
+        ('vx = "80 km/h"', 'speed = "80 km/h"', "a.course: is missing; give it: Direction of motion of the centre of mass [rad], such as 1.57 (rad) or '90 deg'"),
+        ('"80 km/h"', "\u201c80 km/h\u201d", ": is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 km/h\u201d'; write straight quotes"),
+        ("[b]", "[a]", ": is not TOML: Cannot declare ('a',) twice (at line 5, column 3), '[a]'; a file is of one case"),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
     ],
 )  # fmt: skip
@@ -251,6 +297,22 @@ def test_what_is_wrong_is_a_line_with_the_key_and_the_cure(old, new, line):
     found = problems(REAR_END.replace(old, new, 1))
     assert found[0].startswith(line), found
     assert all("\n" not in one for one in found)
+
+
+def test_a_number_with_a_hyphen_is_no_range():
+    """A power of ten and a negative exponent of a unit are read as they stand."""
+    assert solved(REAR_END.replace("80 km/h", "2e1 m/s").replace("950 kg", "95e+1 kg")).a.before.vx == 20.0
+    assert solved(REAR_END.replace("80 km/h", "200E-1 m*s**-1")).a.before.vx == 20.0
+
+
+def test_a_point_is_two_numbers():
+    """What is wrong with a pair is said in words of a file."""
+    for point in ('"0 m, 0 m"', "[0, 0, 0]", "3"):
+        (line,) = problems(ECCENTRIC.replace("[0, 0]", point))
+        assert re.fullmatch(
+            r'eccentric.point: takes two numbers in brackets, got .*; write for example \["1.2 m", "-0.4 m"\]', line
+        )
+    assert 'such as ["1.2 m"' in problems(ECCENTRIC.replace("point = [0, 0]\n", ""))[0]
 
 
 def test_a_vehicle_that_lacks_something_is_named():
@@ -298,7 +360,15 @@ def test_the_command(tmp_path, capsys):
     page = tmp_path / "page.md"
     assert run(capsys, file, "--report", page)[0] == 0
     assert replay(page.read_text(encoding="utf-8")) == solved(REAR_END)
-    assert run(capsys, file, "--report", tmp_path)[0] == 2
+    for name in (file, tmp_path, tmp_path / "page", tmp_path / "page.pdf"):
+        code, text, complaints = run(capsys, file, "--report", name)
+        assert (code, text, complaints) == (
+            2, "", f"{file}: --report cannot write {name}; give a name of its own, which ends in .html or .md\n"
+        )  # fmt: skip
+    assert file.read_text(encoding="utf-8") == REAR_END
+    page = tmp_path / "page.html"
+    assert run(capsys, file, "--report", page, "--what-if", page)[0] == 2
+    assert run(capsys, file, "--report", tmp_path / "none" / "page.html")[2].startswith(f"{file}: cannot write ")
     assert run(capsys, tmp_path / "none.toml")[0::2] == (
         2, f"{tmp_path / 'none.toml'}: cannot be read (No such file or directory); give the path of a case file, or start from what 'new' prints\n",
     )  # fmt: skip

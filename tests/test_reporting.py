@@ -472,7 +472,7 @@ def test_uncertainty_is_told():
         for share, error in zip(shares, output.contribution_standard_errors["speed"], strict=True)
     )
     assert ("b.delta_v", "share of the variance by speed", f"{alone} by itself, {in_all} in all") in rows(part)
-    assert any(row[:2] == ("own", "figures") for row in rows(part))
+    assert any(row[:2] == ("own", "mean ± standard deviation") for row in rows(part))
     assert "64 cases, 0 without an answer, seed 1" in part
     assert "54 ± 2 km/h" in part
     # The answers of that name are rounded to it, also under the other spelling.

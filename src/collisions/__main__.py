@@ -16,6 +16,7 @@ from .case_schema import case_schema
 from .formatting import SYSTEMS
 
 _TEMPLATE = Path(__file__).with_name("case_template.toml")
+_HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command
 cannot be used. What is wrong is one line each: the file, the key in it, and what to write."""
@@ -34,6 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(json.dumps(case_schema(), indent=1))
         return 0
     try:
+        _check_names(options)
         found = answers(read(options.case))
         text = json.dumps(found.to_dict(), indent=1, allow_nan=False) + "\n" if options.json else found.text(options.units)
         _write(options, found)
@@ -49,7 +51,7 @@ def _write(options: Any, found: Answers) -> None:
     """Write the files that were asked for."""
     pages: dict[str, Callable[[], str]] = {}
     if options.report is not None:
-        form = "markdown" if Path(options.report).suffix.lower() in (".md", ".markdown") else "html"
+        form = "html" if options.report.lower().endswith(_HTML) else "markdown"
         pages[options.report] = lambda: found.report(form, options.units)
     if options.what_if is not None:
         pages[options.what_if] = lambda: found.what_if(options.units)
@@ -60,6 +62,17 @@ def _write(options: Any, found: Answers) -> None:
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or error
             raise CaseError(("", f"cannot write {path} ({why}); give the path of a file that may be written")) from None
+
+
+def _check_names(options: Any) -> None:
+    """Refuse to write over the case file, one page over the other, or a page under a name that says something else."""
+    taken = {Path(options.case).absolute()}
+    for option, name, endings in (("--report", options.report, _HTML + _MARKDOWN), ("--what-if", options.what_if, _HTML)):
+        if name is not None:
+            if Path(name).absolute() in taken or not name.lower().endswith(endings):
+                listed = " or ".join(endings[::2])
+                raise CaseError(("", f"{option} cannot write {name}; give a name of its own, which ends in {listed}"))
+            taken.add(Path(name).absolute())
 
 
 def _refused(options: Any, error: CaseError) -> int:

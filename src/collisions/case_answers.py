@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, ends, nearest, parameters
+from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, Uncertain, ends, nearest, parameters
 from .diagnostics import diagnose
 from .errors import CollisionsWarning, InputError
 from .formatting import percent
@@ -38,13 +38,21 @@ class Answers:
     def report(self, form: str, units: str | None = None) -> str:
         """The report of the one result; ``units`` in place of those of the file."""
         options = {**self.case.report, "units": self._units(units), "form": form, "uncertainty": self.propagation}
+        notes = options.get("notes", ())
+        if not isinstance(self._one(), (Impact, MomentumSolution)) and isinstance(notes, (str, tuple)):
+            # Of a study the result holds neither the solver nor what is known exactly.
+            known = f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}."
+            options["notes"] = (*((notes,) if isinstance(notes, str) else notes), known)
         whole: str = self._made(report, {**options, "impact": self._one()})
         return whole
 
     def what_if(self, units: str | None = None) -> str:
         """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
         one, found = self._one(), self.case.ranges
-        if not found and isinstance(one, Impact):
+        if not isinstance(one, Impact):
+            text = "is of an impact with numbers; ask for it in a file with a solver of one, and the values found"
+            raise CaseError(("what_if", text))
+        if not found:
             known = starts(one)
             named = ((_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items())
             found = {name: ends(stated) for name, stated in named if name in known}
@@ -95,6 +103,16 @@ class Answers:
         """What a function makes of the results; its warnings are kept, and a refusal names the table of its options."""
         with _noting(self.warnings):
             return Call(key, function, arguments)({})
+
+
+def _known(call: Call) -> Iterator[str]:
+    """What a call is given that is known exactly, each with its key."""
+    for name, value in call.arguments.items():
+        parts = value if isinstance(value, tuple) else (value,)
+        if isinstance(value, Call):
+            yield from _known(value)
+        elif value is not None and not any(isinstance(part, Uncertain) for part in parts):
+            yield f"{call.key}.{name} = {value}"
 
 
 def _shares(output: Any) -> str:

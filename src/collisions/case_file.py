@@ -6,6 +6,7 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -16,7 +17,7 @@ from typing import Any
 from . import reconstruct, reference, solvers, travel, uncertainty
 from .errors import CollisionsError, InputError
 from .reporting import report
-from .units import shown
+from .units import example, shown, unit_as_written
 from .vehicle import Vehicle
 
 # The functions of which a file calls one, by the name of its table.
@@ -52,7 +53,10 @@ _NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknow
 # Annotations of arguments that may be several numbers.
 SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
-_UNCERTAIN = re.compile(r"(.*?)(\+/-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
+_UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
+# What people write for a range: "40-50 mph", "0.4 to 0.7".
+_RANGE = re.compile(r"\s*(-?\d+\.?\d*)\s*((?![eE]-)[^\d\s*^]*?)\s*(?:-|–|to)\s*(\d+\.?\d*)\s*([a-zA-Z°%].*?)?\s*")
+_PAIR = '["1.2 m", "-0.4 m"]'
 _LARGEST_FILE = 1_000_000  # bytes
 
 
@@ -89,7 +93,8 @@ class Call:
         try:
             return self.function(**arguments, **options)
         except CollisionsError as error:
-            problems = [(self._place(part), str(part)) for part in error.fields.get("problems", (error,))]
+            parts = error.fields.get("problems", (error,))
+            problems = [(self._place(part), str(part).removeprefix(f"{part.fields.get('argument')}: ")) for part in parts]
             raise CaseError(*problems, refused=not isinstance(error, InputError), code=error.code) from error
 
     def _place(self, error: CollisionsError) -> str:
@@ -141,9 +146,20 @@ def read_text(data: bytes) -> Case:
     except RecursionError:
         raise CaseError(("", "is nested too deeply; a value is a number, a text, a pair or a table of these")) from None
     except ValueError as error:
-        cure = 'write key = value, with every text in quotes, such as mass = "1500 kg"'
-        raise CaseError(("", f"is not TOML: {error}; {cure}")) from None
+        raise CaseError(("", _not_toml(data.decode("utf-8-sig"), str(error)))) from None
     return _Reader(document).case()
+
+
+def _not_toml(text: str, error: str) -> str:
+    """What is wrong with a text that is not TOML, with the line and what to write."""
+    at = re.search(r"at line (\d+)", error)
+    line = "".join(text.split("\n")[int(at[1]) - 1 : int(at[1])]).strip() if at else ""
+    cure = 'write key = value, with every text in quotes, such as mass = "1500 kg"'
+    if "twice" in error or "overwrite" in error:
+        cure = "a file is of one case, with each table and each key once"
+    elif set(line) & set("“”„‘’"):
+        cure = 'write straight quotes, "'
+    return f"is not TOML: {error}{f', {shown(line)}' if line else ''}; {cure}"
 
 
 @cache
@@ -167,7 +183,7 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
     section = (getdoc(function) or "").partition("Parameters\n----------\n")[2].partition("\n\n")[0]
     found: dict[str, str] = {}
     if function == Vehicle.from_speed:
-        moving = {name: (getdoc(getattr(Vehicle, name)) or "").rstrip(".") for name in ("speed", "course")}
+        moving = {name: (getdoc(getattr(Vehicle, name)) or "").partition(",")[0].rstrip(".") for name in ("speed", "course")}
         found = descriptions(Vehicle) | moving
     for names, kind, text in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE):
         unit = (re.search(r" ?\[\S+?\]", kind) or [""])[0].replace(" [1]", "").replace(" [-]", "")
@@ -182,18 +198,25 @@ def nearest(given: str, names: Iterable[str]) -> str:
     return f"did you mean {near[0]}?" if near else f"write one of {', '.join(listed)}"
 
 
-def stated(text: str) -> Any:
+def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -> Any:
     """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with " (95 %)"; None of others.
 
-    A number after +/- is one standard deviation of a normal distribution, two dots are the bounds of a uniform one. With a
-    percentage the range holds that share of a normal distribution.
+    A number after +/- is one standard deviation of a normal distribution, two dots are the ``bounds``, of a uniform one. With
+    a percentage the range holds that share of a normal distribution.
     """
     found = _UNCERTAIN.fullmatch(text)
     if found is None:
         return None
-    one, sign, other, coverage = found.groups()
+    one, sign, other, coverage = (part and part.strip() for part in found.groups())
+    units = [unit_as_written(part) for part in (one, other)]
+    shares = [unit in ("%", "percent") for unit in units]
+    if re.match(r"[^\W\d]|[%°]", max(units)) and (shares[0] != shares[1] or (units[0] != units[1] and "" in units)):
+        both = [part if unit else f"{part} {max(units)}" for part, unit in zip((one, other), units, strict=True)]
+        cure = "'50 km/h +/- 3 km/h'" if any(shares) else repr(f" {sign} ".join(both))
+        text = f"cannot read {shown(text)}: both numbers need the same unit; write for example {cure}"
+        raise InputError(text, code="bad_units", argument="")
     if sign == "..":
-        return uncertainty.Normal.between(one, other, coverage) if coverage else uncertainty.Uniform(one, other)
+        return uncertainty.Normal.between(one, other, coverage) if coverage else bounds(one, other)
     whole = uncertainty.Normal(one, other)
     if not coverage:
         return whole
@@ -207,6 +230,17 @@ def ends(stated: Any) -> tuple[str, str]:
     if math.isinf(high - low):
         low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
     return f"{low!r} {stated.unit}", f"{high!r} {stated.unit}"
+
+
+def _middle(one: str, sign: str, other: str) -> str | None:
+    """What is written before +/-, or the middle of a range in the unit of both its ends; None if they have none."""
+    if sign != "..":
+        return one.strip()
+    units = [unit_as_written(end) for end in (one, other)]
+    with suppress(ValueError):
+        low, high = (float(end.strip().removesuffix(unit)) for end, unit in zip((one, other), units, strict=True))
+        return f"{0.5 * low + 0.5 * high:.12g} {units[0]}" if units[0] == units[1] != "" else None
+    return None
 
 
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
@@ -289,10 +323,13 @@ class _Reader:
 
     def vehicle(self, label: str) -> Call:
         """The vehicle of a table, by speed and course where it has them."""
-        function = Vehicle.from_speed if {"speed", "course"} & self.table(label).keys() else Vehicle
-        names = parameters(function) | parameters(Vehicle.from_speed)
-        self.known(self.table(label), label, names)
-        return self.call(label, function, {name: value for name, value in self.table(label).items() if name in names})
+        given = self.table(label)
+        function = Vehicle.from_speed if {"speed", "course"} & given.keys() else Vehicle
+        self.known(given, label, parameters(Vehicle) | parameters(Vehicle.from_speed))
+        if function != Vehicle and {"vx", "vy"} & given.keys():
+            self.refuse(label, "has its velocity in two ways; leave vx and vy, or speed and course")
+        takes = parameters(function)
+        return self.call(label, function, {name: value for name, value in given.items() if name in takes})
 
     def call(
         self, key: str, function: Callable[..., Any], given: Any, beside: Mapping[str, Any] | None = None, plain: bool = False
@@ -310,13 +347,17 @@ class _Reader:
             # What may be None is not known, which a file says by leaving it out.
             if one.default is Parameter.empty and name not in given and "None" not in str(one.annotation):
                 what = descriptions(function).get(name, name).replace("``", "")
-                self.refuse(f"{key}.{name}", f"is missing; give it: {what}")
-        prefix = "" if key in SOLVERS else f"{key}."
+                unit = re.search(r"\[(\S+)\]$", what)
+                such = f", such as {_PAIR if one.annotation == 'Pair' else example(unit[1])}" if unit else ""
+                self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
+        prefix, before = "" if key in SOLVERS else f"{key}.", len(self.problems)
         read = {
             name: value if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
             for name, value in given.items()
             if name in takes
         }
+        if not prefix:
+            self.problems[before:] = [(f"{key}.{place}", text) for place, text in self.problems[before:]]
         unknown = {name: None for name, one in takes.items() if one.default is Parameter.empty}
         return Call(key, function, {**unknown, **(beside or {}), **read})
 
@@ -324,15 +365,19 @@ class _Reader:
         """An argument: a number or a text as it is, or what stands there in place of a number."""
         if not any(name in kind for name in ("Input", *SEVERAL)):
             return value
-        if isinstance(value, dict):
+        if kind.removesuffix(" | None") == "Pair" and not (isinstance(value, tuple) and len(value) == 2):
+            self.refuse(key, f"takes two numbers in brackets, got {shown(value)}; write for example {_PAIR}")
+        elif isinstance(value, dict):
             return self.function(key, value)
-        if isinstance(value, tuple):
+        elif isinstance(value, tuple):
             if any(name in kind for name in SEVERAL):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
             self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
         elif isinstance(value, str) and (found := _UNCERTAIN.fullmatch(value)):
-            written = found[1].strip() if found[2] != ".." else None
-            return self.stated(key, Call(key, stated, {"text": value}), written)
+            return self.stated(key, Call(key, stated, {"text": value}), _middle(*found.groups()[:3]))
+        elif isinstance(value, str) and (found := _RANGE.fullmatch(value)):
+            low, high = (f"{found[at]} {found[4] or ''}".strip() for at in (1, 3))
+            self.refuse(key, f'cannot read {shown(value)}; a range has two dots: write "{low} .. {high}"')
         return value
 
     def function(self, key: str, table: Any) -> Any:
@@ -388,8 +433,12 @@ class _Reader:
 
     def _observed(self, key: str, value: Any) -> Any:
         """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
-        found = self.value(key, value, "Pair") if isinstance(value, (str, dict)) else value
-        self.uncertain.pop(key, None)
-        found = found.stated if isinstance(found, Uncertain) else found
         # Of an observation two dots say that it lies between, not how likely it is where.
-        return uncertainty.Interval(*ends(found)) if isinstance(found, uncertainty.Uniform) else found
+        call = Call(key, stated, {"text": value, "bounds": uncertainty.Interval})
+        found = value
+        if isinstance(value, str) and _UNCERTAIN.fullmatch(value):
+            found = self.stated(key, call)
+        elif isinstance(value, (str, dict)):
+            found = self.value(key, value, "Input")
+        self.uncertain.pop(key, None)
+        return found.stated if isinstance(found, Uncertain) else found

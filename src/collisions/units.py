@@ -289,6 +289,8 @@ def _cure(text: str) -> str:
         whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
         point = [text.replace(",", ".")] if text.count(",") == 1 and "." not in text else []
         return f": no comma stands in a number, {' or '.join(map(repr, whole + point))}" if whole or point else ""
+    if "\u2212" in text:
+        return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
     if re.search(r"[a-z]-[a-z]", text):
         return f": units are multiplied by *, {text.replace('-', '*')!r}"
     return ""
@@ -386,7 +388,7 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     dimensions = str(getattr(error, "dim1", ""))
     is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
     name = unit_as_written(given) if isinstance(given, str) else ""
-    if meant := _MEANT.get(name.rstrip(".").lower()):
+    if (meant := _MEANT.get(name.rstrip(".").lower(), name)) != name:
         hint = f"; {name!r} is written {meant!r}"
     if unit == "kg" and is_force:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"

@@ -14,7 +14,7 @@ from ..impact import Impact
 from ..inputs import PLACED
 from ..kernels.contact_laws import RULES
 from ..reading import ArgumentReader, at_least_zero, need_one_case
-from ..reconstruct import Fit, MomentumSolution
+from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import computing
 from ..solving import error_of
 from ..uncertainty.result import Propagation
@@ -185,17 +185,17 @@ def explain(
     return page.text()
 
 
-def no_uncertainty() -> InputError:
+def no_uncertainty(kind: str = "Fit") -> InputError:
     """The error for an ``uncertainty`` with a result that brings its own errors."""
     return InputError(
-        "uncertainty is none of a Fit, which has the standard errors of its unknowns; leave it out, or explain the impact at "
-        "the values found, with a propagation of fit.inputs",
+        f"uncertainty is none of a {kind}, which has the standard errors of its unknowns; leave it out, or explain the impact "
+        f"at the values found, with a propagation of {kind.lower()}.inputs",
         code="bad_option",
         argument="uncertainty",
     )
 
 
-def kinds_of_answers(result: Impact | MomentumSolution | Fit) -> Mapping[str, str]:
+def kinds_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
     """The results that an uncertainty may be given for, by name, with their kind."""
     return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
 

@@ -26,7 +26,7 @@ from ..kernels.elementwise import UNIT_INTERVAL
 from ..outlines import read_outline
 from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
-from ..reconstruct import Fit, MomentumSolution
+from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import computing
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
@@ -43,6 +43,7 @@ _OTHER_PARTS: dict[type, tuple[str, ...]] = {
     MomentumSolution: ("outline_a", "outline_b", "share_a"),
     Fit: ("outline_a", "outline_b", "share_a", "duration", "drag", "limits", *EVIDENCE),
 }
+_OTHER_PARTS[Posterior] = (*_OTHER_PARTS[Fit], "derivation")
 _SIZES = {"scene": (7.5, 6.5), "momentum": (6.5, 6.2), "impulse-plane": (7.5, 6.0), "energy": (7.0, 4.2), "pulse": (7.0, 7.0)}
 _SIZE = (6.5, 4.6)
 # Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names are no formulas.
@@ -54,7 +55,7 @@ _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 @computing
 def report(
-    impact: Impact | MomentumSolution | Fit,
+    impact: Impact | MomentumSolution | Fit | Posterior,
     *,
     title: str | None = None,
     form: Form = "html",
@@ -82,13 +83,13 @@ def report(
     record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options, and ``report`` of both
     the same page.
 
-    A ``MomentumSolution`` knows neither contact nor places, and a ``Fit`` only unknowns and what was observed: their pages have
-    the parts that they have, and options of other parts are refused. The record of a ``Fit`` has its numbers, but no impact
-    comes back from it, because its model is code.
+    A ``MomentumSolution`` knows neither contact nor places, and a ``Fit`` or a ``Posterior`` only unknowns and what was
+    observed: their pages have the parts that they have, and options of other parts are refused. The record of the last two has
+    their numbers, but no impact comes back from it, because their model is code.
 
     Parameters
     ----------
-    impact : Impact, MomentumSolution or Fit
+    impact : Impact, MomentumSolution, Fit or Posterior
         One case that was answered, of any forward or reverse solver.
     title : str, optional
         By default the names of the vehicles.
@@ -141,7 +142,7 @@ def report(
     given = dict(locals())
     from .. import __version__
 
-    need_one_case(impact, (Impact, MomentumSolution, Fit), "report", instead=NOT_EXPLAINED)
+    need_one_case(impact, (Impact, MomentumSolution, Fit, Posterior), "report", instead=NOT_EXPLAINED)
     options = plain_options(given)
     paragraphs, outlines = _checked(impact, options, uncertainty)
     by_input = options["notes"] if isinstance(options["notes"], Mapping) else {}
@@ -150,7 +151,7 @@ def report(
     spread = Spread(impact, uncertainty)
     sheet = (Html if form == "html" else Markdown)(units, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
-    findings = None if isinstance(impact, Fit) else diagnose(impact, **looked_at, **evidence)
+    findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at, **evidence)
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, evidence, by_input)
@@ -160,8 +161,10 @@ def report(
     elif isinstance(impact, MomentumSolution):
         sections.gain(sheet, impact, impact.translational_energy_loss)
         sections.momentum(sheet, impact, evidence, by_input)
-    else:
+    elif isinstance(impact, Fit):
         fit(sheet, impact)
+    else:
+        sections.posterior(sheet, impact)
     if uncertainty is not None:
         spread.write(sheet, uncertainty)
     if findings is not None:
@@ -171,18 +174,18 @@ def report(
         for paragraph in paragraphs:
             sheet.say(paragraph)
     readable = _readable(impact) if isinstance(impact, Impact) else impact
-    if figures and (isinstance(impact, Impact) or uncertainty is not None):
+    if figures and (isinstance(impact, (Impact, Posterior)) or uncertainty is not None):
         sheet.heading("Figures")
         if isinstance(sheet, Html):
             _figures(sheet, readable, uncertainty, options)
         else:
             sheet.say("The figures are in the HTML form of this report.")
-    if derivation:
+    if derivation and not isinstance(readable, Posterior):
         sheet.heading("Derivation")
         known = uncertainty if spread.ranges else spread.deviations
         text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=known or None)
         sheet.working(text)
-    if findings is not None and not isinstance(impact, Fit):
+    if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
         sections.sources(sheet, impact, findings)
     sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
@@ -242,8 +245,8 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
                 name,
                 f"{name} is for an Impact, and a {kind.__name__} has no part for it; leave it out, or report the impact itself",
             )
-    if kind is Fit and isinstance(uncertainty, Propagation):
-        reader.refuse(no_uncertainty())
+    if kind in (Fit, Posterior) and isinstance(uncertainty, Propagation):
+        reader.refuse(no_uncertainty(kind.__name__))
     outlines = {
         label: read_outline(reader, options[f"outline_{label}"], f"outline_{label}")
         for label in "ab"
@@ -255,17 +258,19 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     return [plain(paragraph) for paragraph in paragraphs], outlines
 
 
-def _inputs_of(impact: Impact | MomentumSolution | Fit) -> list[str]:
+def _inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
     """The inputs that a note can stand beside, by name."""
     if isinstance(impact, Impact):
         return [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
-    return [] if isinstance(impact, Fit) else [name.partition("[")[0] for _, _, name, _, _ in momentum_inputs(impact)]
+    rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
+    return [name.partition("[")[0] for _, _, name, _, _ in rows]
 
 
-def _title(impact: Impact | MomentumSolution | Fit) -> str:
+def _title(impact: Impact | MomentumSolution | Fit | Posterior) -> str:
     if isinstance(impact, Impact):
         return f"Impact of {who(0, impact.a.before)} and {who(1, impact.b.before)}"
-    return "Fit to evidence" if isinstance(impact, Fit) else "Planar momentum of A and B"
+    titles = {Fit: "Fit to evidence", Posterior: "What the evidence says", MomentumSolution: "Planar momentum of A and B"}
+    return titles[type(impact)]
 
 
 def _readable(impact: Impact) -> Impact:
@@ -298,16 +303,20 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
             caption = "Normal and tangential impulse, with the lines that decide them."
             _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
         _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
-    for number, output in enumerate(() if uncertainty is None else uncertainty.outputs.values(), 1):
+    if isinstance(impact, Posterior):
+        _draw(sheet, "residuals", "Each observation less what is computed of it.", plot.residuals, impact)
+    outputs = impact.unknowns if isinstance(impact, Posterior) else {} if uncertainty is None else uncertainty.outputs
+    for number, output in enumerate(outputs.values(), 1):
         name = plain(output.name)
         if not varies(output):
             sheet.say(f"{name}: no figures, because it is the same in every case.")
             continue
         if isinstance(output, Sampled):
-            caption = f"{name}: the cases drawn, given the stated inputs."
+            caption = f"{name}: the cases drawn, given {output.given}."
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units)
-        caption = f"{name}: the share of its variance that each input brings, by itself and in all."
-        _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units)
+        if not isinstance(impact, Posterior):
+            caption = f"{name}: the share of its variance that each input brings, by itself and in all."
+            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units)
 
 
 def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, **options: Any) -> None:

@@ -19,7 +19,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..quantities import unit_of
 from ..reading import ArgumentReader
-from ..reconstruct import Fit, MomentumSolution, momentum
+from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..records import strict
 from ..settings import computing
 from ..uncertainty import Propagation
@@ -53,7 +53,10 @@ _SENTENCES = ("choice.reason",)
 
 
 def record(
-    impact: Impact | MomentumSolution | Fit, version: str, options: Mapping[str, Any], uncertainty: Propagation | None
+    impact: Impact | MomentumSolution | Fit | Posterior,
+    version: str,
+    options: Mapping[str, Any],
+    uncertainty: Propagation | None,
 ) -> str:
     """The record: result, inputs as given, and options of the report, as JSON."""
     whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": strict(options)}
@@ -65,8 +68,8 @@ def record(
         whole["other_texts"] = {
             label: _other_texts(vehicle, inputs[label]) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b))
         }
-    elif isinstance(impact, Fit):
-        whole["fit"] = impact.to_dict()
+    elif isinstance(impact, (Fit, Posterior)):
+        whole[type(impact).__name__.lower()] = impact.to_dict()
     else:
         whole["momentum"] = {"inputs": impact.given, "results": _results(impact)}
     return json.dumps(whole, indent=1, allow_nan=False)
@@ -145,7 +148,7 @@ def replay(text: str) -> Impact | MomentumSolution:
     ------
     InputError
         No report with a record, or a record that cannot be read, whose inputs do not give its results, or whose texts and
-        numbers differ; or the report of a ``Fit``, whose model is code.
+        numbers differ; or the report of a ``Fit`` or a ``Posterior``, whose model is code.
 
     Examples
     --------
@@ -157,10 +160,10 @@ def replay(text: str) -> Impact | MomentumSolution:
     True
     """
     found = _whole(text)
-    if "fit" in found:
+    if kind := next((kind for kind in ("fit", "posterior") if kind in found), ""):
         raise InputError(
-            "text is the report of a Fit, which cannot be made again from it: its model is code. Its numbers stand in the "
-            "record; to check them call reconstruct.fit with the model again",
+            f"text is the report of a {kind.capitalize()}, which cannot be made again from it: its model is code. Its numbers "
+            f"stand in the record; to check them call reconstruct.{kind} with the model again",
             code="no_record",
             argument="text",
         )

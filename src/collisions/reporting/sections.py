@@ -24,7 +24,7 @@ from ..kernels.contact_laws import FRICTION, LAWS
 from ..models import BY_NAME
 from ..plot.canvas import who
 from ..reading import ArgumentReader
-from ..reconstruct import MomentumSolution
+from ..reconstruct import MomentumSolution, Posterior
 from ..units import Input
 from ..vehicle import Vehicle
 from .render import Sheet, given_as, plain
@@ -396,6 +396,18 @@ def _own_axes(sheet: Sheet, impact: Impact, of: str) -> Iterator[tuple[str, str,
     if side.delta_v_forward is not None and side.delta_v_left is not None:
         yield of, "delta-V forward", sheet.system.answer(side.delta_v_forward, "speed")
         yield of, "delta-V to the left (recorders count to the right)", sheet.system.answer(side.delta_v_left, "speed")
+
+
+def posterior(sheet: Sheet, found: Posterior) -> None:
+    """What the evidence says of each unknown, and all that it rests on."""
+    summary = found.summary(sheet.system.name)
+    sheet.listed([plain(note) for note in summary.notes])
+    for part in summary.parts:
+        if not part.folded:
+            sheet.heading(part.heading)
+            heads = part.columns or ("stated",)
+            sheet.table([(plain(name), *row) for name, *texts in part.rows for row in zip(heads, texts, strict=True)])
+    sheet.say(f"{summary.title}, seed {found.seed}.")
 
 
 def findings(sheet: Sheet, found: Findings) -> None:

@@ -9,7 +9,7 @@ from ..derivation.explain import kinds_of_answers
 from ..errors import InputError
 from ..formatting import SI_UNITS, percent, with_decimals
 from ..impact import Impact
-from ..reconstruct import Fit, MomentumSolution
+from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import NO_SPREAD, NOTHING, ends_of, figures, varies
 from .render import Sheet, plain
@@ -18,7 +18,7 @@ from .render import Sheet, plain
 class Spread:
     """The outputs of a propagation that are results of the report, by the name of the result."""
 
-    def __init__(self, impact: Impact | MomentumSolution | Fit, uncertainty: Propagation | None) -> None:
+    def __init__(self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None) -> None:
         self.impact = impact
         self.kinds = kinds_of_answers(impact)
         self.outputs: dict[str, Output] = {}

@@ -457,7 +457,7 @@ class Propagation(Summarized):
 
 def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[tuple[str, str]]:
     """What is known of an output, in words and numbers, for a table; ``kind`` is that of numbers without a unit."""
-    kind = kind or KIND_OF.get(output.unit or "none")
+    kind = kind or KIND_OF.get(output.unit or "")
     if kind is None:
         return [("figures", output.row()[1])]
     mean, std, (low, high) = ends_of(output.mean), ends_of(output.std), output.interval()
