@@ -480,7 +480,7 @@ def motion(case: Case, impact: Any) -> tuple[Any, Any]:
 
 @fuzzes(
     "reconstruct.central", "reconstruct.inline_closing_speed", "reconstruct.momentum", "reconstruct.MomentumSolution", "Sensitivity",
-    "reconstruct.Reconstruction", "reconstruct.crush_energy",
+    "reconstruct.Reconstruction", "reconstruct.crush_delta_v", "reconstruct.crush_energy", "reconstruct.crush_share",
 )  # fmt: skip
 def test_reverse_solvers_of_numbers(case: Case) -> None:
     """Any numbers; with too few, too many and contradictory ones."""
@@ -550,6 +550,11 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
         force_angle=case.option(0.0, case.value("angle")),
     )
     assert not isinstance(found, float) or found >= 0.0
+    share = solved(case, "crush_share", case.value("stiffness_a"), case.value("stiffness_b"))
+    assert not isinstance(share, float) or 0.0 <= share <= 1.0
+    gammas = {f"gamma_{side}": case.value("share_a") for side in "ab" if case.maybe(0.7)}
+    both = solved(case, "crush_delta_v", case.value("energy_loss"), case.value("mass_a"), case.value("mass_b"), **gammas)
+    assert not isinstance(both, tuple) or not isinstance(both[0], float) or min(both) >= 0.0
 
 
 @fuzzes(
@@ -936,7 +941,7 @@ def stops_short(points: list[Any], path: dict[str, Any]) -> bool:
     return False
 
 
-@fuzzes("travel.simulate", "travel.SimulatedPath", "travel.SimulatedPath.summary", share=0.2)
+@fuzzes("travel.simulate", "travel.SimulatedPath", "travel.SimulatedPath.summary", "plot.path", share=0.2)
 def test_simulated_travel(case: Case) -> None:
     """One vehicle or many from separation to rest: at rest, or refused."""
     body = vehicle(case)
@@ -952,6 +957,8 @@ def test_simulated_travel(case: Case) -> None:
         assert np.all(np.diff(found.time, axis=0)[~np.isnan(np.diff(found.time, axis=0))] >= 0.0)
         assert str(case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS)))
         case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}))
+        if case.maybe(0.2):
+            drawn(case, "path", found, case.option(None, found), outline_a=outline(case) if case.maybe(0.3) else None)
 
 
 # --- uncertainty -----------------------------------------------------------------------------------------------------------

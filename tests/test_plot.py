@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import collisions as col
-from collisions import plot, reconstruct, uncertainty
+from collisions import plot, reconstruct, travel, uncertainty
 from collisions.plot.canvas import Units, number
 from scenes import cases, solved
 
@@ -1382,3 +1382,47 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
         with pytest.raises(col.InputError) as refused:
             call()
         assert refused.value.code == code
+
+
+@pytest.mark.parametrize("units", SYSTEMS)
+def test_the_way_to_rest_is_drawn_where_it_was(units):
+    """Way, marks and both outlines in the units of the axes; the one at rest is filled and stands where the vehicle rests."""
+    ways = [travel.simulate(side.after, friction=0.7, lock=0.4) for side in (IMPACTS["sticking"].a, IMPACTS["sticking"].b)]
+    axes = plot.path(*ways, outline_a=(4.4, 1.8), outline_b=(4.1, 1.7), units=units)
+    metre = UREG("1 m").m_as(SHOWN[units]["length"])
+    drawn = {}
+    for artist in axes.get_children():
+        drawn.setdefault(artist.get_gid(), []).append(artist)
+    for letter, way, (length, width) in zip("ab", ways, ((4.4, 1.8), (4.1, 1.7)), strict=True):
+        (line,) = drawn[f"{letter}.way"]
+        np.testing.assert_allclose(line.get_xydata(), metre * np.column_stack([way.x, way.y]), rtol=ROUNDING, atol=ROUNDING)
+        marked = [mark for mark in way.marks if np.isfinite(mark[0]).any()]
+        assert marked
+        for artist, mark in zip(drawn[f"{letter}.mark"], marked, strict=True):
+            np.testing.assert_allclose(artist.get_xydata(), metre * np.column_stack(mark), rtol=ROUNDING, atol=ROUNDING)
+        (rest,) = drawn[f"{letter}.outline"]
+        c, s = math.cos(way.rest.heading), math.sin(way.rest.heading)
+        corners = [(0.5 * length * i, 0.5 * width * j) for i, j in ((1, -1), (1, 1), (-1, 1), (-1, -1))]
+        placed = [(way.rest.x + c * along - s * across, way.rest.y + s * along + c * across) for along, across in corners]
+        found = rest.get_xy()[:-1]
+        for place in placed:
+            assert np.min(np.hypot(*(found - metre * np.array(place)).T)) < 1e-9
+        assert len(drawn[f"{letter}.passing outline"]) == 4
+    assert axes.get_xlabel() == f"x [{SHOWN[units]['length']}]"
+
+
+def test_a_way_that_cannot_be_drawn_and_one_without_length():
+    """Another object, a batch, an outline without a path; a vehicle that stands is shown with room about it."""
+    still = travel.simulate(A.replace(vx=0.0), friction=0.7, lock=1.0)
+    axes = plot.path(still)
+    assert axes.get_xlim()[1] - axes.get_xlim()[0] >= 4.0
+    many = travel.simulate(A.replace(vx=np.array([3.0, 4.0])), friction=0.7, lock=1.0)
+    for arguments, options, code, said in (
+        ((IMPACTS["sticking"],), {}, "bad_option", "travel.simulate"),
+        ((still, A), {}, "bad_option", "path_b"),
+        ((many,), {}, "bad_shape", "many cases"),
+        ((still,), {"outline_b": (4.0, 1.7)}, "bad_option", "path_b"),
+    ):
+        with pytest.raises(col.InputError, match=said) as caught:
+            plot.path(*arguments, **options)
+        assert caught.value.code == code

@@ -826,3 +826,69 @@ def test_crush_with_units_is_beyond_suspicion():
     # 60 (200 * 7.5 + 65 (25 + 50 + 100) / 6 + 200**2 / 130) lbf*in, and one is 0.112984829... J by the definition of the pound.
     whole = 60 * (200 * 7.5 + 65 * 175 / 6 + 200**2 / 130)
     assert us == pytest.approx(whole * 0.45359237 * 9.80665 * 0.0254, rel=1e-13)
+
+
+def test_two_springs_in_series_share_the_energy_as_their_inverse_stiffness():
+    """One force F: each takes F**2 / (2 k). With A + B C and A**2 / (2 B), (A w + B w C)**2 / (2 B w) where crushed evenly."""
+    share = reconstruct.crush_share("900 kN/m", "500 kN/m")
+    force = 3e5
+    taken = force**2 / (2 * 9e5), force**2 / (2 * 5e5)
+    assert share == pytest.approx(taken[0] / sum(taken), rel=1e-15)
+    width, (front_a, front_b), (side_a, side_b) = 1.4, (6e4, 7e5), (3e4, 4e5)
+    deep = 0.35
+    deeper = (front_a + front_b * deep - side_a) / side_b  # where both press alike
+    front = reconstruct.crush_energy(width, [deep, deep], front_a, front_b)
+    side = reconstruct.crush_energy(width, [deeper, deeper], side_a, side_b)
+    assert reconstruct.crush_share(front_b * width, side_b * width) == pytest.approx(front / (front + side), rel=1e-14)
+    assert reconstruct.crush_share(math.inf, 5e5) == 0.0
+    assert reconstruct.crush_share(5e5, math.inf) == 1.0
+    # Their quotient and their sum overflow.
+    assert reconstruct.crush_share(1e308, 1e308) == 0.5
+    assert reconstruct.crush_share(1e300, 1e-300) == 0.0
+    with pytest.warns(col.CollisionsWarning, match="1 immovable, 1 not_positive") as caught:
+        many = reconstruct.crush_share(np.array([9e5, math.inf, 0.0]), np.array([5e5, math.inf, 5e5]))
+    assert len(caught) == 1
+    np.testing.assert_array_equal(many, [share, math.nan, math.nan])
+    assert reconstruct.crush_share(np.float32([9e5]), 5e5).dtype == np.float32
+
+
+def test_the_share_is_that_of_a_contact_followed_in_time():
+    """Two crush stiffnesses in series: their work up to maximum engagement, integrated by time_resolved, divides so."""
+    a, b = (
+        col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=14.0, x=-2.0, y=0.0),
+        col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=2.0, y=0.0),
+    )
+    stiff, soft = 9e5, 5e5
+    both = stiff * soft / (stiff + soft)
+    impact = col.time_resolved(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, stiffness=both)
+    force = impact.pulse.peak_force
+    share = reconstruct.crush_share(stiff, soft)
+    assert force**2 / (2.0 * stiff) == pytest.approx(share * impact.energy_absorbed, rel=1e-3)  # 100 steps
+
+
+def test_delta_v_from_damage():
+    """Plastic and central it is that of the common velocity; a wall; an arm that takes all; refusals; batches."""
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=14.0), col.Vehicle(mass=1200.0, vx=-3.0), 0.0)
+    found = reconstruct.crush_delta_v(impact.energy_loss, 1500.0, 1200.0)
+    assert found == pytest.approx((impact.a.delta_v, impact.b.delta_v), rel=1e-14)
+    assert reconstruct.crush_delta_v("50 kJ", 1000.0, math.inf) == (10.0, 0.0)
+    assert reconstruct.crush_delta_v("50 kJ", math.inf, 1000.0) == (0.0, 10.0)
+    assert reconstruct.crush_delta_v(5e4, 1000.0, 1000.0, gamma_b=0.0) == (0.0, 0.0)
+    assert reconstruct.q.crush_delta_v(5e4, 1000.0, math.inf)[0].m_as("km/h") == pytest.approx(36.0, rel=1e-14)
+    with pytest.raises(col.NoSolutionError) as caught:
+        reconstruct.crush_delta_v(5e4, math.inf, math.inf)
+    assert caught.value.code == "immovable"
+    for arguments, code in (
+        ((-1.0, 1.0, 1.0), "negative_energy"),
+        ((1.0, 0.0, 1.0), "not_positive"),
+        ((1e308, 1e-3, 1.0), "out_of_range"),
+    ):
+        with pytest.raises(col.InputError) as caught:
+            reconstruct.crush_delta_v(*arguments)
+        assert caught.value.code == code
+    with pytest.raises(col.InputError, match="gamma_a must be from 0 to 1"):
+        reconstruct.crush_delta_v(1.0, 1.0, 1.0, gamma_a=1.5)
+    with pytest.warns(col.CollisionsWarning, match="1 bad_fraction, 1 contradictory"):
+        of_a, of_b = reconstruct.crush_delta_v(np.array([5e4, -1.0, 5e4]), 1000.0, 1000.0, gamma_a=np.array([1.0, 1.0, 2.0]))
+    np.testing.assert_allclose([of_a[0], of_b[0]], math.sqrt(50.0), rtol=1e-15)
+    assert np.isnan([of_a[1:], of_b[1:]]).all()

@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,9 @@ def test_totals_of_a_known_pulse():
     assert pulse != mirrored
     with pytest.raises(ValueError, match="read-only"):
         pulse.forward[0] = 1.0
+    assert "ended=True" in repr(pulse)
+    assert re.search(r"ended +yes\n", str(pulse.summary()))
+    assert "-0" not in repr(pulse)
 
 
 def test_the_signs_are_those_of_an_impact():

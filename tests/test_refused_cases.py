@@ -418,6 +418,10 @@ def calls() -> Iterator[tuple[str, Call]]:
             ({"force_angle": 0.5 * math.pi}, {"force_angle": 2.0}),
         ),
     )
+    stiff = {"stiffness_a": 9e5, "stiffness_b": 5e5}
+    yield "crush_share", Call(reconstruct.crush_share, stiff, (dict.fromkeys(stiff, INF), {"stiffness_a": 0.0}))
+    damaged = {"energy": 9e4, "mass_a": 1500.0, "mass_b": 1300.0, "gamma_a": 0.8, "gamma_b": 0.9}
+    yield "crush_delta_v", Call(reconstruct.crush_delta_v, damaged, ({"mass_a": INF, "mass_b": INF}, {"gamma_a": 1.5}))
     surface = {"distance": 20.0, "drag": 0.7, "grade": 0.05, "end_speed": 3.0}
     several = {
         f"{name}[{i}]": value / (i + 1.0) for name, value in surface.items() if name != "end_speed" for i in range(2)

@@ -239,6 +239,12 @@ def test_a_simulated_path_is_a_frozen_record_with_units():
     assert repr(path).startswith("SimulatedPath(time=array(7,) 0 to ")
     with pytest.raises(AttributeError):
         path.time = 3.0
+    # The place of rest is what is compared with the scene.
+    (part,) = (part for part in path.summary("us").parts if not part.folded)
+    cells = dict(part.rows)
+    assert cells["rest x"] == f"{path.rest.x / 0.3048:.1f} ft"
+    assert cells["rest heading"] == f"{math.degrees(path.rest.heading):.0f}°"
+    assert f"rest.y={path.rest.y:.6g} m" in repr(path)
 
 
 def test_a_vehicle_at_rest_stays():

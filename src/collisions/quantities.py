@@ -269,12 +269,12 @@ class Shown(Summarized):
         return Summary(self._title, [*sided(self._values(), numbers), all_numbers(self._rows())])
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
-        """Name, value and SI unit of every attribute that has one; of results within it by their own names."""
+        """Name, value and SI unit of every attribute that has one or is yes or no; of results within it by their own names."""
         for name in (*(f.name for f in fields(self)), *attributes(type(self))):
             value, unit = getattr(self, name), unit_of(type(self), name)
             if isinstance(value, Shown):
                 yield from value._values(f"{name}.")
-            elif value is not None and unit is not None:
+            elif value is not None and (unit is not None or isinstance(value, bool)):
                 yield prefix + name, value, unit
 
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:

@@ -43,6 +43,8 @@ class Cells(Numbers):
             return ", ".join(self.text(part, unit) for part in value)
         if isinstance(value, np.ndarray):
             return self._range(value, unit)
+        if isinstance(value, bool):
+            return "yes" if value else "no"
         if not isinstance(value, float) or unit is None:
             return str(value)
         kind = KIND_OF.get(unit)
@@ -182,7 +184,7 @@ def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells, columns
 
 def label_of(name: str) -> str:
     """The name of an attribute in words."""
-    words = name.replace("_", " ")
+    words = re.sub(r"[_.]", " ", name)
     for plain, written in _WORDS.items():
         words = re.sub(rf"\b{plain}\b", written, words)
     return words

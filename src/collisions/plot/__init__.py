@@ -10,6 +10,7 @@ from .evidence import corner, residuals
 from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
+from .path import path
 from .pulse import pulse
 from .scene import scene
 from .uncertainty import contributions, distribution
@@ -22,6 +23,7 @@ __all__ = [
     "force_time",
     "impulse_plane",
     "momentum",
+    "path",
     "pulse",
     "residuals",
     "scene",

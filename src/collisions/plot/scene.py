@@ -96,7 +96,7 @@ def scene(
     impact = answered(impact, "scene")
     sides = impact.a, impact.b
     corners = [
-        _corners(side.before, outline, f"outline_{letter}", letter)
+        corners_of(side.before, outline, f"outline_{letter}", letter)
         for side, outline, letter in zip(sides, (outline_a, outline_b), SIDES, strict=True)
     ]
     centres, contact, sketched = _places(impact)
@@ -105,19 +105,19 @@ def scene(
         name = "x" if sides[lacking].before.x is None else "y"
         raise missing(sides[lacking].before, name, "a picture with an outline", SIDES[lacking])
     axes = begin(axes, (7.5, 6.5))
-    picture = _Picture(axes, labels)
+    picture = Picture(axes, labels)
     at, bodies = picture.scaled(contact), [place and picture.scaled(place) for place in centres]
     outlines = [[picture.scaled(corner) for corner in outline] for outline in corners]
     pins = [side.before.pivot and picture.scaled(side.before.pivot) for side in sides]
     known = [place for place in (*bodies, *outlines[0], *outlines[1], *pins, at) if place is not None]
     picture.drawing.include(*known)
-    picture.arrows.size = size = _size(known, labels, sketched)
+    picture.arrows.size = size = size_of(known, labels, sketched)
 
     for index, (side, place, pin) in enumerate(zip(sides, bodies, pins, strict=True)):
         if place is None:
             picture.wall(at, impact.normal, index, side.before)
         else:
-            picture.body(place, index, side.before, outlines[index])
+            picture.body(place, index, who(index, side.before), outlines[index])
         if pin is not None:
             picture.pivot(pin, index)
     moments = _MOMENTS[moment]
@@ -166,7 +166,7 @@ def _places(impact: Impact) -> tuple[list[Place | None], Place, bool]:
     return sketch, (0.0, 0.0), True
 
 
-def _corners(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Place]:
+def corners_of(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Place]:
     """The outline of a vehicle in the scene, from its front edge on; empty without one."""
     if outline is None:
         return []
@@ -178,7 +178,7 @@ def _corners(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[Pla
     return [(x + float(ahead), y + float(left)) for ahead, left in corners]
 
 
-def _size(known: list[Place], labels: Units, sketched: bool) -> float:
+def size_of(known: list[Place], labels: Units, sketched: bool) -> float:
     """The larger extent of the places, or of vehicles where these are all in one."""
     size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
     farthest = max(abs(part) for place in known for part in place)
@@ -203,8 +203,8 @@ def _scale(values: list[float], factor: float, most: float) -> float:
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 
 
-class _Picture:
-    """The parts of the scene, drawn in the units of its labels."""
+class Picture:
+    """The parts of a scene, drawn in the units of its labels."""
 
     def __init__(self, axes: Axes, labels: Units) -> None:
         self.axes, self.labels = axes, labels
@@ -229,19 +229,26 @@ class _Picture:
         self.drawing.avoid(one, other)
         self.drawing.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
 
-    def body(self, place: Place, index: int, vehicle: Vehicle, corners: list[Place]) -> None:
-        """The centre of mass, and the outline where it was given, its front edge the heavy one."""
+    def body(self, place: Place, index: int, name: str, corners: list[Place]) -> None:
+        """The centre of mass with its name, and the outline where it was given, its front edge the heavy one."""
         letter, colour = SIDES[index], COLOURS[index]
         if corners:
-            x, y = zip(*corners, strict=True)
-            self.axes.fill(x, y, fc=f"{colour}14", ec=colour, lw=1.4, zorder=2, gid=f"{letter}.outline")
+            self.outline(index, corners, f"{letter}.outline", 0.08)
             self.drawing.area(index, corners)
-            self.axes.plot(x[:2], y[:2], color=colour, lw=4, solid_capstyle="butt", zorder=3, gid=f"{letter}.front")
-            for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
-                self.drawing.avoid(one, other, _FRONT if one is corners[0] else 1)
         self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
         self.drawing.avoid(place, place)
-        self.drawing.label(place, who(index, vehicle), (0.0, 1.0), colour, of=index)
+        self.drawing.label(place, name, (0.0, 1.0), colour, of=index)
+
+    def outline(self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4) -> None:
+        """The outline of a vehicle, filled with this share of its colour, and its front."""
+        from matplotlib.colors import to_rgba
+
+        colour = COLOURS[index]
+        self.axes.fill(*zip(*corners, strict=True), fc=to_rgba(colour, filled), ec=colour, lw=width, zorder=2, gid=gid)
+        front: Any = {"color": colour, "lw": 3.0 * width, "solid_capstyle": "butt", "zorder": 3}
+        self.axes.plot(*zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front"))
+        for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
+            self.drawing.avoid(one, other, _FRONT if one is corners[0] else 1)
 
     def pivot(self, pin: Place, index: int) -> None:
         """Where a body is pinned."""

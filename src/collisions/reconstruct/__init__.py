@@ -1,6 +1,6 @@
 """The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence.
 
-``reconstruct.q.inline_closing_speed`` and ``reconstruct.q.crush_energy`` give their number as a Quantity.
+``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v`` with their numbers as Quantities.
 """
 
 from ..provenance import Reconstruction
@@ -8,7 +8,7 @@ from ..quantities import in_quantities
 from .bayes import posterior
 from .central import central
 from .comparison import Comparison, compare
-from .crush import crush_energy
+from .crush import crush_delta_v, crush_energy, crush_share
 from .fit import fit
 from .fit_result import Fit
 from .inline import inline_closing_speed
@@ -26,6 +26,7 @@ class q:
 
     inline_closing_speed = staticmethod(in_quantities(inline_closing_speed, "m/s"))
     crush_energy = staticmethod(in_quantities(crush_energy, "J"))
+    crush_delta_v = staticmethod(in_quantities(crush_delta_v, "m/s"))
 
 
 __all__ = [
@@ -37,7 +38,9 @@ __all__ = [
     "RecordedPulse",
     "central",
     "compare",
+    "crush_delta_v",
     "crush_energy",
+    "crush_share",
     "fit",
     "friction",
     "inline_closing_speed",

@@ -1,4 +1,4 @@
-"""``crush_energy``: energy absorbed by crush, from a crush profile and structural stiffness (the CRASH trapezoid rule)."""
+"""What damage says, by the CRASH programs: the energy of a crush profile, how two vehicles share it, and delta-V from it."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import numpy as np
 
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
+from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
 from ..reading import ArgumentReader, amount, largest, warn_if_large
-from ..solving import warn_of_refusals
+from ..solving import error_of, warn_of_refusals
 from ..units import Input, Value, has_unit, is_quantity, shown
 from ..warning import warn
 from .common import ASK_ALONE, Cases, input_faults
@@ -120,24 +121,138 @@ def crush_energy(
     with np.errstate(all="ignore"):
         widths, depths, (a, b) = ([np.asarray(x, dtype=np.float64) for x in values] for values in (gaps, crush, (a, b)))
         energy = sum(_gap_energy(*parts, a, b) for parts in zip(widths, depths, depths[1:], strict=False)) / (cosine * cosine)
-        status = cases.first_status(
-            (
-                *input_faults(numbers),
-                *((np.less(value, 0.0), Status.CONTRADICTORY) for value in amounts.values()),
-                (np.less_equal(b, 0.0), Status.NOT_POSITIVE),
-                (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY),
-                (cases.beyond(energy), Status.OUT_OF_RANGE),
-            )
-        )
+        faults = [*input_faults(numbers), *((np.less(value, 0.0), Status.CONTRADICTORY) for value in amounts.values())]
+        faults += [(np.less_equal(b, 0.0), Status.NOT_POSITIVE), (np.less_equal(cosine, _RIGHT_ANGLE), Status.CONTRADICTORY)]
+    return _answers(cases, faults, energy)[0]
+
+
+def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
+    """Share of the crush energy that A takes, from the stiffness of both: ``stiffness_b / (stiffness_a + stiffness_b)``.
+
+    One force presses on both, so of two linear springs the softer one takes more: energies are as the inverse stiffness. The
+    same holds for the force A + B C of ``crush_energy``, its energy A^2 / (2 B) included, where each side is crushed evenly:
+    the stiffness then is B times the width. It is the share for ``Impact.ees`` and ``Impact.max_crush_speeds``. Where the
+    damage of A alone is known, with the energy E_A, that of B took E_A (1 - share) / share.
+
+    Parameters
+    ----------
+    stiffness_a, stiffness_b : float, str, Quantity or array [N/m]
+        Force over crush of each vehicle at the damage, > 0; ``inf`` for one that is rigid.
+
+    Returns
+    -------
+    float or array
+        From 0 to 1; NaN for a refused case of a batch.
+
+    Raises
+    ------
+    InputError
+        A stiffness that is not positive, or both infinite.
+
+    Notes
+    -----
+    Two springs in series behind one force are the damage analysis of the CRASH programs (EDCRASH manual, chapter 4, collinear
+    impact). Real fronts are not linear, and stiffness differs from car to car of a class: state a range.
+
+    Examples
+    --------
+    A front of 900 kN/m against a side of 500 kN/m: the front takes 36 % of the energy.
+
+    >>> import collisions as col
+    >>> from collisions import reconstruct
+    >>> share = reconstruct.crush_share("900 kN/m", "500 kN/m")
+    >>> impact = col.linear_central(col.Vehicle(mass=1500, vx="50 km/h"), col.Vehicle(mass=1200), 0.1)
+    >>> round(share, 3), [round(3.6 * ees, 1) for ees in impact.ees(share)]
+    (0.357, [19.8, 29.7])
+    """
+    reader = ArgumentReader()
+    given = {"stiffness_a": stiffness_a, "stiffness_b": stiffness_b}
+    numbers = {name: reader.number(value, "N/m", name, POSITIVE) for name, value in given.items()}
+    reader.close()
+    a, b = (np.asarray(value, dtype=np.float64) for value in numbers.values())
+    with np.errstate(all="ignore"):
+        faults: list[tuple[Any, int]] = [(fault(value), status) for value in (a, b) for fault, status in POSITIVE.faults]
+        faults.append((np.isinf(a) & np.isinf(b), Status.IMMOVABLE))
+        # Not the sum, which might overflow.
+        return _answers(Cases.of(numbers), faults, 1.0 / (1.0 + a / b))[0]
+
+
+def crush_delta_v(
+    energy: Input, mass_a: Input, mass_b: Input, *, gamma_a: Input = 1.0, gamma_b: Input = 1.0
+) -> tuple[Value, Value]:
+    """Delta-V of both vehicles from the crush energy of both together, as the CRASH programs have it.
+
+    The impulse, of one direction, passes the centre of mass of each at its moment arm, where a vehicle answers like the mass
+    gamma m; both move alike there when the crush is largest::
+
+        delta_v_a = sqrt(2 energy gamma_a / (mass_a (1 + gamma_a mass_a / (gamma_b mass_b))))
+
+    Parameters
+    ----------
+    energy : float, str, Quantity or array [J]
+        Of both vehicles, >= 0: the sum of their ``crush_energy``.
+    mass_a, mass_b : float, str, Quantity or array [kg]
+        Masses, > 0; ``inf`` for one that does not move.
+    gamma_a, gamma_b : float, str, Quantity or array
+        Mass reduction factors k^2 / (k^2 + h^2), with the radius of gyration k and the moment arm h of the impulse, as
+        ``gamma`` of each side of an ``Impact``. 1 where the impulse passes through the centre of mass.
+
+    Returns
+    -------
+    tuple of float or array [m/s]
+        Of A and of B, up to the common velocity: with restitution e they are 1 + e times as large. NaN for a refused case.
+
+    Raises
+    ------
+    InputError
+        An argument that cannot be used; both masses infinite.
+
+    Notes
+    -----
+    CRASH3 technical manual; EDCRASH manual, chapter 4. It leaves out the speed at which the vehicles slid past each other and
+    every change of the direction of the force. ``reconstruct.speeds`` with ``energy_loss`` does not.
+
+    Examples
+    --------
+    EDCRASH manual, tutorial "Visibility Study", where 60.7 and 59.4 km/h are printed:
+
+    >>> from collisions import reconstruct
+    >>> found = reconstruct.crush_delta_v(262905.65 + 140864.15, 1124.04, 1149.52, gamma_a=0.8045, gamma_b=0.7637)
+    >>> [round(3.6 * delta_v, 1) for delta_v in found]
+    [60.7, 59.4]
+    """
+    reader = ArgumentReader()
+    numbers = {"energy": amount(reader, energy, "J", "energy")}
+    numbers |= {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    for name, value in (("gamma_a", gamma_a), ("gamma_b", gamma_b)):
+        numbers[name] = reader.number(value, "", name, UNIT_INTERVAL)
+    reader.close()
+    work, *masses, one, two = (np.asarray(value, dtype=np.float64) for value in numbers.values())
+    with np.errstate(all="ignore"):
+        faults = [*input_faults(numbers), (np.isinf(masses[0]) & np.isinf(masses[1]), Status.IMMOVABLE)]
+        faults += [(fault(value), status) for value in (one, two) for fault, status in UNIT_INTERVAL.faults]
+        ratio = one / two * (masses[0] / masses[1])
+        squares = work / masses[0] * (one / (1.0 + ratio)), work / masses[1] * (two / (1.0 + 1.0 / ratio))
+        # Neither moves if the impulse passes one of them infinitely far away.
+        found = [np.where((one == 0.0) | (two == 0.0), 0.0, np.sqrt(2.0 * square)) for square in squares]
+    of_a, of_b = _answers(Cases.of(numbers), faults, *found)
+    return of_a, of_b
+
+
+def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[Value]:
+    """The answers of these cases; NaN where a batch has a fault, an error for a single case."""
+    with np.errstate(all="ignore"):
+        beyond = [(cases.beyond(answer), Status.OUT_OF_RANGE) for answer in found]
+        status = cases.first_status((*faults, *beyond))
     if cases.shape is None and status != Status.OK:
         # The reader has checked the rest.
-        raise InputError(
-            "the energy is not a finite number: the arguments are too large or too small for floats", code="out_of_range"
+        text = {Status.IMMOVABLE: "both are infinite; at least one must be finite"}.get(
+            status, "the answer is not a finite number: the arguments are too large or too small for floats"
         )
+        raise error_of(status, text)
     if cases.shape is not None and np.any(status > Status.ENERGY_GAIN):
         warn_of_refusals(status, ASK_ALONE)
-    absorbed: Value = cases.values(np.where(np.equal(status, Status.OK), energy, np.nan))
-    return absorbed
+    return [cases.values(np.where(np.equal(status, Status.OK), answer, np.nan)) for answer in found]
 
 
 def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]) -> None:

@@ -161,7 +161,7 @@ def recorded_pulse(
             code="bad_shape",
             argument="time",
         )
-    times, forward, *rest = (np.array(value, dtype=np.float64) for value in read.values())
+    times, forward, *rest = (np.array(value, dtype=np.float64) + 0.0 for value in read.values())
     left = _LEFTWARD[polarity] * rest[0] + 0.0 if rest else None
     size = np.hypot(forward, 0.0 if left is None else left)
     if not (np.isfinite(size).all() and np.all(np.diff(times) > 0.0) and times[-1] - times[0] <= _LONGEST):

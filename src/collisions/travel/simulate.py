@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -17,7 +17,7 @@ from ..quantities import Shown, hypot
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
 from ..units import Input, Pair, shown
-from ..vehicle import NAMES, Vehicle, needed, not_a_vehicle, vehicle_of
+from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
 from .run_out import read_friction
 from .surfaces import out_of_range, settle
@@ -59,6 +59,11 @@ class SimulatedPath(Shown):
     heading: Any = field(metadata={"unit": "rad"})
     marks: tuple[tuple[Any, Any], ...] = field(metadata={"unit": "m"})
     rest: Vehicle
+
+    def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
+        # The marks are for drawing; the end is what is compared with the scene.
+        yield from (row for row in Shown._values(self, prefix) if row[0] != "marks")
+        yield from ((f"rest.{name}", getattr(self.rest, name), UNITS[name]) for name in ("x", "y", "heading"))
 
 
 def simulate(

@@ -1,0 +1,138 @@
+"""The ways from an impact to rest: the vehicles of ``travel.simulate`` along them, and the marks of their tyres."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..formatting import UnitSystem
+from ..travel import SimulatedPath
+from ..units import shown
+from ..vehicle import Vehicle
+from .canvas import COLOURS, INK, Units, begin, tidy, who
+from .drawing import beside
+from .scene import Picture, corners_of, size_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_BETWEEN = 3  # outlines on the way, at equal parts of it
+_ROOM = 2.0  # m, shown about a vehicle at rest
+
+
+def path(
+    path_a: SimulatedPath,
+    path_b: SimulatedPath | None = None,
+    *,
+    outline_a: Any = None,
+    outline_b: Any = None,
+    axes: Axes | None = None,
+    units: UnitSystem = "si",
+) -> Axes:
+    """The way of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
+
+    Each stands at separation, three times on its way and, filled, at rest; the heavy edge is its front. The line is that of the
+    centre of mass, the dark ones are the tracks of tyres that slide. Points of a survey can be drawn on the same Axes.
+
+    Parameters
+    ----------
+    path_a, path_b : SimulatedPath
+        Of ``travel.simulate``, each of one case; the second one may be missing.
+    outline_a, outline_b : tuple or corners [m], optional
+        As for ``scene``. Without it only the centre of mass is marked, at separation and at rest.
+    axes : matplotlib.axes.Axes, optional
+        To draw on; by default that of a new figure.
+    units : "si", "metric" or "us"
+        m or ft.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        By gid: "a.way", "b.way"; "a.mark", "b.mark" for each tyre that left one; "a.separation", "b.separation"; and at rest
+        "a.centre", "b.centre", "a.outline", "b.outline".
+
+    Raises
+    ------
+    InputError
+        Not a path of a single answered case, or an option that is not known.
+    MissingInputError
+        Without matplotlib.
+
+    Examples
+    --------
+    >>> import collisions as col
+    >>> from collisions import plot, travel
+    >>> car = col.Vehicle(mass=1500, yaw_inertia=2400, x=0, y=0, heading=0, vx="50 km/h", yaw_rate="150 deg/s")
+    >>> axes = plot.path(travel.simulate(car, friction=0.7, lock=0.3), outline_a=(4.4, 1.8), units="metric")
+    >>> axes.get_xlabel()
+    'x [m]'
+    """
+    labels = Units(units)
+    if path_b is None and outline_b is not None:
+        raise InputError("outline_b has no path_b to go with; give both", code="bad_option", argument="outline_b")
+    given = {"a": (path_a, outline_a)} | ({} if path_b is None else {"b": (path_b, outline_b)})
+    ways = {letter: _one(way, f"path_{letter}") for letter, (way, _) in given.items()}
+    stops = {letter: _stops(way) for letter, way in ways.items()}
+    corners = {
+        letter: [corners_of(stop, outline, f"outline_{letter}", letter) for stop in stops[letter]]
+        for letter, (_, outline) in given.items()
+    }
+    axes = begin(axes, (7.5, 6.5))
+    picture = Picture(axes, labels)
+    for index, (letter, way) in enumerate(ways.items()):
+        colour, name = COLOURS[index], "AB"[index]
+        line = [picture.scaled(place) for place in zip(way.x.tolist(), way.y.tolist(), strict=True)]
+        # A vehicle takes up some room, wherever it goes.
+        room = _ROOM * labels.factor("m")
+        picture.drawing.include(*line, *(beside(line[-1], (side, side), room) for side in (-1.0, 1.0)))
+        for one, other in zip(line[::10], line[10::10], strict=False):
+            picture.drawing.avoid(one, other)
+        axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.way")
+        for x, y in way.marks:
+            slid = np.isfinite(x)
+            if slid.any():
+                axes.plot(*picture.scaled((x, y)), color=INK, lw=1.6, alpha=0.45, zorder=1, gid=f"{letter}.mark")
+                picture.drawing.include(
+                    *(picture.scaled(place) for place in zip(x[slid].tolist(), y[slid].tolist(), strict=True))
+                )
+        *passed, at_rest = ([picture.scaled(corner) for corner in outline] for outline in corners[letter])
+        for outline in filter(None, passed):
+            picture.drawing.include(*outline)
+            picture.outline(index, outline, f"{letter}.passing outline", 0.0, 0.7)
+        picture.drawing.include(*at_rest)
+        axes.plot(*line[0], "os"[index], ms=5, mfc=colour, mec=colour, zorder=6, gid=f"{letter}.separation")
+        back = line[0][0] - line[-1][0], line[0][1] - line[-1][1]
+        picture.drawing.label(line[0], f"{name} at separation", back, colour, of=index)
+        picture.body(line[-1], index, f"{who(index, way.rest)} at rest", at_rest)
+    axes.set(xlabel=labels.label("x", "m"), ylabel=labels.label("y", "m"))
+    axes.set_title("From separation to rest", fontsize=10.5)
+    tidy(axes, (-3, 8))
+    picture.drawing.finish()
+    return axes
+
+
+def _one(way: Any, name: str) -> SimulatedPath:
+    """The path of a single case that can be drawn."""
+    if not isinstance(way, SimulatedPath):
+        raise InputError(
+            f"{name} must be a path of travel.simulate, got {shown(way)} of type {type(way).__name__}; write "
+            f"plot.path(travel.simulate(impact.a.after, ...), travel.simulate(impact.b.after, ...))",
+            code="bad_option",
+            argument=name,
+        )
+    if way.x.ndim != 1:
+        raise InputError(
+            f"{name} has many cases, and a picture is of one; simulate that one alone", code="bad_shape", argument=name
+        )
+    size_of([(float(way.x[i]), float(way.y[i])) for i in range(len(way.x))], Units("si"), sketched=True)
+    return way
+
+
+def _stops(way: SimulatedPath) -> list[Vehicle]:
+    """The vehicle at separation, at equal parts of its way, and at rest."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(way.x), np.diff(way.y)))])
+    parts = np.linspace(0.0, along[-1], _BETWEEN + 2)[:-1]
+    places = [[float(np.interp(part, along, values)) for part in parts] for values in (way.x, way.y, way.heading)]
+    return [*(way.rest.replace(x=x, y=y, heading=heading) for x, y, heading in zip(*places, strict=True)), way.rest]
