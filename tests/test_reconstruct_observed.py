@@ -850,6 +850,9 @@ def test_two_springs_in_series_share_the_energy_as_their_inverse_stiffness():
     assert len(caught) == 1
     np.testing.assert_array_equal(many, [share, math.nan, math.nan])
     assert reconstruct.crush_share(np.float32([9e5]), 5e5).dtype == np.float32
+    for call in (reconstruct.crush_share, lambda a, b: reconstruct.crush_delta_v(9e4, a, b)):
+        with pytest.raises(col.ShapeError):
+            call(np.ones(2), np.ones(3))
 
 
 def test_the_share_is_that_of_a_contact_followed_in_time():

@@ -169,12 +169,13 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
     given = {"stiffness_a": stiffness_a, "stiffness_b": stiffness_b}
     numbers = {name: reader.number(value, "N/m", name, POSITIVE) for name, value in given.items()}
     reader.close()
+    cases = Cases.of(numbers)
     a, b = (np.asarray(value, dtype=np.float64) for value in numbers.values())
     with np.errstate(all="ignore"):
         faults: list[tuple[Any, int]] = [(fault(value), status) for value in (a, b) for fault, status in POSITIVE.faults]
         faults.append((np.isinf(a) & np.isinf(b), Status.IMMOVABLE))
         # Not the sum, which might overflow.
-        return _answers(Cases.of(numbers), faults, 1.0 / (1.0 + a / b))[0]
+        return _answers(cases, faults, 1.0 / (1.0 + a / b))[0]
 
 
 def crush_delta_v(
@@ -227,6 +228,7 @@ def crush_delta_v(
     for name, value in (("gamma_a", gamma_a), ("gamma_b", gamma_b)):
         numbers[name] = reader.number(value, "", name, UNIT_INTERVAL)
     reader.close()
+    cases = Cases.of(numbers)
     work, *masses, one, two = (np.asarray(value, dtype=np.float64) for value in numbers.values())
     with np.errstate(all="ignore"):
         faults = [*input_faults(numbers), (np.isinf(masses[0]) & np.isinf(masses[1]), Status.IMMOVABLE)]
@@ -235,7 +237,7 @@ def crush_delta_v(
         squares = work / masses[0] * (one / (1.0 + ratio)), work / masses[1] * (two / (1.0 + 1.0 / ratio))
         # Neither moves if the impulse passes one of them infinitely far away.
         found = [np.where((one == 0.0) | (two == 0.0), 0.0, np.sqrt(2.0 * square)) for square in squares]
-    of_a, of_b = _answers(Cases.of(numbers), faults, *found)
+    of_a, of_b = _answers(cases, faults, *found)
     return of_a, of_b
 
 
