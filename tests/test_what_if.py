@@ -197,6 +197,9 @@ def test_impacts_that_are_refused():
         what_if(3, {"speed_a": (1.0, 20.0)})
     with pytest.raises(col.InputError, match="units must be"):
         what_if(IMPACT, {"speed_a": (1.0, 20.0)}, units="cgs")
+    stepped = col.time_resolved(A, B, 0.1, friction=0.5, duration="100 ms", **SCENE)
+    with pytest.raises(col.InputError, match="what_if has no page for time_resolved; solve the case by eccentric"):
+        what_if(stepped, {"speed_a": (1.0, 20.0)})
     standing = col.eccentric(A, B.replace(vy=0.0), 0.1, friction=0.5, **SCENE)
     with pytest.raises(col.InputError, match="give course_b a range too"):
         what_if(standing, {"speed_b": (0.0, 20.0)})
@@ -244,11 +247,16 @@ def test_moved_in_a_browser(tmp_path):
     if chromium is None:
         pytest.skip("needs Chromium")
     moved = """<script>
-    const at = { speed_a: "70", friction: "0.2", normal: "-20" };
+    const at = { speed_a: "70", friction: "0.19", normal: "-20" };
     for (const [name, value] of Object.entries(at)) {
       document.getElementById(name).value = value;
       document.getElementById(name).dispatchEvent(new Event("input", { bubbles: true }));
     }
+    const press = (key, more) => document.getElementById("friction").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, ...more }));
+    press("ArrowUp");
+    press("PageUp");
+    press("PageDown");
+    press("ArrowRight", { altKey: true });
     </script></body>"""
     file = tmp_path / "page.html"
     ranges = {"speed_a": ("30 km/h", "80 km/h"), "friction": (0.0, 0.9), "normal": ("-30 deg", "30 deg")}
@@ -264,8 +272,9 @@ def test_moved_in_a_browser(tmp_path):
         assert shown[f"{label}.pdof"] == f"{side.q.pdof.m_as('deg'):.0f}°"
         assert shown[f"{label}.delta_yaw_rate"] == f"{side.q.delta_yaw_rate.m_as('deg/s'):.0f}°/s"
     assert shown["energy_loss"] == f"{impact.energy_loss / 1000:.0f} kJ"  # three figures
-    assert re.search(r'id="speed_a-value">70.0 km/h<', page)
+    assert re.search(r'id="speed_a-value"[^>]*>70.0 km/h<', page)
     assert 'aria-valuetext="70.0 km/h"' in page
+    assert "<small>30 to 80 km/h</small>" in page
     assert len(re.findall(r'<rect x="-2.25"[^>]*></rect>', page)) == 2
 
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from .directions import angle_of, direction, from_degrees
 from .document import Document
 from .errors import InputError, Status
-from .formatting import SI_UNITS, UnitSystem, decimals_of, scale_of, typeset, unit_of
+from .formatting import SI_UNITS, UnitSystem, decimals_of, number_with_unit, scale_of, typeset, unit_of
 from .impact import Impact, build
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION
@@ -252,9 +252,11 @@ def _written(impact: Impact, sliders: list[Slider], printed: str, system: str) -
         words = escape(_WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else ""))
         scale = scale_of(kind, system) / (_TO_DEGREES if kind == "angle" else 1.0)
         low, high, start = (repr(number * scale) for number in numbers)
+        ends = f"{float(low):.6g} to {float(high):.6g}"
         inputs.append(
-            f'<p><label for="{name}">{words}</label><output for="{name}" id="{name}-value"></output><input type="range" '
-            f'id="{name}" min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" data-start="{numbers[2]!r}" '
+            f'<p><label for="{name}">{words} <small>{number_with_unit(ends, unit_of(kind, system))}</small></label>'
+            f'<output for="{name}" id="{name}-value" aria-hidden="true"></output><input type="range" id="{name}" '
+            f'min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" data-start="{numbers[2]!r}" '
             f'data-factor="{1.0 / scale!r}"></p>'
         )
     data = {
