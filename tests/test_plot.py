@@ -248,7 +248,7 @@ def test_what_is_no_impact_is_refused(picture):
 
 
 @pytest.mark.parametrize("picture", [*DRAWN, "contributions", "distribution"])
-@pytest.mark.parametrize("given", ["SI", "imperial", None, ["si"]])
+@pytest.mark.parametrize("given", ["SI", "imperial", 3, ["si"]])
 def test_units_that_are_not_known_are_refused(picture, given):
     draw = DRAWN.get(picture) or getattr(plot, picture)
     with pytest.raises(col.InputError, match="units must be 'si', 'metric' or 'us'") as caught:
@@ -855,7 +855,7 @@ def test_a_pinned_body_whose_momenta_are_apart_needs_no_lines():
 
 def test_what_a_wall_gives_closes_the_diagram():
     impact = IMPACTS["wall aslant"]
-    axes = plot.momentum(impact)
+    axes = plot.momentum(impact, units="si")
     found = vectors(axes)
     assert found["outside"] == pytest.approx((impact.a.impulse_x, impact.a.impulse_y))
     assert "given by B, of infinite mass" in [text.get_text() for text in axes.get_legend().get_texts()][-1]
@@ -1045,7 +1045,7 @@ def test_the_pulse_that_is_drawn_is_the_one_that_left_out_assumes(restitution):
 
 def test_the_mean_force_is_the_impulse_over_the_duration():
     impact = IMPACTS["example 2"]
-    axes = plot.force_time(impact, 0.12)
+    axes = plot.force_time(impact, 0.12, units="si")
     assert named(axes, "mean force").get_ydata()[0] == pytest.approx(impact.normal_impulse / 0.12)
     assert "assumed" in axes.get_title()
 

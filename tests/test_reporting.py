@@ -275,7 +275,7 @@ def test_parts_stand_in_order(impacts):
 
 @pytest.mark.parametrize("form", ["html", "markdown"])
 def test_an_energy_gain_stands_first(form, impacts):
-    text = report(impacts["energy gain"], form=form, figures=False)
+    text = report(impacts["energy gain"], form=form, units="si", figures=False)
     first = text.split("</h1>\n" if form == "html" else "\n\n")[1]
     assert first.startswith('<p class="stressed">Energy gain of ' if form == "html" else "**Energy gain of ")
     loss = impacts["energy gain"].energy_loss
@@ -287,7 +287,7 @@ def test_an_energy_gain_stands_first(form, impacts):
 
 def test_inputs_are_shown_as_given():
     metric = rows(report(crash(), form="markdown", units="metric"))
-    si = rows(report(crash(), form="markdown"))
+    si = rows(report(crash(), form="markdown", units="si"))
     assert ("A (Golf)", "velocity along x", "54 km/h") in metric
     assert ("A (Golf)", "velocity along x", "15 m/s, given as 54 km/h") in si
     # 2600 lb is 2600 x 0.45359237 kg.
@@ -316,7 +316,7 @@ def test_ees_needs_a_share():
     assert "EES" not in report(impact, form="markdown")
     shown = {
         (row[0], row[1].split(",")[0]): row[2]
-        for row in rows(report(impact, form="markdown", share_a="25 %"))
+        for row in rows(report(impact, form="markdown", units="si", share_a="25 %"))
         if "if A took up 25 percent" in row[1]
     }
     # 0.01 m/s is the last digit printed.
@@ -327,7 +327,7 @@ def test_ees_needs_a_share():
 
 def test_components_of_a_recorder_are_printed_and_kept():
     """A pair (forward, left) stands among the inputs as it was given, and goes into the report that is made again."""
-    page = report(crash(), form="markdown", damage_delta_v_a=("-20 km/h", 1.5))
+    page = report(crash(), form="markdown", units="si", damage_delta_v_a=("-20 km/h", 1.5))
     assert "forward: -5.556 m/s, given as -20 km/h; left: 1.5 m/s" in page
     assert "and its damage shows 5.75 m/s from 0.264 rad" in page
     assert report(replay(page), **options(page)) == page
@@ -338,7 +338,7 @@ def test_every_finding_is_told(impacts):
     for name in ("pinned", "eccentric", "energy gain"):
         found = diagnose(impacts[name], limits=limits, units="si")
         assert found
-        text = re.sub(r"\\(.)", r"\1", report(impacts[name], form="markdown", limits=limits))
+        text = re.sub(r"\\(.)", r"\1", report(impacts[name], form="markdown", units="si", limits=limits))
         for finding in found:
             assert f"**{finding.code}" in section(text, "Findings")
             assert finding.sentence in text
@@ -363,7 +363,7 @@ def test_limits_of_every_unit_can_be_shown(impacts):
 
 def test_assumptions_say_what_is_left_out(impacts):
     impact = impacts["eccentric"]
-    text = report(impact, form="markdown", duration="50 ms", drag=0.5)
+    text = report(impact, form="markdown", units="si", duration="50 ms", drag=0.5)
     printed = section(text, "Assumptions")
     assert "for a contact of 0.05 s and tyres with a drag factor of 0.5" in printed
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
@@ -459,7 +459,7 @@ def test_reverse_and_choice_are_told(impacts):
 
 def test_uncertainty_is_told():
     impact, known = crash(), spread()
-    text = report(impact, form="markdown", uncertainty=known)
+    text = report(impact, form="markdown", units="si", uncertainty=known)
     part = section(text, "Uncertainty, given the stated inputs")
     output = known["b.delta_v"]
     # Two figures of the standard deviation.
@@ -550,8 +550,8 @@ def test_importing_it_does_not_import_matplotlib_or_pint():
 
 def test_the_derivation_is_that_of_explain(impacts):
     impact = impacts["pinned"]
-    assert explain(impact, form="text") in Page(report(impact, derivation=True, figures=False)).of("pre")
-    text = report(impact, form="markdown", derivation=True)
+    assert explain(impact, form="text", units="metric") in Page(report(impact, derivation=True, figures=False)).of("pre")
+    text = report(impact, form="markdown", units="si", derivation=True)
     assert explain(impact).split("\n## Given\n")[1].split("\n## ")[0].strip() in text
 
 
@@ -710,11 +710,11 @@ def test_the_contact_is_shown_as_given():
 
 
 def test_no_value_is_said_to_be_si_that_was_not():
-    """Also one of a batch, whose unit is not kept."""
+    """Also one of a batch, of which the unit is kept but no text."""
     many = col.linear_central(golf(vx=UREG.Quantity([36.0, 54.0], "km/h")), col.Vehicle(mass=900), "20 %")
     page = report(many.case(0), form="markdown")
     assert "SI numbers" not in page
-    assert ("A (Golf)", "velocity along x", "10 m/s") in rows(page)
+    assert ("A (Golf)", "velocity along x", "36 km/h") in rows(page)
     # What was one number for all cases keeps its text.
     assert ("A (Golf)", "mass", "1500 kg") in rows(page)
     assert ("contact", "restitution e", "0.2, given as 20 %") in rows(page)
@@ -765,7 +765,7 @@ def solved_backwards():
 def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     """As text; and the texts of what stayed as it was given, the mass."""
     impact = solved_backwards()[solver]
-    page = report(impact, form="markdown")
+    page = report(impact, form="markdown", units="si")
     shown = rows(page)
     wanted = {
         # A pound is 0.45359237 kg and a mile per hour 0.44704 m/s.
@@ -781,7 +781,7 @@ def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     assert "given as" in section(page, "How the state before was found")
     again = replay(page)
     assert again == impact
-    assert report(again, form="markdown") == page
+    assert report(again, form="markdown", units="si") == page
 
 
 @pytest.mark.parametrize(
@@ -821,7 +821,7 @@ def test_damage_that_contradicts_stands_on_the_page():
         "crush_energy": "20 kJ", "damage_pdof_a": "40 deg", "damage_pdof_b": -1.0, "damage_delta_v_a": UREG.Quantity(50.0, "km/hour"),
         "damage_delta_v_b": 3.0,
     }  # fmt: skip
-    page = report(crash(), form="markdown", **evidence)
+    page = report(crash(), form="markdown", units="si", **evidence)
     given = rows(section(page, "Inputs"))
     assert ("damage", "crush energy, both vehicles", "20000 J, given as 20 kJ") in given
     assert ("damage of A", "PDOF that the damage shows", "0.6981 rad, given as 40°") in given
@@ -889,7 +889,7 @@ def test_an_interval_has_a_range_and_no_deviation():
         return {"b.delta_v": answer.b.q.delta_v, "energy_loss": answer.q.energy_loss, "own": speed + restitution}
 
     known = uncertainty.propagate(model, inputs, method="quasi_random", samples=64, seed=1)
-    page = report(crash(), form="markdown", uncertainty=known, derivation=True)
+    page = report(crash(), form="markdown", units="si", uncertainty=known, derivation=True)
     low, high = known["b.delta_v"].interval()
     assert high - low > 10.0 * max(known["b.delta_v"].std)
     assert not re.search(r"± [\d(]", page.split("```json")[0])
@@ -903,7 +903,7 @@ def test_intervals_alone_have_no_mean():
     inputs = {"speed": uncertainty.Interval("50 km/h", "58 km/h"), "restitution": uncertainty.Interval(0.05, 0.15)}
     known = uncertainty.propagate(lambda **given: {"b.delta_v": crash(golf(vx=given["speed"]), e=given["restitution"]).b.q.delta_v},
                                   inputs, method="interval")  # fmt: skip
-    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
     low, high = known["b.delta_v"].interval()
     assert ("b.delta_v", "range, wherever in the intervals the truth is", f"{low:.2f} m/s to {high:.2f} m/s") in rows(part)
     assert "mean" not in part
@@ -939,7 +939,7 @@ def test_shares_stay_within_0_and_100_percent():
     known = uncertainty.propagate(model, inputs, method="monte_carlo", samples=200, seed=3)
     shares = [share for name in known for share in known[name].contributions.values()]
     assert any(share > 1.005 or share < 0.0 for share in shares)
-    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
     printed = [row[2] for row in rows(part) if row[1].startswith("share")]
     assert printed
     for text in printed:
@@ -962,7 +962,7 @@ def test_the_options_of_a_page_are_in_its_record():
         assert found.keys() == given.keys() | {"figures"} | ({"form"} if form == "markdown" else set())
         assert found["limits"] == given["limits"]
         assert report(replay(page), **found) == page
-    assert options(report(crash(), figures=False)) == {"figures": False}
+    assert options(report(crash(), figures=False)) == {"units": "metric", "figures": False}
     drawn = uncertainty.propagate(lambda speed: {"own": speed}, {"speed": uncertainty.Normal(15.0, 1.0)}, samples=64,
                                   method="quasi_random", seed=5)  # fmt: skip
     _, _, rest = report(crash(), form="markdown", uncertainty=drawn).partition("```json\n")
@@ -1075,7 +1075,7 @@ def test_shares_of_inputs_that_act_together():
     known = uncertainty.propagate(
         lambda one, other: {"product": one * other}, inputs, method="quasi_random", samples=2048, seed=2
     )
-    part = section(report(crash(), form="markdown", uncertainty=known), "Uncertainty, given the stated inputs")
+    part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
     shown = {row[1]: row[2] for row in rows(part) if row[0] == "product"}
     for name in inputs:
         alone, in_all = re.findall(r"(\d+)(?: ± \d+)? percent", shown[f"share of the variance by {name}"])

@@ -4,6 +4,7 @@ import asyncio
 import threading
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -153,3 +154,12 @@ def test_it_holds_in_its_own_thread_and_task_only():
         await task
 
     asyncio.run(both())
+
+
+def test_an_array_with_a_unit_has_one():
+    quantity = pint.get_application_registry().Quantity
+    with col.options(require_units=True):
+        cars = col.Vehicle(mass="1500 kg", vx=quantity(np.array([30.0, 35.0]), "mph"), heading=quantity([700.0, 710.0], "deg"))
+        assert cars.vx[0] == pytest.approx(13.4112, rel=1e-15)
+        with pytest.raises(col.UnitsError, match=r"vx = .* has no unit"):
+            col.Vehicle(mass="1500 kg", vx=np.array([30.0, 35.0]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 from html import unescape
 
@@ -10,9 +11,9 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import quantity_names, reconstruct, travel
+from collisions import plot, quantity_names, reconstruct, travel
 from collisions.diagnostics import diagnose
-from collisions.reporting import options, replay
+from collisions.reporting import options, replay, report
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 MPH, FT, LB = 0.44704, 0.3048, 0.45359237  # exact by definition
@@ -280,3 +281,43 @@ def test_a_printed_propagation_is_its_table():
     found = propagate(struck, {"speed": Normal("40 mph", "2 mph")}, samples=64, seed=1)
     assert str(found) == str(found.summary())
     assert "22.0 ± 1.1 mph" in str(found)
+
+
+def test_results_keep_the_units_of_their_inputs():
+    """Also where a result holds numbers alone: a vehicle after, a batch, what is left out, and all of them unpickled."""
+    a = col.Vehicle(mass="3400 lb", yaw_inertia="1800 slug*ft**2", vx="30 mph", x="-7 ft", y="0 ft", heading="0 deg")
+    b = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, vy=10.0, x=0.9, y=-0.9, heading=1.5)
+    contact = {"normal": "0 deg", "point": (0.0, 0.0), "friction": 0.5}
+    impact = col.eccentric(a, b, 0.1, **contact)
+    many = col.eccentric(a.replace(vx=np.array([12.0, 14.0])), b, 0.1, **contact)
+    again = col.linear_central(impact.a.after.replace(vy=0.0, yaw_rate=0.0), col.Vehicle(mass=1500.0), 0.1)
+    of_vehicles = [impact.a.after, impact.b.at_compression, many.b.after, many.case(1).a.after, again.b.after]
+    for result in (*of_vehicles, *map(pickle.loads, map(pickle.dumps, of_vehicles)), impact.a.after.replace(vx=1.0)):
+        assert "mph" in str(result.summary())
+        assert "m/s" not in str(result.summary())
+    left = col.left_out(impact)
+    for result in (left, left.a, pickle.loads(pickle.dumps(left)), col.left_out(many)):
+        assert "lbf·s" in str(result.summary())
+        assert "N·s" not in str(result.summary())
+    assert "mph" in str(col.diagnose(impact, limits={"tyre_impulse": 0.01}))
+    assert plot.energy(impact).get_xlabel() == "energy [ft·lbf]"
+    assert report(impact, form="markdown", figures=False) == report(impact, form="markdown", figures=False, units="us")
+
+
+def test_an_array_with_a_unit_speaks_it():
+    quantity = pint.get_application_registry().Quantity
+    cars = col.Vehicle(mass=quantity([3000.0, 3450.0], "lb"), vx=quantity([30.0, 35.0], "mph"))
+    assert str(cars.summary()).splitlines()[2] == "speed   30.0 to 35.0 mph"
+    assert cars.given == {}
+    # What the library itself returns in m/s does not outvote the pounds that were typed.
+    mixed = col.Vehicle(mass="3400 lb", vx=travel.q.speed("60 ft", drag=0.7))
+    assert "mph" in str(mixed.summary())
+
+
+def test_a_run_out_speaks_the_units_of_its_survey():
+    places = [("0 ft", "0 ft"), ("16 ft", "4 ft"), ("30 ft", "12 ft")]
+    run = travel.path(places, ["0 deg", "40 deg", "80 deg"], friction=0.7, lock=0.3)
+    assert "mph" in str(run.summary())
+    vehicle = col.Vehicle(mass="3400 lb", yaw_inertia=2500.0, x="0 ft", y=0.0, heading=0.0, vx=10.0, vy=1.0)
+    rolled = travel.simulate(vehicle, friction=0.7, lock=0.5, moments=2)
+    assert "3400 lb" in str(rolled.rest.summary())

@@ -172,7 +172,8 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the yaw rates is given: it
     depends on which vehicle carries the contact.
 
-    Positions at maximum engagement, as found in a real crash, leave a quarter to three quarters of the effect of geometry; then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
+    Positions at maximum engagement, as found in a real crash, leave a quarter to three quarters of the effect of geometry;
+    then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning moment of tyres,
     load and suspension, and crush that moves the centre of mass.
 
     Examples
@@ -218,13 +219,15 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     if shape is None and beyond:
         raise out_of_range()
     unusable = _unusable({"duration": time, "drag": pull}, beyond)
+    texts = impact.inputs.texts
     if shape is None:
-        return _assembled(_estimated(impact, time, pull, unusable))
+        return _assembled(_estimated(impact, time, pull, unusable), texts)
     size = math.prod(shape)
     if size <= _BLOCK:
         found = _estimated(impact, time, pull, unusable)
         return _assembled(
-            {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()}
+            {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()},
+            texts,
         )
     whole: dict[str, Any] = {}
     for start in range(0, size, _BLOCK):
@@ -241,7 +244,7 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
                 whole[name] = None if value is None else np.empty(size, dtype=dtype)
             if value is not None:
                 whole[name][block] = value
-    return _assembled({name: value if value is None else value.reshape(shape) for name, value in whole.items()})
+    return _assembled({name: value if value is None else value.reshape(shape) for name, value in whole.items()}, texts)
 
 
 def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
@@ -295,13 +298,14 @@ def _finite_mass(body: Vehicle) -> Any:
     return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
-def _assembled(found: dict[str, Any]) -> LeftOut:
-    """A ``LeftOut`` from its fields by name."""
+def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
+    """A ``LeftOut`` from its fields by name, in the units of these texts."""
+    lock(found)
     a, b = (
-        LeftOutSide(**{name[2:]: lock(value) for name, value in found.items() if name.startswith(f"{label}.")})
+        LeftOutSide(**{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}).in_units_of(texts)
         for label in "ab"
     )
-    return LeftOut(**{name: lock(value) for name, value in found.items() if "." not in name}, a=a, b=b)
+    return LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b).in_units_of(texts)
 
 
 def _unusable(values: dict[str, Any], beyond: Any) -> Any:

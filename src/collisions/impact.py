@@ -360,7 +360,8 @@ class Impact(Frozen, Summarized):
             return None
         curves = () if passed.history is None else passed.history
         names = [f.name for f in fields(Pulse)]
-        return Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
+        pulse = Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
+        return pulse.in_units_of(self._texts())
 
     @derived()
     def status(self) -> Any:

@@ -17,7 +17,7 @@ from .kernels.elementwise import restitution_domain
 from .quantities import lock, same
 from .reading import OUTSIDE_UNITS, ArgumentReader, is_whole, largest
 from .settings import units_required
-from .units import Value, has_unit, is_quantity, shown
+from .units import Value, has_unit, is_quantity, shown, texts_of
 from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
@@ -110,7 +110,7 @@ class Inputs:
     @property
     def texts(self) -> tuple[Any, ...]:
         """What was given with a unit, as texts, by the vehicles too."""
-        return tuple(text for given in (self.a.given, self.b.given, self.given) for text in (given or {}).values())
+        return *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
 
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal; the texts they were given as do not count."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, fields
 from functools import partial, wraps
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, Self, TypeVar, overload
 
 import numpy as np
 
@@ -246,10 +246,18 @@ def same_fields(one: Any, other: Any) -> bool:
 class Shown(Summarized):
     """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay locked when unpickled."""
 
-    __slots__ = ()
+    __slots__ = ("_inputs_as_texts",)
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     _title: ClassVar[str]
+
+    def in_units_of(self, texts: Iterable[Any]) -> Self:
+        """This result, whose summary is in the units of these texts."""
+        object.__setattr__(self, "_inputs_as_texts", tuple(texts))
+        return self
+
+    def _texts(self) -> Iterable[Any]:
+        return getattr(self, "_inputs_as_texts", ())
 
     @property
     def q(self) -> Any:
@@ -260,7 +268,7 @@ class Shown(Summarized):
         return same_fields(self, other) if isinstance(other, Shown) else NotImplemented
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (type(self), {f.name: getattr(self, f.name) for f in fields(self)})
+        return _restored, (type(self), {f.name: getattr(self, f.name) for f in fields(self)}, tuple(self._texts()))
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
@@ -282,6 +290,6 @@ class Shown(Summarized):
             yield name, show(value, unit)
 
 
-def _restored(kind: type[Any], values: dict[str, Any]) -> Any:
+def _restored(kind: type[Any], values: dict[str, Any], texts: Iterable[Any] = ()) -> Any:
     """An unpickled result; pickle restores arrays writable, so they are locked again."""
-    return kind(**lock(values))
+    return kind(**lock(values)).in_units_of(texts)

@@ -14,7 +14,7 @@ import numpy as np
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import units_required
-from .units import example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
+from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
 from .warning import warn
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
@@ -30,7 +30,7 @@ class ArgumentReader:
     def __init__(self, trusted: Collection[str] = ()) -> None:
         self.trusted = trusted
         self.problems: list[InputError] = []
-        self.texts: dict[str, str] = {}
+        self.texts = Texts()
 
     def refuse(self, problem: InputError) -> float:
         self.problems.append(problem)
@@ -59,11 +59,12 @@ class ArgumentReader:
             read, text = _read(value, unit, argument)
         except InputError as problem:
             return self.refuse(problem)
-        if text:
-            self.texts[argument] = text
         if isinstance(read, np.ndarray):
             read.setflags(write=False)
+            self.texts.units += (text,) if text else ()
         else:
+            if text:
+                self.texts[argument] = text
             problem_found = _outside(read, domain, argument, value)
             if problem_found is not None:
                 return self.refuse(problem_found)
@@ -117,7 +118,7 @@ class ArgumentReader:
                 problem_found = None if isinstance(degrees, np.ndarray) else _outside(degrees, FINITE, argument, value)
                 if problem_found is not None:
                     raise problem_found
-                if text:
+                if text and not isinstance(degrees, np.ndarray):
                     self.texts[argument] = value.strip() if isinstance(value, str) else text
                 return degrees, True
         except InputError as problem:
@@ -181,7 +182,7 @@ def warn_if_large(given: Any, read: Any, limit: float, argument: str, meaning: s
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
-    """The value in the unit, and the text it was given as if it had a unit."""
+    """The value in the unit, and the text it was given as if it had a unit; of an array the text of one such unit."""
     if type(value) is float:
         return value, ""
     if isinstance(value, str):
@@ -196,7 +197,7 @@ def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, 
     """The magnitude in the unit, and the quantity written as a text."""
     number = _plain(magnitude(quantity), argument, unit)
     by, name = factor(quantity, unit, argument, given)
-    text = f"{number!r} {name}" if name and isinstance(number, float) else ""
+    text = f"{number if isinstance(number, float) else 1.0!r} {name}" if name else ""
     if by == 1.0:
         return number, text
     if isinstance(number, float):

@@ -24,7 +24,7 @@ from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
-from .units import shown
+from .units import Texts, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
 FORMAT = "collisions impact 2"
@@ -76,7 +76,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
 
 
 def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
-    texts = vehicle.given or {}
+    texts = Texts(vehicle.given)
     found: dict[str, Any] = {"name": vehicle.name}
     for name in DOMAINS:
         found[name] = _given(texts.get(name), getattr(vehicle, name), unit_of(Vehicle, name) or "")

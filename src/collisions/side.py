@@ -19,7 +19,7 @@ from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric,
 from .quantity_names import SideQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .summary import Cells, Part, Summarized, Summary, all_numbers
-from .units import Pair, Value
+from .units import Pair, Texts, Value
 from .vehicle import Vehicle, missing, moved, turn_at, without_turning
 
 
@@ -69,7 +69,12 @@ class Side(Frozen, Summarized):
     def after(self) -> Vehicle:
         """The vehicle just after separation: ready to be the start of a next impact."""
         before, (dvx, dvy, dw) = self.before, self._change()
-        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
+        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
+
+    def _units(self) -> Texts | None:
+        """Those of the inputs, in which the results are shown."""
+        texts = self._inputs.texts
+        return Texts(units=texts) if texts else None
 
     @derived()
     def at_compression(self) -> Vehicle:
@@ -79,7 +84,7 @@ class Side(Frozen, Summarized):
         compression does: there it is the vehicle after.
         """
         before, (dvx, dvy, dw) = self.before, self._until_compressed()
-        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw)
+        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
 
     @derived("m/s")
     def delta_v(self) -> Value:

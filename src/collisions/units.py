@@ -225,10 +225,32 @@ def with_symbol(text: str) -> str:
     return text.replace(named, unit_as_written(units)).replace(".0 ", " ", 1) if f" {named}" in text else text
 
 
+class Texts(dict[str, str]):
+    """What was given with a unit, as texts by argument; ``units`` has the units of what has no text of its own.
+
+    That is an array, and any number of a result: it is shown in the units of what it was worked out from.
+    """
+
+    def __init__(self, *givens: Mapping[str, str] | None, units: Iterable[str] = ()) -> None:
+        super().__init__()
+        self.units = tuple(units)
+        for given in givens:
+            self.update(given or {})
+            self.units += getattr(given, "units", ())
+
+
+def texts_of(given: Mapping[str, Any] | None) -> tuple[Any, ...]:
+    """All texts by which the units of a summary are chosen."""
+    return () if given is None else (*given.values(), *getattr(given, "units", ()))
+
+
 def system_given(texts: Iterable[str]) -> str:
-    """The system, "si", "metric" or "us", that these texts with units agree on; of speeds if others differ; else SI."""
+    """The system, "si", "metric" or "us", that these texts with units agree on; of speeds if others differ; else SI.
+
+    Speeds in m/s are what this library returns, so beside other units they do not count.
+    """
     found = [_systems(text) for text in texts]
-    for votes in (found, [vote for vote in found if "speed" in vote]):
+    for votes in (found, [vote for vote in found if "speed" in vote], [vote for vote in found if vote != {"si"}]):
         agreed = set.intersection({"si", "metric", "us", "speed"}, *votes) - {"speed"}
         if votes and agreed:
             return next(name for name in ("si", "metric", "us") if name in agreed)

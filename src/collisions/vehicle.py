@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field, fields
 from inspect import signature
 from typing import Any, Never, cast
@@ -18,7 +18,7 @@ from .quantity_names import VehicleQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .settings import in_si, units_required
 from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
-from .units import Input, Pair, Value, shown
+from .units import Input, Pair, Texts, Value, shown, texts_of
 
 _isfinite = math.isfinite
 _ABSENT: Any = object()
@@ -29,7 +29,7 @@ class _AsGiven(Summarized):
 
     __slots__ = ("given",)
 
-    given: dict[str, str] | None
+    given: Texts | None
     """By field, or "speed" and "course", the text of what was given with a unit; None if all numbers were plain floats."""
 
 
@@ -173,11 +173,11 @@ class Vehicle(_AsGiven):
             with np.errstate(all="ignore"):
                 _SETTERS["vx"](vehicle, lock(magnitude * cx + 0.0))
                 _SETTERS["vy"](vehicle, lock(magnitude * cy + 0.0))
-        if reader.texts:
+        if reader.texts or reader.texts.units:
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
             texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
-            _SETTERS["given"](vehicle, {**(vehicle.given or {}), **texts, **reader.texts})
+            _SETTERS["given"](vehicle, Texts(vehicle.given, texts if reader.texts else None, reader.texts))
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -198,11 +198,10 @@ class Vehicle(_AsGiven):
         if self.pivot is not None and changes.get("pivot", self.pivot) is not None:
             numbers["vx"] = numbers["vy"] = 0.0
         vehicle = vehicle_of(numbers, changes)
-        if self.given:
-            texts = {name: text for name, text in self.given.items() if name not in changes}
-            if {"vx", "vy"} & changes.keys():
-                texts = {name: text for name, text in texts.items() if name not in ("speed", "course")}
-            _SETTERS["given"](vehicle, {**texts, **(vehicle.given or {})})
+        if self.given is not None:
+            gone = {*changes, *(("speed", "course") if {"vx", "vy"} & changes.keys() else ())}
+            texts = {name: text for name, text in self.given.items() if name not in gone}
+            _SETTERS["given"](vehicle, Texts(texts, vehicle.given, units=self.given.units))
         return vehicle
 
     @property
@@ -340,7 +339,7 @@ class Vehicle(_AsGiven):
         return Summary(self.name or "Vehicle", [Part(rows), all_numbers(self._rows())])
 
     def _texts(self) -> Iterable[Any]:
-        return (self.given or {}).values()
+        return texts_of(self.given)
 
     def _rows(self) -> Any:
         for f in fields(self):
@@ -382,22 +381,24 @@ def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
         setter(vehicle, value)
 
 
-def vehicle_of(numbers: dict[str, Any], changes: dict[str, Any] | None = None, given: dict[str, str] | None = None) -> Vehicle:
+def vehicle_of(
+    numbers: dict[str, Any], changes: dict[str, Any] | None = None, given: Mapping[str, str] | None = None
+) -> Vehicle:
     """A vehicle from SI numbers that were checked before, without unit warnings, and some new values."""
     vehicle: Vehicle = object.__new__(Vehicle)
     trusted = numbers.keys() - (changes or {}).keys()
     trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
     _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
-    if given:
-        _SETTERS["given"](vehicle, given)
+    if given is not None:
+        _SETTERS["given"](vehicle, Texts(given))
     return vehicle
 
 
-def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, str] | None = None) -> Vehicle:
+def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str, str] | None = None) -> Vehicle:
     """The same body in another motion, without validation: used for results."""
     if vehicle.pivot is not None:
         vx, vy = turning_velocity(yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1])
-    texts = given or ({} if isinstance(vx, np.ndarray) else None)
+    texts = None if given is None and not isinstance(vx, np.ndarray) else Texts(given)
     lock((vx, vy, yaw_rate))
     other: Vehicle = object.__new__(Vehicle)
     place = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
@@ -405,10 +406,10 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: dict[str, st
     return other
 
 
-def with_given(vehicle: Vehicle, given: dict[str, str]) -> Vehicle:
+def with_given(vehicle: Vehicle, given: Mapping[str, str]) -> Vehicle:
     """The vehicle with other texts for its numbers."""
     other: Vehicle = object.__new__(Vehicle)
-    _fill(other, (*(getattr(vehicle, name) for name in NAMES), given))
+    _fill(other, (*(getattr(vehicle, name) for name in NAMES), Texts(given)))
     return other
 
 

@@ -25,7 +25,7 @@ from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
 from .summary import cells
-from .units import Input, shown
+from .units import Input, Texts, shown
 from .vehicle import NAMES, Vehicle, moved
 
 _PAGE = Path(__file__).with_name("what_if_page.html")
@@ -152,7 +152,7 @@ def _heading_for(vehicle: Vehicle) -> tuple[Any, Any]:
     """The direction in which the vehicle moves; of one at rest as it was given."""
     if vehicle.speed > 0.0:
         return vehicle.vx / vehicle.speed, vehicle.vy / vehicle.speed
-    return direction(ArgumentReader(), (vehicle.given or {})["course"], "course")
+    return direction(ArgumentReader(), Texts(vehicle.given)["course"], "course")
 
 
 def starts(impact: Impact) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
 from ..settings import computing
+from ..summary import cells
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
@@ -45,7 +46,7 @@ def diagnose(
     damage_pdof_b: Input | None = None,
     damage_delta_v_a: Input | Pair | None = None,
     damage_delta_v_b: Input | Pair | None = None,
-    units: UnitSystem = "metric",
+    units: UnitSystem | None = None,
 ) -> Findings:
     """Check an impact, forward or reconstructed, for oddities: findings, an energy gain first.
 
@@ -77,9 +78,9 @@ def diagnose(
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
         Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``: the magnitude, or the pair
         (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
-    units : "si", "metric" or "us"
-        Of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. Measure and limit stay in SI, as do the
-        numbers in a sentence that asks for the unit which was meant.
+    units : "si", "metric" or "us", optional
+        Of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default "us" if the inputs were given so,
+        else "metric". Measure and limit stay in SI, as do the numbers in a sentence that asks for the unit which was meant.
 
     Returns
     -------
@@ -127,6 +128,8 @@ def diagnose(
         for label, given in (("a", outline_a), ("b", outline_b))
         if given is not None
     }
+    if units is None:
+        units = "us" if cells(None, impact._texts()).name == "us" else "metric"
     problem = bad_system(units)
     if problem is not None:
         reader.refuse(problem)

@@ -7,9 +7,10 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
-from ..formatting import KIND_OF, SI_UNITS, bad_system, decimals_of, in_words, places, scale_of, typeset, unit_of, with_decimals
+from ..formatting import KIND_OF, SI_UNITS, decimals_of, in_words, places, scale_of, typeset, unit_of, with_decimals
 from ..impact import Impact
 from ..reading import need_one_case
+from ..summary import Summarized, cells
 from ..units import shown
 from ..vehicle import Vehicle
 
@@ -29,11 +30,8 @@ SMALLEST, LARGEST = 1e-100, 1e100
 class Units:
     """The units a picture is labelled in, by kind of quantity or by SI unit; units of no known kind stay as they are."""
 
-    def __init__(self, system: Any) -> None:
-        problem = bad_system(system)
-        if problem is not None:
-            raise problem
-        self._system: str = system
+    def __init__(self, system: Any, of: Any = None) -> None:
+        self._system: str = cells(system, of._texts() if isinstance(of, Summarized) else ()).name
 
     def factor(self, unit: str) -> float:
         """The factor from this SI unit to the unit shown."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
+def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The energy split: kinetic energy of A and B before, what was lost along normal and tangent, and what A and B have after.
 
     Every bar begins where the one above ends, so that the last ends at zero: what came in is what went out. Kinetic energies
@@ -27,7 +27,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
         A single one of any solver.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         J, kJ or ft·lbf.
 
     Returns
@@ -54,7 +54,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si"
     >>> axes.get_xlabel()
     'energy [kJ]'
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     impact = answered(impact, "energy")
     a, b = impact.a, impact.b
     names = who(0, a.before), who(1, b.before)

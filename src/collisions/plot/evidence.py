@@ -24,7 +24,7 @@ _KERNEL = (1.0, 2.0, 1.0)
 _MOST = 10
 
 
-def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem = "si") -> Figure:
+def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem | None = None) -> Figure:
     """The unknowns of a posterior: each by itself on the diagonal, each pair below it, given the evidence and the priors.
 
     Of a pair the darker the likelier; the lines hold 50 and 95 percent of the samples. A narrow slanting band says that the
@@ -36,7 +36,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
         What ``reconstruct.posterior`` returned.
     unknowns : sequence of str, optional
         Names of the unknowns or outputs to draw, in this order; by default all unknowns. At most ten.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         Of those that have a unit.
 
     Returns
@@ -59,7 +59,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
     >>> [axes.get_gid() for axes in plot.corner(found).axes]
     ['a', 'a and b', 'b']
     """
-    labels = Units(units)
+    labels = Units(units, posterior)
     if not isinstance(posterior, Posterior):
         raise InputError(
             f"posterior must be what reconstruct.posterior returned, got {type(posterior).__name__}",

@@ -23,7 +23,7 @@ _POINTS = 400
 _LONGEST = 1.0
 
 
-def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
+def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
 
     Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;
@@ -40,7 +40,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
         From touching to parting, > 0: 0.05 to 0.15 s for cars, the longer the softer.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         s, N and N·s; ms, kN and kN·s; ms, lbf and lbf·s.
 
     Returns
@@ -66,7 +66,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     >>> axes.get_ylabel()
     'normal force [kN]'
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     impact = answered(impact, "force_time")
     only_of_an_impulse(impact, "force_time")
     reader = ArgumentReader()

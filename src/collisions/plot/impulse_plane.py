@@ -24,7 +24,7 @@ _FAR = 4.0
 _NO_YIELD = 64.0 * EPS  # relative: a coefficient this small is the rounding of differences of speeds
 
 
-def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
+def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """Normal against tangential impulse on B, with the lines that decide the answer.
 
     An impulse changes the closing speed and the slip in proportion to itself. So compression ends on one line, restitution on
@@ -37,7 +37,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         A single one of any solver.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         N·s, kN·s or lbf·s.
 
     Returns
@@ -66,7 +66,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     >>> axes.get_ylabel()
     'tangential impulse Pt on B [kN·s]'
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     impact = answered(impact, "impulse_plane")
     only_of_an_impulse(impact, "impulse_plane")
     axes = begin(axes, (7.5, 6.0))

@@ -20,7 +20,7 @@ _SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
 
 
-def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
+def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
 
     Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes
@@ -34,7 +34,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
         A single one of any solver.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         kg·m/s, kN·s or lbf·s.
 
     Returns
@@ -61,7 +61,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "s
     >>> axes.get_xlabel()
     'momentum along x [kN·s]'
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     impact = answered(impact, "momentum")
     takes_part = [math.isfinite(side.before.mass) for side in (impact.a, impact.b)]
     if not any(takes_part):

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si") -> Axes:
+def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """Force, crush and the delta-V of both vehicles over the time of a contact, one below the other.
 
     Parameters
@@ -22,7 +22,7 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si")
         A single one of ``time_resolved``, or of ``solve`` where it took that model.
     axes : matplotlib.axes.Axes, optional
         Where to draw; by default that of a new figure. It is divided into three.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         s, N, m and m/s; ms, kN, m and km/h; ms, lbf, ft and mph.
 
     Returns
@@ -48,7 +48,7 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem = "si")
     >>> [panel.get_ylabel() for panel in axes.child_axes]
     ['force [kN]', 'crush [m]', 'delta-V [km/h]']
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     impact = answered(impact, "pulse")
     found = impact.pulse
     if found is None:

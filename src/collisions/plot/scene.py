@@ -39,7 +39,7 @@ def scene(
     outline_a: Any = None,
     outline_b: Any = None,
     axes: Axes | None = None,
-    units: UnitSystem = "si",
+    units: UnitSystem | None = None,
 ) -> Axes:
     """The scene from above at the moment of impact, to scale.
 
@@ -60,8 +60,9 @@ def scene(
         corners (forward, left). Without it only the centre of mass is marked.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
-        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s.
+    units : "si", "metric" or "us", optional
+        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s. By default those that the inputs were given in, as for
+        ``summary``.
 
     Returns
     -------
@@ -88,7 +89,7 @@ def scene(
     >>> axes.get_ylabel()
     'y [ft]'
     """
-    labels = Units(units)
+    labels = Units(units, impact)
     if not isinstance(moment, str) or moment not in _MOMENTS:
         raise InputError(
             f"moment must be 'before', 'after' or 'both', got {shown(moment)}", code="bad_option", argument="moment"

@@ -20,7 +20,7 @@ _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
 def distribution(
-    output: Output, *, coverage: float = COVERAGE, bins: int = 40, axes: Axes | None = None, units: UnitSystem = "si"
+    output: Output, *, coverage: float = COVERAGE, bins: int = 40, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
     """The cases of an output that was sampled as a histogram, with mean, median and interval, given the stated inputs.
 
@@ -35,7 +35,7 @@ def distribution(
         Number of bars.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         For an output that the model returned as a Quantity. Others are labelled with their name alone.
 
     Returns
@@ -62,7 +62,7 @@ def distribution(
     >>> plot.distribution(result["speed"]).get_ylabel()
     'share of the cases [%]'
     """
-    labels = Units(units)
+    labels = Units(units, output)
     if not isinstance(output, Output):
         raise InputError(
             f"output must be one output of what uncertainty.propagate returned, got {type(output).__name__}; write "
@@ -109,7 +109,7 @@ def distribution(
 
 
 def contributions(
-    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem = "si"
+    result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
     """What share of the variance of an output each input brings: by itself (bar), and with all it takes part in (diamond).
 
@@ -124,7 +124,7 @@ def contributions(
         Which output; needed if there is more than one.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         Of the standard deviation in the title, where the model returned Quantities.
 
     Returns
@@ -149,7 +149,7 @@ def contributions(
     >>> [label.get_text() for label in axes.get_yticklabels()]
     ['speed', 'mass']
     """
-    labels = Units(units)
+    labels = Units(units, result)
     found = _output(result, output)
     own, total, errors = found.contributions, found.total_contributions, found.contribution_standard_errors
     names = list(own)

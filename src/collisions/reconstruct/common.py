@@ -21,6 +21,7 @@ from ..provenance import Reconstruction
 from ..quantities import lock
 from ..reading import ArgumentReader, amount, broadcast
 from ..solving import check_options, error_of, first_refused, warn_of_refusals
+from ..units import Texts
 from ..vehicle import Vehicle
 from ..warning import quietly
 
@@ -76,7 +77,7 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
     """A vehicle's texts in two parts: of the fields that stay, and of those in ``motion``, which the result replaces."""
-    texts = body.given or {}
+    texts = Texts(body.given)
     staying = {name: text for name, text in texts.items() if name not in motion}
     return staying, {name: text for name, text in texts.items() if name in motion}
 

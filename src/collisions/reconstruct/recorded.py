@@ -15,7 +15,7 @@ from ..quantities import Shown, derived, lock
 from ..reading import ArgumentReader
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
 from ..uncertainty import Censored, Normal, Uniform
-from ..units import Input, shown
+from ..units import Input, shown, texts_of
 from ..warning import warn
 
 Polarity = Literal["49 CFR 563", "ISO 8855"]
@@ -184,7 +184,7 @@ def recorded_pulse(
         time=lock(times),
         forward=lock(forward),
         left=lock(left),
-    )
+    ).in_units_of(texts_of(reader.texts))
 
 
 def _error(value: float) -> float:

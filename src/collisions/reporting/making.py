@@ -20,7 +20,7 @@ from ..derivation.explain import NOT_EXPLAINED, explain, impact_inputs, no_uncer
 from ..diagnostics import diagnose
 from ..document import Document
 from ..errors import InputError, ShapeError
-from ..formatting import UnitSystem, bad_system
+from ..formatting import UnitSystem
 from ..impact import Impact, with_vehicles
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..outlines import read_outline
@@ -28,6 +28,7 @@ from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import computing
+from ..summary import cells
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
 from ..units import Input, Pair, shown
@@ -59,7 +60,7 @@ def report(
     *,
     title: str | None = None,
     form: Form = "html",
-    units: UnitSystem = "si",
+    units: UnitSystem | None = None,
     uncertainty: Propagation | None = None,
     outline_a: Any = None,
     outline_b: Any = None,
@@ -95,8 +96,8 @@ def report(
         By default the names of the vehicles.
     form : {"html", "markdown"}
         One HTML file that asks for nothing from outside, to be read in a browser or printed; or Markdown, without figures.
-    units : {"si", "metric", "us"}
-        As for ``explain``.
+    units : {"si", "metric", "us"}, optional
+        By default those that the inputs were given in, as for ``summary``.
     uncertainty : Propagation, optional
         Of ``uncertainty.propagate``. Outputs with the name of an answer, such as "b.after.vx" or "b_after_vx", also round it.
     outline_a, outline_b, duration, drag, limits
@@ -143,13 +144,15 @@ def report(
     from .. import __version__
 
     need_one_case(impact, (Impact, MomentumSolution, Fit, Posterior), "report", instead=NOT_EXPLAINED)
+    system: Any = cells(units, impact._texts()).name
+    given["units"] = system
     options = plain_options(given)
     paragraphs, outlines = _checked(impact, options, uncertainty)
     by_input = options["notes"] if isinstance(options["notes"], Mapping) else {}
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
     spread = Spread(impact, uncertainty)
-    sheet = (Html if form == "html" else Markdown)(units, spread.deviations, spread.ranges)
+    sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
     findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at, **evidence)
     if isinstance(impact, Impact):
@@ -183,7 +186,7 @@ def report(
     if derivation and not isinstance(readable, Posterior):
         sheet.heading("Derivation")
         known = uncertainty if spread.ranges else spread.deviations
-        text = explain(readable, units=units, form="text" if form == "html" else form, uncertainty=known or None)
+        text = explain(readable, units=system, form="text" if form == "html" else form, uncertainty=known or None)
         sheet.working(text)
     if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
         sections.sources(sheet, impact, findings)
@@ -212,9 +215,6 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
     if not isinstance(form, str) or form not in get_args(Form):
         refuse("form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}")
-    problem = bad_system(options["units"])
-    if problem is not None:
-        reader.refuse(problem)
     paragraphs = [notes] if isinstance(notes, str) else list(notes) if isinstance(notes, (list, tuple)) else []
     beside = notes if isinstance(notes, Mapping) else {}
     for name in [name for name in beside if name not in _inputs_of(impact)]:

@@ -23,7 +23,7 @@ from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..records import strict
 from ..settings import computing
 from ..uncertainty import Propagation
-from ..units import shown
+from ..units import Texts, shown
 from ..vehicle import DOMAINS, Vehicle, with_given
 from .render import FENCE, RECORD
 from .sections import contradicted
@@ -111,7 +111,7 @@ def _number(value: Any, unit: str, name: str) -> Any:
 
 def _other_texts(vehicle: Vehicle, inputs: Mapping[str, Any]) -> dict[str, str]:
     """The vehicle's texts that the record of the impact does not hold, because they do not read as the number here."""
-    texts = vehicle.given or {}
+    texts = Texts(vehicle.given)
     return {name: text for name, text in texts.items() if _argument(inputs.get, name) != text}
 
 

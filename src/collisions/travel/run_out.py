@@ -18,7 +18,7 @@ from ..quantities import Shown, derived, hypot, numeric
 from ..quantities import lock as write_locked
 from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
-from ..units import Input, Pair, Value, is_quantity, shown
+from ..units import Input, Pair, Texts, Value, is_quantity, shown, texts_of
 from ..warning import warn
 from .smoothing import slopes, smooth
 from .surfaces import (
@@ -223,6 +223,7 @@ def path(
     places = _read_points(reader, points)
     headed = _read_headings(reader, headings, None if places is None else len(places))
     legs = None if places is None else len(places) - 1
+    surveyed = Texts(reader.texts)
     frictions = for_each(reader, friction, "friction", legs, read_friction)
     locks = for_each(reader, lock, "lock", legs, _read_lock)
     grades = for_each(reader, grade, "grade", legs, read_grade)
@@ -258,7 +259,7 @@ def path(
             raise out_of_range()
     _warn_of_wide_segments(turned, locks)
     _warn_of_fast_yaw(run)
-    return run
+    return run.in_units_of(texts_of(surveyed))
 
 
 def _run_out(

@@ -16,7 +16,7 @@ from ..kernels.elementwise import UNIT_INTERVAL
 from ..quantities import Shown, hypot
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
-from ..units import Input, Pair, shown
+from ..units import Input, Pair, Texts, shown, texts_of
 from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
 from .run_out import read_friction
@@ -219,7 +219,9 @@ def simulate(
     state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), still)
     state |= {name: float(part) if shape is None else part for name, part in end.items()}
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
-    return SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=vehicle_of(state))
+    texts = texts_of(vehicle.given)
+    rest = vehicle_of(state, given=Texts(units=texts))
+    return SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=rest).in_units_of(texts)
 
 
 def _prepared(flat: dict[str, Any], corners: Sequence[Any]) -> tuple[Wheels, Any]:
