@@ -15,7 +15,7 @@ import sys
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,8 +28,9 @@ for folder in (ROOT / "src", ROOT / "tests"):
 
 import collisions as col
 import test_reference as asserted
+import test_reference_in_time as in_time
 from reference import EPS, Answer, Body, Scene, evaluate
-from scenes import LAWS, RULES, answerable, cases, draw, solved, solved_together
+from scenes import FAMILIES, INCOMPLETE, LAWS, PUSHED, RULES, answerable, cases, draw, solved, solved_together
 
 DATA = ROOT / "docs" / "_generated" / "stability.json"
 PLOT = ROOT / "docs" / "_static" / "stability_forms.svg"
@@ -609,6 +610,45 @@ def float32() -> dict[str, Any]:
     }
 
 
+# --- Beyond the first laws -------------------------------------------------------------------------------------------------
+
+LATER = {
+    'law="stronge"': [("stronge", "friction")],
+    "incomplete": [(law, INCOMPLETE) for law in (*LAWS, "stronge")],
+    "impulses from outside": [(law, PUSHED) for law in (*LAWS, "stronge")],
+}
+
+
+def later() -> list[dict[str, Any]]:
+    """Worst errors of what came after the first laws, over all families, in eps of the scales of the promises."""
+    found = []
+    for name, kinds in LATER.items():
+        worst, count = Worst(), 0
+        for family in FAMILIES:
+            for law, rule in kinds:
+                for scene, answer, library, _ in answers(family, law, rule):
+                    count += 1
+                    for outputs in library:
+                        worst.note(list(measured(scene, answer, outputs)), sticks=False)
+        seen = {key: None if key in worst.missing else rounded(error) for key, error in worst.scaled.items()}
+        found.append({"name": name, "cases": count, "seen": seen})
+    return found
+
+
+def steps() -> dict[str, Any]:
+    """The rounding of ``time_resolved`` against its steps in 40 digits, by family."""
+    rows = []
+    for family in in_time.FAMILIES:
+        worst: dict[str, float] = {}
+        for moves in (False, True):
+            for scene, duration, drag, followed in in_time.contacts(family, moves):
+                one = in_time.alone(scene, duration, drag, moves)
+                for name, error in in_time.errors(scene, followed, partial(in_time.output, one)):
+                    worst[name] = max(worst.get(name, 0.0), error)
+        rows.append({"family": family, "seen": {name: rounded(error) for name, error in worst.items()}})
+    return {"steps": in_time.STEPS, "cases": 2 * in_time.COUNT, "promises": in_time.PROMISES, "rows": rows}
+
+
 # --- Everything ------------------------------------------------------------------------------------------------------------
 
 
@@ -630,6 +670,8 @@ def measure() -> dict[str, Any]:
         "conditions": conditions(),
         "grid": grid(),
         "float32": float32(),
+        "later": later(),
+        "in_time": steps(),
     }
 
 
@@ -647,6 +689,11 @@ def main() -> None:
     for promise in found["promises"]:
         if promise["seen"] is None or promise["seen"] > promise["eps"]:
             sys.exit(f"not kept: {promise}")
+    bounds = {promise["key"]: promise["eps"] for promise in found["promises"]}
+    for row in found["later"]:
+        for key, error in row["seen"].items():
+            if error is None or error > bounds[key]:
+                sys.exit(f"not kept: {key} of {row['name']}")
 
 
 if __name__ == "__main__":

@@ -52,6 +52,26 @@ def promises(found: dict[str, Any]) -> str:
     )
 
 
+def later(found: dict[str, Any]) -> str:
+    """The worst errors of what came after the first laws, row by row of the promises."""
+    rows = [
+        [promise["output"], str(promise["eps"]), *(number(kind["seen"].get(promise["key"])) for kind in found["later"])]
+        for promise in found["promises"]
+        if promise["key"] in found["later"][0]["seen"]
+    ]
+    names = [f"`{kind['name']}`" if "=" in kind["name"] else kind["name"] for kind in found["later"]]
+    return table(["output", "promise, in eps", *names], rows)
+
+
+def in_time(found: dict[str, Any]) -> str:
+    """The rounding of contacts in steps, by family."""
+    of_steps = found["in_time"]
+    names = list(of_steps["promises"])
+    rows = [["promise", *(str(eps) for eps in of_steps["promises"].values())]]
+    rows += [[row["family"], *(number(row["seen"][name]) for name in names)] for row in of_steps["rows"]]
+    return table(["worst seen, in eps", *names], rows)
+
+
 def forms(found: dict[str, Any], keys: list[str]) -> str:
     """For every regime: the worst error of the textbook form beside that of the library, in eps of the scale."""
     rows = []

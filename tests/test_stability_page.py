@@ -47,6 +47,23 @@ def test_every_committed_error_keeps_its_promise(found):
             assert worst <= promised["P" if key == "stick" else key], (regime["key"], key)
 
 
+def test_what_came_after_the_first_laws_keeps_the_promises(scripts, found):
+    """Energetic restitution, incomplete impacts and impulses from outside those of the first laws; contacts in steps their own."""
+    stability, _ = scripts
+    promised = {row["key"]: row["eps"] for row in found["promises"]}
+    assert [row["name"] for row in found["later"]] == list(stability.LATER)
+    for row in found["later"]:
+        assert row["cases"] >= 500
+        assert {"closing", "P", "v", "loss", "pivot"} <= row["seen"].keys()
+        for key, worst in row["seen"].items():
+            assert worst <= promised[key], (row["name"], key)
+    assert [row["family"] for row in found["in_time"]["rows"]] == list(stability.in_time.FAMILIES)
+    for row in found["in_time"]["rows"]:
+        assert row["seen"].keys() == found["in_time"]["promises"].keys()
+        for name, worst in row["seen"].items():
+            assert 0.0 < worst <= found["in_time"]["promises"][name], row
+
+
 def test_the_file_has_the_regimes_and_promises_of_the_script(scripts, found):
     """Nothing was added to or left out of the script since the file was written."""
     stability, _ = scripts

@@ -792,6 +792,21 @@ def test_refused_vehicles():
     assert {problem.code for problem in caught.value.fields["problems"]} == {"pinned", "one_stiffness", "bad_option"}
 
 
+def test_a_body_on_a_pivot_is_an_infinite_mass_there():
+    """As the refusal says: with the inertia about the pivot it is struck as the pinned body is, to the error of the steps."""
+    a = col.Vehicle(**A | {"y": 0.1})
+    pinned = col.Vehicle(mass=1000.0, yaw_inertia=1300.0, x=0.5, y=2.0, pivot=(0.5, -2.0), yaw_rate=0.3)
+    post = col.Vehicle(mass=math.inf, yaw_inertia=1300.0 + 1000.0 * 4.0**2, x=0.5, y=-2.0, yaw_rate=0.3)
+    contact = {"normal": 0.1, "point": (0.0, 0.5), "friction": 0.4}
+    with pytest.raises(col.InputError, match="an infinite mass at the pivot, with the yaw inertia about it"):
+        t_bone(a=a, b=pinned, **contact)
+    wanted = col.eccentric(a, pinned, 0.2, **contact, law="stronge")
+    found = t_bone(0.2, a=a, b=post, **contact, geometry="fixed", drag=0.0)
+    assert found.a.delta_vx == pytest.approx(wanted.a.delta_vx, rel=5e-5)
+    assert found.a.delta_vy == pytest.approx(wanted.a.delta_vy, rel=5e-5)
+    assert found.b.delta_yaw_rate == pytest.approx(wanted.b.delta_yaw_rate, rel=5e-5)
+
+
 def test_refused_contacts():
     """One that tyres hold does not end; one whose start cannot be found, or that lies apart there; too large for floats."""
     slow = {"a": col.Vehicle(**A | {"vx": 0.4}), "b": col.Vehicle(**B | {"vy": 0.0})}

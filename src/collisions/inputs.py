@@ -330,7 +330,12 @@ def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:
     """One error for each pinned body, which the central models cannot represent."""
     return [
         InputError(
-            f"{label} has a pivot, which {model} cannot hold; use eccentric, which needs yaw_inertia, x, y and point",
+            f"{label} has a pivot, which {model} cannot hold; "
+            + (
+                "give an infinite mass at the pivot, with the yaw inertia about it, or use eccentric"
+                if model == "time_resolved"
+                else "use eccentric, which needs yaw_inertia, x, y and point"
+            ),
             code="pinned",
             argument="pivot",
         )
