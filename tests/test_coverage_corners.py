@@ -129,6 +129,11 @@ def test_second_order_terms_too_large_for_a_float():
     assert caught.value.code == "out_of_range"
 
 
+def speed_in(unit):
+    """An output of 10 m/s in another unit."""
+    return propagate(lambda v: {"v": col.Vehicle(mass=1.0, vx=v).q.vx}, {"v": Normal("10 m/s", "1 m/s")})["v"].to(unit).mean
+
+
 LONG = 10**5000  # Python writes no int of more than 4,300 digits
 
 
@@ -153,6 +158,13 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
     [
         (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, correlation={(LONG, "x"): 0.5}), "bad_correlation"),
         (lambda: propagate(lambda x: {"s": x}, {"x": Normal(1, 1)}, tolerance={LONG: 0.5}), "bad_tolerance"),
+        (lambda: speed_in(LONG), "bad_units"),
+        (lambda: speed_in([LONG]), "bad_units"),
+        (lambda: speed_in(3.6), "bad_units"),
+        (lambda: speed_in("3.6 km/h"), "bad_units"),
+        (lambda: speed_in(""), "bad_units"),
+        (lambda: speed_in("nan m/s"), "bad_units"),
+        (lambda: speed_in("0 m/s"), "bad_units"),
         (lambda: col.diagnose(crash(), limits={LONG: 1.0}), "unknown_finding"),
         (lambda: crash().to_columns(columns=[LONG]), "unknown_name"),
         (lambda: crash().to_columns(columns=np.array("x")), "unknown_name"),

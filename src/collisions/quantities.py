@@ -14,7 +14,7 @@ from .errors import MissingInputError, Status
 from .formatting import in_words
 from .reading import ArgumentReader
 from .summary import Cells, Summarized, Summary, all_numbers, sided
-from .units import Value, to_quantity
+from .units import Value, shown, to_quantity
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -163,7 +163,9 @@ class InUnit(Quantities):
     def __init__(self, owner: Any, unit: str) -> None:
         super().__init__(owner)
         reader = ArgumentReader()
-        self._factor = reader.number(f"1 {unit}", owner.unit, "unit")
+        # A text or a unit of pint; anything else is refused by how it is written.
+        name = f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+        self._factor = reader.number(f"1 {name}", owner.unit, "unit")
         reader.close()
 
     def _with_unit(self, value: Any, unit: str) -> Any:
