@@ -43,6 +43,7 @@ from collisions.reconstruct.momentum_solution import Sensitivity
 from collisions.reconstruct.posterior_result import PosteriorOutput
 from collisions.side import Side
 from collisions.uncertainty.distribution import GivenUnit
+from collisions.units import Texts
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
 _FEW = 12
@@ -52,6 +53,7 @@ _PACKAGE = str(Path(col.__file__).parent)
 # What Python itself says of a keyword that is unknown or left out, and what a Vehicle does, with what to write.
 _MISSPELT = re.compile(
     r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle|"
+    r"^again\(\) takes the arguments of |"
     r"^Vehicle has no argument '.*'; (write \w+=|write Vehicle\.from_speed|it has mass, )",
     re.DOTALL,
 )
@@ -291,7 +293,7 @@ class Case(random.Random):
             free = documented is None or self.mood != "plain" or label in documented
             assert free or np.isfinite(value).all(), f"{label} is {value}"
             return
-        if kind.__module__.partition(".")[0] == "collisions" and kind not in (col.Status, GivenUnit):
+        if kind.__module__.partition(".")[0] == "collisions" and kind not in (col.Status, GivenUnit, Texts):
             self._look_at(value, kind, documented, thorough)
         if isinstance(value, Mapping | tuple | list) and id(value) not in self._within:
             around, self._within = self._within, self._within | {id(value)}
@@ -305,6 +307,14 @@ class Case(random.Random):
             documented = None
         elif kind is col.Impact and documented is not None and incomplete(value):
             documented |= INCOMPLETE
+        elif (
+            kind is col.Impact
+            and documented is not None
+            and self.mood == "plain"
+            and value.pulse is not None
+            and without_energy(value)
+        ):
+            documented |= {"Side.kinetic_energy_change"}
         assert names, f"{kind} is given back, and fuzzing.GIVEN_BACK does not have it"
         name = names[0]
         start = time.process_time()
@@ -453,6 +463,15 @@ class Case(random.Random):
 def incomplete(impact: col.Impact) -> bool:
     """Whether the contact points of a single impact still approach in the end."""
     return impact.inputs.incomplete and np.ndim(impact.restitution) == 0 and impact.restitution < 0.0
+
+
+def without_energy(impact: col.Impact) -> bool:
+    """Whether neither body has a finite energy, so that a contact that took time does not say what each one gained."""
+    return all(
+        (math.isinf(state.mass) and (state.vx, state.vy) != (0.0, 0.0))
+        or (state.yaw_inertia in (None, math.inf) and state.yaw_rate != 0.0)
+        for state in (impact.a.before, impact.b.before)
+    )
 
 
 def _check_refusal(error: Any) -> None:

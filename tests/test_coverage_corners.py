@@ -20,7 +20,8 @@ CONTACT = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
 
 
 def crash(**changes):
-    return col.eccentric(col.Vehicle(**{**A, **changes}), col.Vehicle(**B), 0.1, **CONTACT)
+    rules = {name: changes.pop(name) for name in ("impulse_ratio", "critical_fraction") if name in changes}
+    return col.eccentric(col.Vehicle(**{**A, **changes}), col.Vehicle(**B), 0.1, **CONTACT, **rules)
 
 
 @pytest.mark.parametrize("count", [3, 20_000])
@@ -165,6 +166,10 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
         (lambda: speed_in(""), "bad_units"),
         (lambda: speed_in("nan m/s"), "bad_units"),
         (lambda: speed_in("0 m/s"), "bad_units"),
+        (lambda: crash(impulse_ratio=np.array([0.1, 0.2])), "one_tangential"),
+        (lambda: crash(critical_fraction=np.array([])), "one_tangential"),
+        (lambda: crash().again(law=np.array(["brach", "stronge"])), "bad_law"),
+        (lambda: crash().again(law=""), "bad_law"),
         (lambda: col.diagnose(crash(), limits={LONG: 1.0}), "unknown_finding"),
         (lambda: crash().to_columns(columns=[LONG]), "unknown_name"),
         (lambda: crash().to_columns(columns=np.array("x")), "unknown_name"),

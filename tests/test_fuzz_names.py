@@ -48,6 +48,10 @@ BODY = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading")
 NAMES = ("", "", "A", "Golf", "<b>&amp;|$x_1$", "a\nb", "\ud800half", "中文 " * 12, "`~~~ ```")
 SOLVERS = ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
 PLACED = ("eccentric", "solve", "time_resolved")
+AGAIN = (
+    "a", "b", "restitution", "normal", "point", "friction", "impulse_ratio", "law", "incomplete", "outside_a", "tolerance", "duration",
+    "geometry", "steps", "drag", "crush_b",
+)  # fmt: skip
 # In a plain answered case these may be no finite number: what each says of it.
 OPEN = frozenset(
     {
@@ -95,6 +99,8 @@ def contact(case: Case, model: str = "eccentric") -> dict[str, Any]:
         rule = case.choice(("friction", "friction", "impulse_ratio", "critical_fraction"))
         found[rule] = math.inf if rule == "friction" and case.maybe(0.1) else case.value(rule)
         found["law"] = case.option("brach", "brach", "kudlich-slibar", "stronge")
+        if case.maybe(0.03):
+            found |= {other: case.value(other) for other in ("friction", "impulse_ratio", "critical_fraction")}
     if model != "time_resolved" and case.maybe(0.2):
         found["incomplete"] = case.option(True, True, False)
     if model in ("eccentric", "solve") and case.maybe(0.2):
@@ -235,7 +241,10 @@ def test_impacts(case: Case) -> None:
         assert isinstance(one.status, col.Status)
     changed = {name: case.value(name) for name in ("restitution", "friction")}
     takes = changed if impact.inputs.model != "linear_central" else ("restitution",)
-    case.call("Impact.again", impact.again, **{name: changed[name] for name in takes if case.maybe(0.7)})
+    again = {name: changed[name] for name in takes if case.maybe(0.7)}
+    if case.mood == "odd":
+        again[case.choice(AGAIN)] = case.garbage()
+    case.call("Impact.again", impact.again, **again)
     columns = case.must("Impact.to_columns", impact.to_columns)
     assert {len(column) for column in columns.values()} == {np.size(impact.status)}
     record = case.must("Impact.to_dict", impact.to_dict)

@@ -223,7 +223,7 @@ def read_inputs(
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
         and -6.0 < normal < 6.0
-        and tangential.count(None) == len(tangential) - 1
+        and tangential[1] is tangential[2] is None
         and type(law) is str
         and law in LAWS
         and not units_required.get()

@@ -189,7 +189,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
             again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
             return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-        given: Any = tangential, inputs.law or BRACH, inputs.tolerance, *times
+        given: Any = tangential, BRACH if inputs.law is None else inputs.law, inputs.tolerance, *times
         again, _ = read(inputs.model, inputs.a, inputs.b, *contact, *given, **more)
     return replace(
         again,

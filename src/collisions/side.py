@@ -207,7 +207,8 @@ class Side(Frozen, Summarized):
     def kinetic_energy_change(self) -> Value:
         """Kinetic energy after less that before [J]: the work of the contact, of an impulse from outside, and of the tyres.
 
-        It depends on the frame of reference: it is not damage.
+        It depends on the frame of reference: it is not damage. NaN after a contact that took time if both bodies move with
+        an infinite mass or turn with an infinite yaw inertia.
         """
         if isinstance(self._answer, Passed):
             return self._work() - self.tyre_loss
