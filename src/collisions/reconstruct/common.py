@@ -168,11 +168,13 @@ def input_faults(numbers: Mapping[str, Any], incomplete: bool = False) -> list[t
     found: list[tuple[Any, int]] = []
     with np.errstate(invalid="ignore"):
         for name, value in numbers.items():
-            value = value if np.ndim(value) else float(value)
+            if not np.ndim(value):
+                found += [(True, Status.NOT_FINITE)] if value != value else []
+                continue
             found += [(fault(value), status) for fault, status in _domain(name.rpartition(".")[2], incomplete).faults]
             if name.startswith(_AMOUNTS):
                 found.append((value < 0.0, Status.CONTRADICTORY))
-    return [(condition, status) for condition, status in found if condition is not False]
+    return found
 
 
 def _domain(name: str, incomplete: bool) -> Any:

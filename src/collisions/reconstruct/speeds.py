@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -230,8 +231,7 @@ def speeds(
     with np.errstate(all="ignore"):
         _refuse_pairs(known, a, b)
         function = RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0) if callable(restitution) else None
-        arrays = {name: np.asarray(value, dtype=np.float64) for name, value in numbers.items()}
-        known_of = arrays, inputs.rule, inputs.law or BRACH, counted(given)
+        known_of = numbers, inputs.rule, inputs.law or BRACH, counted(given), cases.shape or ()
 
         def roots_of(scene: Scene) -> tuple[Scene, list[tuple[Root, Any]]]:
             scene.forward_only = bool(forward_only)
@@ -242,7 +242,7 @@ def speeds(
                     code="bad_combination",
                     argument="restitution" if function is not None else "critical_fraction",
                 )
-            return scene, _in_order(cases, scene, scene.roots() if function is None else _with_function(cases, scene, function))
+            return scene, _in_order(scene, scene.roots() if function is None else _with_function(scene, function))
 
         try:
             plain = cases.shape is None and function is None
@@ -302,7 +302,7 @@ def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
         )
 
 
-def _with_function(cases: Cases, scene: Scene, function: RestitutionOf) -> list[Root]:
+def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
     """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
     if scene.shares_critical():
         raise InputError(
@@ -311,94 +311,67 @@ def _with_function(cases: Cases, scene: Scene, function: RestitutionOf) -> list[
             code="bad_combination",
             argument="critical_fraction",
         )
-    shape = cases.shape or ()
-    count = int(np.prod(shape))
+    count = math.prod(scene.shape)
 
     def of_closing(part: Scene, closing: Any, e: Any) -> Any:
         return function(np.ravel(part.speed_unit * closing + 0.0 * e))
 
-    def slope(closing: Any) -> Any:
-        return scene.speed_unit * function.slope(scene.speed_unit * closing)
-
     def mismatch(e: Any, case: Any) -> list[Any]:
-        part = scene.of(case, shape)
-        return [of_closing(part, part.fits(root)[1], e) - e for root in part.roots(e, polish=0)]
+        part = scene.of(case)
+        return [of_closing(part, part.fits(root)[1], e) - e for root in part.roots(e, polish=False)]
 
-    found = []
-    for candidate, e in _by_rank(crossings(mismatch, count, function.least), count):
-        tried = scene.roots(e.reshape(shape), slope=slope)
-        found.append(_chosen(tried, candidate.reshape(shape)))
+    def slips(e: Any, case: Any) -> list[Any]:
+        part = scene.of(case)
+        return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
+
+    found: list[Root] = []
+    of_case = crossings(mismatch, count, function.least)
+    if of_case:
+        case, candidate, restitution = map(np.array, zip(*of_case, strict=True))
+        roots = np.stack(scene.of(case).roots(restitution, function=function))
+        chosen = roots[candidate, :, np.arange(case.size)]
+        # Of each case the first root, then the second and so on.
+        rank = np.arange(case.size) - np.searchsorted(case, case)
+        for k in range(rank.max() + 1):
+            whole = np.full((count, len(Root._fields)), np.nan)
+            whole[case[rank == k]] = chosen[rank == k]
+            found.append(Root._make(whole.T.reshape(-1, *scene.shape)))
     undetermined = np.zeros(count, dtype=bool)
     if not scene.kinds[0].startswith("speed"):
-
-        def slips(e: Any, case: Any) -> list[Any]:
-            part = scene.of(case, shape)
-            return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
-
-        for case, row, e in crossings(slips, count, function.least):
+        for at, row, e in crossings(slips, count, function.least):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
-            part = scene.of(np.array([case]), shape)
+            part = scene.of(np.array([at]))
             closing = part.any_slip_at(part.regimes()[row], np.full(1, e))[1]
-            undetermined[case] |= abs(of_closing(part, closing, np.full(1, e))[0] - e) <= REDUNDANT
-    scene.undetermined = undetermined.reshape(shape)
+            undetermined[at] |= abs(of_closing(part, closing, np.full(1, e))[0] - e) <= REDUNDANT
+    scene.undetermined = undetermined.reshape(scene.shape)
     return found
 
 
-def _by_rank(found: list[tuple[int, int, float]], count: int) -> list[tuple[Any, Any]]:
-    """The first roots of all cases, then the second and so on: which candidate each is, and its restitution."""
-    ranks: list[tuple[Any, Any]] = []
-    seen = [0] * count
-    for case, row, e in found:
-        if seen[case] == len(ranks):
-            ranks.append((np.zeros(count, dtype=np.intp), np.full(count, np.nan)))
-        candidate, restitution = ranks[seen[case]]
-        candidate[case], restitution[case] = row, e
-        seen[case] += 1
-    return ranks
-
-
-def _chosen(roots: list[Root], candidate: Any) -> Root:
-    """Of each case the root of its candidate."""
-
-    def take(parts: list[Any]) -> Any:
-        stacked = np.stack([np.broadcast_to(part, candidate.shape) for part in parts])
-        return np.take_along_axis(stacked, candidate[np.newaxis], axis=0)[0]
-
-    slopes = tuple(take([root.slopes[i] for root in roots]) for i in range(2))
-    speed_a, speed_b, e, condition = (take([root[i] for root in roots]) for i in range(4))
-    return Root(speed_a, speed_b, e, condition, slopes)
-
-
-def _in_order(cases: Cases, scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
+def _in_order(scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
-    shape = cases.shape or ()
-    judged = [scene.fits(root) for root in roots]
-    if cases.shape is None:
-        roots = [root for root, (fit, _) in zip(roots, judged, strict=True) if fit]
-        judged = [found for found in judged if found[0]]
-    if not roots:
+    fitting = [(root, fits, closing) for root, (fits, closing) in ((one, scene.fits(one)) for one in roots) if np.any(fits)]
+    for root, here, _ in fitting:
+        scene.undetermined = scene.undetermined | (here & scene.one_of_many(root))
+    if not fitting or np.all(scene.undetermined):
         return []
-    if cases.shape is None and len(roots) == 1 and not scene.forward_only:
-        scene.undetermined = scene.undetermined | np.asarray(scene.one_of_many(roots[0]))
-        return [] if scene.undetermined else [(roots[0], np.True_)]
-    parts = [np.stack([np.broadcast_to(root[i], shape) for root in roots]) for i in range(4)]
-    fits = np.stack([np.broadcast_to(fit, shape) for fit, _ in judged])
-    closing = np.stack([np.broadcast_to(speed, shape) for _, speed in judged])
-    for root, fit in zip(roots, fits, strict=True):
-        if np.any(fit):
-            scene.undetermined = scene.undetermined | (fit & scene.one_of_many(root))
+    if len(fitting) == 1 and scene.plain and not scene.forward_only:
+        return [(fitting[0][0], np.True_)]
+    rows = [(*root[:4], here, closing) for root, here, closing in fitting]
+    *parts, fits, closing = (
+        np.stack([np.broadcast_to(part, scene.shape) for part in of_all]) for of_all in zip(*rows, strict=True)
+    )
     fits &= ~scene.undetermined
     if scene.forward_only:
         fits &= np.minimum(parts[0], parts[1]) >= -ROOT_TOL * closing
     order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
     *values, fits, closing = (np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing))
-    for i in range(1, len(roots)):
+    for i in range(1, len(fitting)):
         apart = sum(abs(values[k][i] - values[k][i - 1]) for k in range(2))
         fits[i] &= ~(fits[i - 1] & (apart <= ROOT_TOL * closing[i]))
     # Roots that fit come first in every case.
     order = np.argsort(~fits, axis=0, kind="stable")
     *values, fits = (np.take_along_axis(part, order, axis=0) for part in (*values, fits))
-    return [(Root(*(value[k] for value in values)), fits[k]) for k in range(len(roots)) if np.any(fits[k])]
+    return [(Root(*(value[k] for value in values)), fits[k]) for k in range(len(fitting)) if np.any(fits[k])]
 
 
 def _answers(
@@ -411,7 +384,7 @@ def _answers(
 ) -> tuple[Impact, ...]:
     """The impact of each root; raises for a single case without one."""
     faults = input_faults(scene.numbers, inputs.incomplete)
-    of_walls = [np.isinf(scene.numbers[f"{kind[-1]}.mass"]) for kind in scene.kinds if kind.startswith("delta_v")]
+    of_walls = [np.isinf(scene.numbers[f"{name[-1]}.mass"]) for name in scene.names if name.startswith("delta_v")]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
     faults.append((scene.undetermined, Status.UNDETERMINED))
     staying = [split_texts(body, ("vx", "vy", "speed", "course"))[0] for body in (inputs.a, inputs.b)]
@@ -422,7 +395,7 @@ def _answers(
             speed = speed * scene.speed_unit
             vx, vy = (cases.where(keep, speed * scene.numbers[f"course_{label}[{i}]"] + 0.0) for i in range(2))
             bodies.append(moved(body, vx, vy, body.yaw_rate, given))
-        e = inputs.restitution if function is None else cases.values(root.restitution)
+        e = inputs.restitution if function is None else cases.where(keep, root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
     none = np.full((), np.nan)

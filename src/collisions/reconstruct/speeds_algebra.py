@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..kernels.floats import compile_for_floats
 from ..kernels.reverse import PLACES, energy_of_speeds, parabola_roots, quartic_roots
 from ..kernels.status import EPS, Status
 from .common import NUMBERS, PAIRS, forward
+from .restitution_roots import RestitutionOf
 
 # Relative difference within which two observations hold the same information.
 REDUNDANT = 1e-9
@@ -28,57 +29,105 @@ REDUNDANT = 1e-9
 ROOT_TOL = 1e-6
 # Worst case of the forward kernel's rounding, in eps of the parts that it adds up.
 _KERNEL_ROUNDING = 32.0 * EPS
-# Regimes whose impulse ratio is not known beforehand.
-_STICK = "stick"
-_SHARE = "share"
+# Regimes whose impulse ratio is not known beforehand, and the one that the law leads to.
+STICK, _SHARE, LAW = "stick", "share", "law"
 _NEWTON_STEPS = 3
 # Finite-difference step, relative to the speeds and to a restitution of 1: exact for quadratics, to 1e-8 for quotients.
 _STEP = 1e-4
+# How near a root that is not polished yet is to its place, relative to the speeds and to the impulse: far more than rounding.
+_UNPOLISHED, _IMPULSE_UNPOLISHED = 1e-6, 1e-2
 # Relative shift of the speeds at a root, to see whether the observations fit there too.
 _BESIDE = 0.02
 # Sample points along a range of speeds: five, because an observation along it is a quotient of quartics at most.
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)
-_SQUARED = ("delta_v", "max_crush")
-# Known under another name, but the same observation.
-_OBSERVED_AS = {"ees_a": "energy_loss"}
+# What is observed, where that is not of the same name.
+_OBSERVED_AS = {
+    "delta_v_a": "squared_impulse",
+    "delta_v_b": "squared_impulse",
+    "ees_a": "energy_loss",
+    "max_crush_speed_a": "absorbed_energy",
+}
+_OF_BODY = [name for name in NUMBERS if name not in ("vx", "vy")]
+# The numbers that do not change with the speeds, in the order of ``_observed``.
+_FIXED = ["spinning", *(f"{name}[{i}]" for name in ("normal", "point", "course_a", "course_b") for i in range(2))]
+_FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
 
 
 class Root(NamedTuple):
-    """A candidate solution: both speeds, their restitution, how well-posed they are, and the slope of each observation."""
+    """A candidate solution: both speeds, their restitution, how well-posed they are, and the slope of both observations."""
 
     speed_a: Any
     speed_b: Any
     restitution: Any
     condition: Any
-    slopes: Sequence[Any] = (0.0, 0.0)
+    slope_1: Any = 0.0
+    slope_2: Any = 0.0
 
 
-class _Seen(NamedTuple):
-    """The outputs of the forward kernel that tell of the observations."""
+class Seen(NamedTuple):
+    """What the forward kernel tells at two speeds; an observation times ``weight`` is a polynomial of them."""
 
     status: Any
-    closing_speed: Any
-    slip_before: Any
-    slip_after: Any
-    normal_impulse: Any
-    tangential_impulse: Any
-    no_slip_normal: Any
-    no_slip_tangential: Any
+    speed_a: Any
+    speed_b: Any
+    whole: Any
+    closing: Any
+    slip: Any
+    normal: Any
+    tangential: Any
+    # The terms of the loss, with each contact velocity as large as the velocities it is the difference of.
+    lost: Any
+    squared_impulse: Any
+    energy_loss: Any
+    absorbed_energy: Any
     effective_mass: Any
     coupling: Any
-    energy_loss: Any
+    weight: Any = 1.0
+
+    @property
+    def impulse(self) -> Any:
+        return self.squared_impulse**0.5
 
 
-def _forward(*inputs: Any) -> _Seen:
-    """The forward kernel of two free bodies."""
-    raw = forward(*inputs, False, False)
-    return _Seen._make(getattr(raw, name) for name in _Seen._fields)
+def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Seen:
+    """The kernel of free bodies at these speeds; with ``sticks`` the impulse and the loss are those of a sticking contact."""
+    *numbers, sticks, rule, law = fixed
+    spinning, nx, ny, px, py, *courses = numbers[:9]
+    mass_a, inertia_a, *place_a = numbers[9:16]
+    mass_b, inertia_b, *place_b = numbers[16:]
+    body_a = mass_a, inertia_a, speed_a * courses[0], speed_a * courses[1], *place_a
+    body_b = mass_b, inertia_b, speed_b * courses[2], speed_b * courses[3], *place_b
+    raw = forward(e, nx, ny, bound, px, py, *body_a, *body_b, rule, law, False, False)
+    closing, slip = raw.closing_speed, raw.slip_before
+    normal, tangential, loss = raw.normal_impulse, raw.tangential_impulse, raw.energy_loss
+    if sticks:
+        normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
+        left = LAWS[law].sticking_slip(e)
+        loss = energy_losses(e, closing, slip, left * slip, (1.0 + left) * slip, 0.0, normal, tangential, None, EPS)[2]
+    whole = abs(speed_a) + abs(speed_b) + spinning
+    return Seen(
+        status=raw.status,
+        speed_a=speed_a,
+        speed_b=speed_b,
+        whole=whole,
+        closing=closing,
+        slip=slip,
+        normal=normal,
+        tangential=tangential,
+        lost=(1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
+        squared_impulse=normal * normal + tangential * tangential,
+        energy_loss=loss,
+        # What an incomplete impact absorbs it loses.
+        absorbed_energy=0.5 * closing * normal * select(e < 0.0, 1.0 - e, 1.0 / (1.0 + e)),
+        effective_mass=raw.effective_mass,
+        coupling=raw.coupling,
+    )
 
 
 @lru_cache(maxsize=16)
-def _float_function(rule: str, law: str) -> Callable[[Sequence[float]], Any]:
+def _observed_of_floats(sticks: bool, rule: str, law: str) -> Callable[[Sequence[float]], Seen | None]:
     """The same compiled for plain floats."""
-    return compile_for_floats(_forward, tuple(f"[{i}]" for i in range(24)), (rule, law))
+    return compile_for_floats(_observed, tuple(f"[{i}]" for i in range(4 + len(_FIXED))), (sticks, rule, law))
 
 
 class Scene:
@@ -89,43 +138,45 @@ class Scene:
     much faster; then a division by 0 raises, and it has to be worked out without.
     """
 
-    def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...], plain: bool = False) -> None:
-        self.given, self.rule, self.law, self.names = given, rule, law, kinds
-        self.kinds = tuple(_OBSERVED_AS.get(kind, kind) for kind in kinds)
-        masses = np.minimum(given["a.mass"], given["b.mass"])
-        sizes = [np.sqrt(given[kind]) / np.sqrt(masses) if kind == "energy_loss" else abs(given[kind]) for kind in kinds]
+    def __init__(
+        self,
+        given: dict[str, Any],
+        rule: str,
+        law: str,
+        names: tuple[str, ...],
+        shape: tuple[int, ...] = (),
+        plain: bool = False,
+    ) -> None:
+        self.rule, self.law, self.names, self.shape, self.plain = rule, law, names, shape, plain
+        self.kinds = tuple(_OBSERVED_AS.get(name, name) for name in names)
+        number: Callable[[Any], Any] = float if plain else partial(np.asarray, dtype=np.float64)
+        self.given = {name: number(value) for name, value in given.items()}
+        masses = np.minimum(self.given["a.mass"], self.given["b.mass"])
+        known = [(name, self.given[name]) for name in names]
+        sizes = [np.sqrt(value) / np.sqrt(masses) if name == "energy_loss" else abs(value) for name, value in known]
         self.mass_unit = _power_of_two(masses)
         self.speed_unit = _power_of_two(np.maximum.reduce(np.broadcast_arrays(*sizes)))
-        self.numbers = {name: self._in_units(name, value) for name, value in given.items()}
-        self.e, self.bound = given["restitution"], given[rule]
-        v: dict[str, Any] = {name: float(value) for name, value in self.numbers.items()} if plain else self.numbers
-        self.plain = plain
-        self.courses = [[v[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"]
-        bodies = (v.get(f"{label}.{name}", 0.0) for label in "ab" for name in NUMBERS)
-        self.at_rest = [v["restitution"], v["normal[0]"], v["normal[1]"], v[rule], v["point[0]"], v["point[1]"], *bodies]
-        self.targets = {kind: self._target(name) for kind, name in zip(self.kinds, kinds, strict=True)}
-        if self.plain:
-            self.targets = {kind: float(target) for kind, target in self.targets.items()}
-        self.spinning = sum(
-            abs(self.numbers[f"{label}.yaw_rate"])
-            * np.hypot(*(given[f"point[{i}]"] - given[f"{label}.{x}"] for i, x in enumerate("xy")))
-            for label in "ab"
-        )
+        if plain:
+            self.mass_unit, self.speed_unit = float(self.mass_unit), float(self.speed_unit)
+        self.numbers = v = {name: self._in_units(name, value) for name, value in self.given.items()}
+        arms = {label: np.hypot(*(v[f"point[{i}]"] - v[f"{label}.{x}"] for i, x in enumerate("xy"))) for label in "ab"}
+        spinning = number(sum(abs(v[f"{label}.yaw_rate"]) * arm for label, arm in arms.items()))
+        self.fixed = [spinning if name == "spinning" else v[name] for name in _FIXED]
+        self.e, self.bound = v["restitution"], v[rule]
+        self.targets = {kind: number(self._target(name)) for kind, name in zip(self.kinds, names, strict=True)}
         # Whether backward roots are left out.
         self.forward_only = False
-        if plain:
-            self.e, self.bound, self.spinning = float(self.e), float(self.bound), float(self.spinning)
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
-        zero, one = np.zeros(()), np.ones(())
-        seen = [self.observe(_STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
-        self.rest = {name: seen[0][name] for name in ("closing", "slip")}
-        self.per_speed = {name: tuple(part[name] - self.rest[name] for part in seen[1:]) for name in self.rest}
 
-    def of(self, case: Any, shape: tuple[int, ...]) -> Scene:
+    def of(self, cases: Any) -> Scene:
         """The scene of some cases, by their places in the flattened batch."""
-        flat = {name: np.broadcast_to(value, shape).reshape(-1)[case] for name, value in self.given.items()}
-        return Scene(flat, self.rule, self.law, self.names)
+        given = {name: self.flat(value)[cases] for name, value in self.given.items()}
+        return Scene(given, self.rule, self.law, self.names, np.shape(cases))
+
+    def flat(self, value: Any) -> Any:
+        """A value of every case, one after another."""
+        return np.broadcast_to(value, self.shape).reshape(-1)
 
     def _in_units(self, name: str, value: Any) -> Any:
         kind = name.rpartition(".")[2]
@@ -135,13 +186,13 @@ class Scene:
             return value / self.mass_unit / self.speed_unit / self.speed_unit
         return value / self.speed_unit if kind.startswith(("speed", "delta_v", "ees", "max_crush", "yaw_rate")) else value
 
-    def _target(self, kind: str) -> Any:
+    def _target(self, name: str) -> Any:
         """The observed value in the form that is quadratic in the speeds."""
-        value = self.numbers[kind]
-        if kind.startswith("delta_v"):
-            return (self.numbers[f"{kind[-1]}.mass"] * value) ** 2
-        if kind in PAIRS:
-            return energy_of_speeds(self.numbers["a.mass"], value, self.numbers["b.mass"], self.numbers[PAIRS[kind]])
+        value = self.numbers[name]
+        if name.startswith("delta_v"):
+            return (self.numbers[f"{name[-1]}.mass"] * value) ** 2
+        if name in PAIRS:
+            return energy_of_speeds(self.numbers["a.mass"], value, self.numbers["b.mass"], self.numbers[PAIRS[name]])
         return value
 
     def shares_critical(self) -> bool:
@@ -153,94 +204,53 @@ class Scene:
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
-            return [np.where(self.bound == 0.0, 0.0, np.nan), _STICK, *([_SHARE] if self.shares_critical() else [])]
+            return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *([_SHARE] if self.shares_critical() else [])]
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
-        return [finite, select(self.bound > 0.0, -finite, np.nan), _STICK]
+        return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
 
-    def run(self, speed_a: Any, speed_b: Any, e: Any, rule: str, bound: Any) -> Any:
-        """The forward kernel at these speeds."""
-        if self.plain:
-            numbers = self._of_forward(float(speed_a), float(speed_b), float(e), float(bound))
-            found = _float_function(rule, self.law)(numbers)
-            if found is not None:
-                return found
-        return _forward(*self._of_forward(speed_a, speed_b, e, bound), rule, self.law)
-
-    def _of_forward(self, speed_a: Any, speed_b: Any, e: Any, bound: Any) -> list[Any]:
-        """The numbers that the forward kernel takes, in their order."""
-        found = self.at_rest.copy()
-        found[0], found[3] = e, bound
-        for start, speed, (cx, cy) in zip((8, 17), (speed_a, speed_b), self.courses, strict=True):
-            found[start : start + 2] = speed * cx, speed * cy
-        return found
-
-    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> dict[str, Any]:
-        """The observations at these speeds if the contact is in this regime; times its weight, a polynomial of them."""
-        if not isinstance(regime, str):
-            return self._seen(self.run(speed_a, speed_b, e, IMPULSE_RATIO, regime), speed_a, speed_b, e)
-        raw = self.run(speed_a, speed_b, e, FRICTION, 0.0)
-        normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
+    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> Seen:
+        """The observations at these speeds if the contact is in this regime, or in the one that the law leads to."""
         if regime is _SHARE:
-            shared = self.bound * tangential
-            weight = (normal + shared * (raw.coupling * raw.effective_mass)) ** 2
-            return self.observe(shared / normal, speed_a, speed_b, e) | {"weight": weight}
-        left = LAWS[self.law].sticking_slip(e)
-        slips = (raw.slip_before, left * raw.slip_before, (1.0 + left) * raw.slip_before, 0.0)
-        loss = energy_losses(e, raw.closing_speed, *slips, normal, tangential, None, EPS)[2]
-        return self._seen(raw, speed_a, speed_b, e, (normal, tangential, loss))
+            stuck = self.observe(STICK, speed_a, speed_b, e)
+            shared = self.bound * stuck.tangential
+            weight = (stuck.normal + shared * (stuck.coupling * stuck.effective_mass)) ** 2
+            return self.observe(shared / stuck.normal, speed_a, speed_b, e)._replace(weight=weight)
+        rule, bound = IMPULSE_RATIO, regime
+        if isinstance(regime, str):
+            rule, bound = (FRICTION, 0.0) if regime is STICK else (self.rule, self.bound)
+        settings = regime is STICK, rule, self.law
+        if not self.plain:
+            return _observed(speed_a, speed_b, e, bound, *self.fixed, *settings)
+        numbers: list[Any] = [float(speed_a), float(speed_b), float(e), float(bound), *self.fixed]
+        return _observed_of_floats(*settings)(numbers) or _observed(*numbers, *settings)
 
-    def outcome(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, dict[str, Any]]:
-        """Status and observations at these speeds under the given law."""
-        raw = self.run(speed_a, speed_b, e, self.rule, self.bound)
-        return raw.status, self._seen(raw, speed_a, speed_b, e)
-
-    def _seen(self, raw: Any, speed_a: Any, speed_b: Any, e: Any, sticking: tuple[Any, ...] = ()) -> dict[str, Any]:
-        """What is seen of the forward answer; ``sticking`` has the impulse and the loss in place of its own."""
-        closing = raw.closing_speed
-        normal, tangential, loss = sticking or (raw.normal_impulse, raw.tangential_impulse, raw.energy_loss)
-        squared = normal * normal + tangential * tangential
-        if self.plain:
-            speed_a, speed_b, e = float(speed_a), float(speed_b), float(e)
-        whole = abs(speed_a) + abs(speed_b) + self.spinning
-        return {
-            "weight": 1.0,
-            "closing": closing,
-            "slip": raw.slip_before,
-            "whole": whole,
-            "normal": normal,
-            "tangential": tangential,
-            "impulse": math.sqrt(squared) if type(squared) is float else np.sqrt(squared),
-            # The terms of the loss, with each contact velocity as large as the velocities it is the difference of.
-            "lost": (1.0 - e) * closing * normal + abs(tangential) * (whole + abs(raw.slip_after)),
-            "speed_a": speed_a,
-            "speed_b": speed_b,
-            "delta_v_a": squared,
-            "delta_v_b": squared,
-            "energy_loss": loss,
-            # What an incomplete impact absorbs it loses.
-            "max_crush_speed_a": 0.5 * closing * normal * select(e < 0.0, 1.0 - e, 1.0 / (1.0 + e)),
-        }
+    @cached_property
+    def _linear(self) -> tuple[Seen, tuple[Any, Any], tuple[Any, Any]]:
+        """What is seen of vehicles that do not move, and the closing speed and the slip per unit of each speed."""
+        zero, one = np.zeros(()), np.ones(())
+        rest, by_a, by_b = (self.observe(STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one)))
+        return rest, (by_a.closing - rest.closing, by_b.closing - rest.closing), (by_a.slip - rest.slip, by_b.slip - rest.slip)
 
     def speeds_at(self, closing: Any, slip: Any) -> tuple[Any, Any]:
         """The speeds along the courses that give this closing speed and slip; NaN for parallel courses."""
-        (ga, gb), (sa, sb) = self.per_speed["closing"], self.per_speed["slip"]
+        rest, (ga, gb), (sa, sb) = self._linear
         crossed = ga * sb - gb * sa
         crossed = np.where(abs(crossed) <= 64.0 * EPS * (np.hypot(ga, sa) * np.hypot(gb, sb)), np.nan, crossed)
-        g, s = closing - self.rest["closing"], slip - self.rest["slip"]
+        g, s = closing - rest.closing, slip - rest.slip
         return (g * sb - s * gb) / crossed, (s * ga - g * sa) / crossed
 
-    def roots(self, e: Any = None, polish: int = _NEWTON_STEPS, slope: Callable[[Any], Any] | None = None) -> list[Root]:
-        """All candidates of every regime, before ``fits`` checks them against the law.
+    def roots(self, e: Any = None, polish: bool = True, function: RestitutionOf | None = None) -> list[Root]:
+        """The candidates of every regime, before ``fits`` checks them against the law.
 
-        ``slope`` is the change of restitution with the closing speed, where there is one.
+        ``function`` gives the restitution by the closing speed, where it is no number.
         """
         e = self.e if e is None else e
         self.undetermined = np.zeros((), dtype=bool)
-        found: list[Root] = []
-        for regime in self.regimes():
-            pairs = self._on_a_line(regime, e) if self.kinds[0].startswith("speed") else self._crossing(regime, e)
-            found += [self._polished(regime, e, *pair, polish, slope) for pair in pairs]
-        return found
+        find = self._on_a_line if self.kinds[0].startswith("speed") else self._crossing
+        pairs = [(regime, e, *pair) for regime in self.regimes() for pair in find(regime, e)]
+        if not polish:
+            return [Root(speed_a, speed_b, e, np.nan) for _, _, speed_a, speed_b in pairs]
+        return [root for pair in pairs if (root := self._polished_where_likely(*pair, function)) is not None]
 
     def _with_known_speed(self, other: Any) -> tuple[Any, Any]:
         """Both speeds, where one is known."""
@@ -252,87 +262,95 @@ class Scene:
         fixed, kind = self.kinds
         target = self.targets[kind]
 
-        def seen(x: Any) -> dict[str, Any]:
+        def seen(x: Any) -> Seen:
             return self.observe(regime, *self._with_known_speed(x), e)
 
         def excess(x: Any) -> Any:
             here = seen(x)
-            return (here[kind] - target) * here["weight"]
+            return (getattr(here, kind) - target) * here.weight
 
         # The step: the speeds at 0, plus the unknown speed that reaches the target if its effect grows from that of one unit.
         rest, one = seen(np.zeros(())), seen(np.ones(()))
-        needed = np.sqrt(abs(target / (one[kind] - rest[kind])))
-        step = abs(self.targets[fixed]) + abs(rest["closing"]) + abs(rest["slip"])
-        step = step + np.where(np.isfinite(needed), needed, 0.0)
+        needed = np.sqrt(abs(target / (getattr(one, kind) - getattr(rest, kind))))
+        step = abs(self.targets[fixed]) + abs(rest.closing) + abs(rest.slip) + np.where(np.isfinite(needed), needed, 0.0)
         xs = _roots(regime, excess, np.where(step > 0.0, step, 1.0))
-        flat = [abs(here[kind] - target) <= _observation_rounding(kind, here) for here in (rest, one)]
+        flat = [abs(getattr(part, kind) - target) <= _observation_rounding(kind, part) for part in (rest, one)]
         if np.any(flat[0] & flat[1]):
             self.undetermined = self.undetermined | self._any_speed_fits(regime, e)
         return [self._with_known_speed(x) for x in xs]
 
-    def _per_closing(self, regime: Any, slip: Any, e: Any) -> dict[str, Any]:
-        """The observations at unit closing speed and this slip."""
-        return self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
-
     def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         k1, k2 = self.kinds
-        c1, c2 = self.targets[k1], self.targets[k2]
+        c1, c2 = self.targets.values()
         # Where both observations depend on slip alike, every slip fits, or none.
-        samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
-        alike = self._redundant(c1, c2, samples) | np.logical_and.reduce(
-            [
-                abs(c2 * seen[k1] - c1 * seen[k2])
-                <= c2 * _observation_rounding(k1, seen) + c1 * _observation_rounding(k2, seen)
-                for seen in samples
-            ]
-        )
-        any_slip = alike & self._can_occur(regime) & ((c1 > 0.0) | (c2 > 0.0))
+        samples = self._samples(regime, e)
+        rounding = [c2 * _observation_rounding(k1, seen) + c1 * _observation_rounding(k2, seen) for seen in samples]
+        apart = [abs(c2 * getattr(seen, k1) - c1 * getattr(seen, k2)) for seen in samples]
+        alike = np.logical_and.reduce([off <= least for off, least in zip(apart, rounding, strict=True)])
+        any_slip = (self._redundant(c1, c2, samples) | alike) & self._can_occur(regime) & ((c1 > 0.0) | (c2 > 0.0))
         self.undetermined = self.undetermined | any_slip
 
         def difference(ratio: Any) -> Any:
             seen = self._per_closing(regime, ratio, e)
-            return np.where(any_slip, np.nan, (c2 * seen[k1] - c1 * seen[k2]) * seen["weight"])
+            return np.where(any_slip, np.nan, (c2 * getattr(seen, k1) - c1 * getattr(seen, k2)) * seen.weight)
 
         pairs = []
         for ratio in _roots(regime, difference, np.ones(())):
             seen = self._per_closing(regime, ratio, e)
-            closing = np.sqrt(np.where(c1 > 0.0, c1 / seen[k1], c2 / seen[k2]))
+            closing = np.sqrt(np.where(c1 > 0.0, c1 / getattr(seen, k1), c2 / getattr(seen, k2)))
             pairs.append(self.speeds_at(closing, ratio * closing))
         return pairs
 
-    def any_slip_at(self, regime: Any, e: Any) -> tuple[Any, Any]:
-        """For two observations that depend on slip alike: their relative difference, and the closing speed."""
-        k1, k2 = self.kinds
-        samples = [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
-        q1, q2 = samples[1][k1], samples[1][k2]
-        of_first, of_second = self.targets[k2] * q1, self.targets[k1] * q2
-        apart = (of_first - of_second) / (abs(of_first) + abs(of_second))
-        return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(self.targets[k1] / q1)
+    def _per_closing(self, regime: Any, slip: Any, e: Any) -> Seen:
+        """The observations at unit closing speed and this slip."""
+        return self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
 
-    def _redundant(self, p1: Any, p2: Any, samples: Sequence[dict[str, Any]]) -> Any:
+    def _samples(self, regime: Any, e: Any) -> list[Seen]:
+        return [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
+
+    def _redundant(self, p1: Any, p2: Any, samples: Sequence[Seen]) -> Any:
         """Whether both observations have the ratio p1 to p2 at every slip."""
         k1, k2 = self.kinds
-        scale = sum(abs(p2 * seen[k1]) + abs(p1 * seen[k2]) for seen in samples)
-        return np.logical_and.reduce([abs(p2 * seen[k1] - p1 * seen[k2]) <= REDUNDANT * scale for seen in samples])
+        pairs = [(p2 * getattr(seen, k1), p1 * getattr(seen, k2)) for seen in samples]
+        scale = sum(abs(one) + abs(other) for one, other in pairs)
+        return np.logical_and.reduce([abs(one - other) <= REDUNDANT * scale for one, other in pairs])
 
-    def _polished(
-        self, regime: Any, e: Any, speed_a: Any, speed_b: Any, steps: int, slope: Callable[[Any], Any] | None
-    ) -> Root:
-        """Newton's method on the kernel, with central differences for its derivatives."""
+    def any_slip_at(self, regime: Any, e: Any) -> tuple[Any, Any]:
+        """For two observations that depend on slip alike: their relative difference, and the closing speed."""
+        c1, c2 = self.targets.values()
+        samples = self._samples(regime, e)
+        q1, q2 = (getattr(samples[1], kind) for kind in self.kinds)
+        of_first, of_second = c2 * q1, c1 * q2
+        apart = (of_first - of_second) / (abs(of_first) + abs(of_second))
+        return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(c1 / q1)
+
+    def _polished_where_likely(
+        self, regime: Any, e: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None
+    ) -> Root | None:
+        """The root polished in those cases in which the law leads to this regime, or nearly; in others NaN, of floats None."""
+        here, seen = (self.observe(which, speed_a, speed_b, e) for which in (regime, LAW))
+        apart = abs(here.normal - seen.normal) + abs(here.tangential - seen.tangential)
+        near = _UNPOLISHED * here.whole
+        led = (here.closing > 0.0) & (apart <= _IMPULSE_UNPOLISHED * abs(here.normal) + here.effective_mass * near)
+        likely = led | (abs(here.closing) <= near)
         if self.plain:
-            speed_a, speed_b, e = float(speed_a), float(speed_b), float(e)
-            if not math.isfinite(speed_a + speed_b):
-                steps = 0
-        condition: Any = np.nan
-        slopes: tuple[Any, ...] = (0.0, 0.0)
-        rows: list[tuple[Any, Any]] = []
-        here = self.observe(regime, speed_a, speed_b, e) if steps or slope is not None else {}
-        for _ in range(steps):
-            size = _STEP * (abs(speed_a) + abs(speed_b) + abs(here["closing"]))
-            rows = self._derivatives(regime, e, speed_a, speed_b, size)
+            return self._polished(regime, e, float(speed_a), float(speed_b), None) if likely else None
+        cases = np.flatnonzero(self.flat(likely))
+        whole = np.full((len(Root._fields), math.prod(self.shape)), np.nan)
+        if cases.size:
+            e, speed_a, speed_b = (self.flat(part)[cases] for part in (e, speed_a, speed_b))
+            regime = regime if isinstance(regime, str) else self.flat(regime)[cases]
+            whole[:, cases] = self.of(cases)._polished(regime, e, speed_a, speed_b, function)
+        return Root._make(whole.reshape(-1, *self.shape))
+
+    def _polished(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None) -> Root:
+        """Newton's method on the kernel, with central differences for its derivatives."""
+        here = self.observe(regime, speed_a, speed_b, e)
+        for _ in range(_NEWTON_STEPS):
+            rows = self._derivatives(regime, e, speed_a, speed_b, _STEP * (abs(speed_a) + abs(speed_b) + abs(here.closing)))
             (j11, j12), (j21, j22) = rows
-            r1, r2 = (here[kind] - self.targets[kind] for kind in self.kinds)
+            r1, r2 = (getattr(here, kind) - target for kind, target in self.targets.items())
             determinant = j11 * j22 - j12 * j21
             step_a, step_b = (r1 * j22 - r2 * j12) / determinant, (r2 * j11 - r1 * j21) / determinant
             ahead = self.observe(regime, speed_a - step_a, speed_b - step_b, e)
@@ -341,43 +359,43 @@ class Scene:
             usable = (step_a - step_a == 0.0) & (step_b - step_b == 0.0) & (away ^ True)
             speed_a = speed_a - select(usable, step_a, 0.0)
             speed_b = speed_b - select(usable, step_b, 0.0)
-            here = ahead if usable is True else {name: select(usable, ahead[name], here[name]) for name in ahead}
-            slopes = (abs(j11) + abs(j12), abs(j21) + abs(j22))
-            condition = self._condition(rows, here["closing"])
             if usable is False:
                 break
-        if slope is not None:
+            here = ahead if usable is True else Seen._make(select(usable, *pair) for pair in zip(ahead, here, strict=True))
+        condition = self._condition(rows, here.closing)
+        if function is not None:
             # The restitution changes with the closing speed, and the observations with it.
             after, before = (self.observe(regime, speed_a, speed_b, e + step) for step in (_STEP, -_STEP))
-            e_by_closing = slope(here["closing"])
-            by_e = [e_by_closing * (after[kind] - before[kind]) / (2.0 * _STEP) for kind in self.kinds]
-            g_a, g_b = self.per_speed["closing"]
+            e_by_closing = self.speed_unit * function.slope(self.speed_unit * here.closing)
+            by_e = [e_by_closing * (getattr(after, kind) - getattr(before, kind)) / (2.0 * _STEP) for kind in self.kinds]
+            g_a, g_b = self._linear[1]
             whole = [(j_a + by * g_a, j_b + by * g_b) for (j_a, j_b), by in zip(rows, by_e, strict=True)]
-            condition = self._condition(whole, here["closing"])
-        return Root(speed_a, speed_b, e, condition, slopes)
-
-    def _off(self, seen: dict[str, Any], here: dict[str, Any]) -> Any:
-        """Largest relative residual of both observations.
-
-        An energy loss is measured against closing speed times normal impulse.
-        """
-        whole = abs(here["closing"] * here["normal"])
-        sizes = [abs(here[k]) + abs(self.targets[k]) + (whole if k == "energy_loss" else 0.0) for k in self.kinds]
-        return larger(*(abs(seen[k] - self.targets[k]) / size for k, size in zip(self.kinds, sizes, strict=True)))
+            condition = self._condition(whole, here.closing)
+        return Root(speed_a, speed_b, e, condition, abs(j11) + abs(j12), abs(j21) + abs(j22))
 
     def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
         """Derivatives of each observation by both speeds."""
         ahead_a, behind_a = (self.observe(regime, speed_a + h, speed_b, e) for h in (size, -size))
         ahead_b, behind_b = (self.observe(regime, speed_a, speed_b + h, e) for h in (size, -size))
-        return [
-            ((ahead_a[kind] - behind_a[kind]) / (2.0 * size), (ahead_b[kind] - behind_b[kind]) / (2.0 * size))
-            for kind in self.kinds
-        ]
+        pairs = (ahead_a, behind_a), (ahead_b, behind_b)
+        return [tuple((getattr(x, kind) - getattr(y, kind)) / (2.0 * size) for x, y in pairs) for kind in self.kinds]
+
+    def _off(self, seen: Seen, here: Seen) -> Any:
+        """Largest relative residual of both observations; an energy loss is measured against closing speed times impulse."""
+        whole = abs(here.closing * here.normal)
+        offs: list[Any] = []
+        for kind, target in self.targets.items():
+            size = abs(getattr(here, kind)) + abs(target) + (whole if kind == "energy_loss" else 0.0)
+            offs.append(abs(getattr(seen, kind) - target) / size)
+        return larger(*offs)
 
     def _condition(self, rows: Sequence[Sequence[Any]], closing: Any) -> Any:
         """Condition: the factor by which relative input errors grow in the speeds, taken relative to the closing speed."""
         (j11, j12), (j21, j22) = rows
-        d1, d2 = ((2.0 if kind.startswith(_SQUARED) else 1.0) * abs(self.targets[kind]) for kind in self.kinds)
+        d1, d2 = (
+            (2.0 if kind in ("squared_impulse", "absorbed_energy") else 1.0) * abs(target)
+            for kind, target in self.targets.items()
+        )
         moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
@@ -388,42 +406,33 @@ class Scene:
         the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
         grows beyond the observation itself and tells nothing: there a part of the observation is the bound.
         """
-        raw = self.run(root.speed_a, root.speed_b, root.restitution, self.rule, self.bound)
-        seen = self._seen(raw, root.speed_a, root.speed_b, root.restitution)
-        fits = self.pushed(raw, root.speed_a, root.speed_b)
-        for kind, slope in zip(self.kinds, root.slopes, strict=True):
-            scale = parts = seen["whole"] if kind.startswith("speed") else seen[kind]
+        seen = self.observe(LAW, root.speed_a, root.speed_b, root.restitution)
+        fits = pushed(seen)
+        for (kind, target), slope in zip(self.targets.items(), root[4:], strict=True):
+            scale = parts = seen.whole if kind.startswith("speed") else getattr(seen, kind)
             if kind == "energy_loss":
-                scale = seen["closing"] * seen["normal"]
+                scale = seen.closing * seen.normal
                 # Where friction makes the loss touch its minimum, speeds are accurate only to the square root of rounding.
-                parts = seen["lost"] + np.where(self.bound == 0.0, 0.0, scale)
-            rounding = _KERNEL_ROUNDING * (slope * seen["whole"] + parts)
-            fits = fits & (abs(seen[kind] - self.targets[kind]) <= np.minimum(rounding, ROOT_TOL * scale))
-        return fits, seen["closing"]
-
-    def pushed(self, raw: Any, speed_a: Any, speed_b: Any) -> Any:
-        """Whether these speeds are answered, with a closing speed beyond rounding.
-
-        A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding
-        makes of such large speeds counts as 0.
-        """
-        whole = abs(speed_a) + abs(speed_b) + self.spinning
-        return (raw.status <= Status.ENERGY_GAIN) & (raw.closing_speed > _KERNEL_ROUNDING * whole)
+                parts = seen.lost + np.where(self.bound == 0.0, 0.0, scale)
+            rounding = _KERNEL_ROUNDING * (slope * seen.whole + parts)
+            fits = fits & (abs(getattr(seen, kind) - target) <= np.minimum(rounding, ROOT_TOL * scale))
+        return fits, seen.closing
 
     def _can_occur(self, regime: Any) -> Any:
         """Whether the law allows a regime: no sticking without friction, nor with less than the critical ratio."""
-        if regime is _STICK:
+        if regime is STICK:
             return self.bound == 1.0 if self.rule == CRITICAL_FRACTION else self.bound > 0.0
         return True
 
     def _any_speed_fits(self, regime: Any, e: Any) -> Any:
         """With one speed known: whether every other speed in this regime gives the same observation, and the one observed."""
-        size = abs(self.targets[self.kinds[0]]) + abs(self.rest["closing"]) + abs(self.rest["slip"])
+        rest = self._linear[0]
+        size = abs(self.targets[self.kinds[0]]) + abs(rest.closing) + abs(rest.slip)
         size = np.where(size > 0.0, size, 1.0)
         low: Any = np.full((), -np.inf)
         high: Any = np.full((), np.inf)
-        raws = (self.run(*self._with_known_speed(x), e, FRICTION, 0.0) for x in (-size, size))
-        for behind, ahead in zip(*(self._conditions(regime, raw) for raw in raws), strict=True):
+        seen = (self.observe(STICK, *self._with_known_speed(x), e) for x in (-size, size))
+        for behind, ahead in zip(*(self._conditions(regime, one) for one in seen), strict=True):
             # Each is linear in the speed, so it changes sign at one place.
             middle = size * (behind + ahead) / (behind - ahead)
             low = np.where(ahead > behind, np.maximum(low, middle), low)
@@ -435,32 +444,31 @@ class Scene:
         places = [self._with_known_speed(low + part * (high - low)) for part in _PARTS]
         return self._can_occur(regime) & wide & self._all_fit(e, places)
 
-    def _conditions(self, regime: Any, raw: Any) -> list[Any]:
+    def _conditions(self, regime: Any, stuck: Seen) -> list[Any]:
         """The expressions that must be positive for the law to lead to a regime."""
-        closing, normal, tangential = raw.closing_speed, raw.no_slip_normal, raw.no_slip_tangential
         if self.rule == IMPULSE_RATIO:
-            return [closing]
+            return [stuck.closing]
         if self.rule == CRITICAL_FRACTION:
-            return [closing, np.where(self.bound > 0.0, normal, 1.0)]
+            return [stuck.closing, np.where(self.bound > 0.0, stuck.normal, 1.0)]
         endless = np.isinf(self.bound)
-        most = np.where(endless, 1.0, self.bound) * normal
-        across = np.where(endless, 0.0, tangential)
-        if regime is _STICK:
-            return [closing, most - across, most + across]
-        return [closing, np.where(self.bound > 0.0, np.copysign(1.0, regime) * across - most, 1.0)]
+        most = np.where(endless, 1.0, self.bound) * stuck.normal
+        across = np.where(endless, 0.0, stuck.tangential)
+        if regime is STICK:
+            return [stuck.closing, most - across, most + across]
+        return [stuck.closing, np.where(self.bound > 0.0, np.copysign(1.0, regime) * across - most, 1.0)]
 
     def one_of_many(self, root: Root) -> Any:
         """Whether the speeds on one side of a root also give the observed values: a continuous range of solutions."""
-        e = root.restitution
-        size = abs(root.speed_a) + abs(root.speed_b) + self.spinning
+        speed_a, speed_b, e, *_ = root
+        size = abs(speed_a) + abs(speed_b) + self.fixed[0]
         many: Any = False
         for side in (-_BESIDE, _BESIDE):
-            pairs = [(root.speed_a, root.speed_b)]
+            pairs = [(speed_a, speed_b)]
             for moved in (0.5 * side * size, side * size):
                 if self.kinds[0] == "speed_b":
-                    pairs.append((root.speed_a + moved, root.speed_b))
+                    pairs.append((speed_a + moved, speed_b))
                 else:
-                    beside = (root.speed_a, root.speed_b + moved)
+                    beside = (speed_a, speed_b + moved)
                     pairs.append(beside if self.kinds[0] == "speed_a" else self._scaled(*beside, e))
             many = many | self._all_fit(e, pairs)
         return many
@@ -468,9 +476,9 @@ class Scene:
     def _scaled(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, Any]:
         """The speeds, scaled at the same slip per closing speed, that give the observation that is not a loss."""
         kind = self.kinds[1] if self.kinds[0] == "energy_loss" else self.kinds[0]
-        seen = self.outcome(speed_a, speed_b, e)[1]
-        factor = np.sqrt(self.targets[kind] / seen[kind])
-        return self.speeds_at(factor * seen["closing"], factor * seen["slip"])
+        seen = self.observe(LAW, speed_a, speed_b, e)
+        factor = np.sqrt(self.targets[kind] / getattr(seen, kind))
+        return self.speeds_at(factor * seen.closing, factor * seen.slip)
 
     def _all_fit(self, e: Any, pairs: Sequence[tuple[Any, Any]]) -> Any:
         """Whether the law leads from all these speeds to the observed values, and to the same value from each.
@@ -479,21 +487,31 @@ class Scene:
         is known to that of the energies lost alone: close to a restitution of 1 it tells amounts apart that are far smaller.
         """
         fit: Any = True
-        first: dict[str, Any] = {}
-        for speed_a, speed_b in pairs:
-            status, seen = self.outcome(speed_a, speed_b, e)
+        first: Seen | None = None
+        for pair in pairs:
+            seen = self.observe(LAW, *pair, e)
             first = first or seen
-            fit = fit & (status <= Status.ENERGY_GAIN)
-            for kind in self.kinds:
+            fit = fit & (seen.status <= Status.ENERGY_GAIN)
+            for kind, target in self.targets.items():
                 if kind.startswith("speed"):
                     continue
-                rounding = _observation_rounding(kind, seen)
-                within = _KERNEL_ROUNDING * (seen["lost"] + first["lost"])
+                value, of_first, rounding = getattr(seen, kind), getattr(first, kind), _observation_rounding(kind, seen)
+                within = _KERNEL_ROUNDING * (seen.lost + first.lost)
                 if kind != "energy_loss":
                     within = rounding + _observation_rounding(kind, first)
-                fit = fit & (abs(seen[kind] - self.targets[kind]) <= rounding)
-                fit = fit & (abs(seen[kind] - first[kind]) <= within)
+                fit = fit & (abs(value - target) <= rounding) & (abs(value - of_first) <= within)
+            if not np.any(fit):
+                break
         return fit
+
+
+def pushed(seen: Seen) -> Any:
+    """Whether these speeds are answered, with a closing speed beyond rounding.
+
+    A course at a right angle to the normal, in radians, leaves a cosine of 1e-16: a closing speed that is what rounding makes
+    of such large speeds counts as 0.
+    """
+    return (seen.status <= Status.ENERGY_GAIN) & (seen.closing > _KERNEL_ROUNDING * seen.whole)
 
 
 def _power_of_two(size: Any) -> Any:
@@ -502,14 +520,14 @@ def _power_of_two(size: Any) -> Any:
     return np.ldexp(1.0, np.frexp(np.where(usable, size, 1.0))[1] - 1)
 
 
-def _observation_rounding(kind: str, seen: dict[str, Any]) -> Any:
+def _observation_rounding(kind: str, seen: Seen) -> Any:
     """Worst rounding error of an observation that was itself computed from speeds.
 
     An energy that is the difference of those before and after is known to the rounding of the impulse times the speeds.
     """
     if kind == "energy_loss":
-        return _KERNEL_ROUNDING * seen["impulse"] * seen["whole"]
-    return 2.0 * _KERNEL_ROUNDING * seen[kind] * (seen["whole"] / abs(seen["closing"]))
+        return _KERNEL_ROUNDING * seen.impulse * seen.whole
+    return 2.0 * _KERNEL_ROUNDING * getattr(seen, kind) * (seen.whole / abs(seen.closing))
 
 
 def _roots(regime: Any, at: Callable[[Any], Any], step: Any) -> Sequence[Any]:

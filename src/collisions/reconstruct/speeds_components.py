@@ -8,7 +8,7 @@ speed that is given is taken as exact.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,8 @@ from ..errors import IllConditionedWarning
 from ..kernels.contact_laws import FRICTION
 from ..reference import RECORDER_ACCURACY
 from ..warning import warn_of_cases
-from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
+from .restitution_roots import RestitutionOf
+from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, pushed
 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond so many times the stated accuracy the known values contradict each other.
@@ -31,23 +32,25 @@ _REFINEMENTS = 3
 class ComponentScene(Scene):
     """Two vehicles whose speeds are unknown, components of delta-V in their own axes, and perhaps a speed."""
 
-    def __init__(self, given: dict[str, Any], rule: str, law: str, kinds: tuple[str, ...]) -> None:
-        super().__init__(given, rule, law, kinds)
-        self.components = [kind for kind in kinds if kind.startswith("delta_v")]
-        self.unknown = [at for at, label in enumerate("ab") if f"speed_{label}" not in kinds]
+    def __init__(
+        self, given: dict[str, Any], rule: str, law: str, names: tuple[str, ...], shape: tuple[int, ...], plain: bool = False
+    ) -> None:
+        super().__init__(given, rule, law, names, shape)
+        self.components = [name for name in names if name.startswith("delta_v")]
+        self.unknown = [at for at, label in enumerate("ab") if f"speed_{label}" not in names]
         self.misfit: Any = np.full((), np.nan)
         self.near_sliding: Any = np.zeros((), dtype=bool)
-        nx, ny = given["normal[0]"], given["normal[1]"]
+        nx, ny = self.given["normal[0]"], self.given["normal[1]"]
         self._axes, self._momenta = [], []
         for kind in self.components:
             label = kind[-1]
-            fx, fy = Angle(given[f"{label}.heading"], False).direction
+            fx, fy = Angle(self.given[f"{label}.heading"], False).direction
             ax, ay = (fx, fy) if "forward" in kind else (-fy, fx)
             sign = 1.0 if label == "b" else -1.0
             self._axes.append((sign * (nx * ax + ny * ay), sign * (nx * ay - ny * ax)))
             self._momenta.append(self.numbers[f"{label}.mass"] * self.numbers[kind])
 
-    def roots(self, e: Any = None, polish: int = 0, slope: Callable[[Any], Any] | None = None) -> list[Root]:
+    def roots(self, e: Any = None, polish: bool = True, function: RestitutionOf | None = None) -> list[Root]:
         """The answer with the least misfit that the law leads to, or all that fit exactly; NaN in place of others."""
         e = self.e if e is None else e
         self.undetermined = np.zeros((), dtype=bool)
@@ -58,7 +61,7 @@ class ComponentScene(Scene):
             usable = fits & ~stays_open & (rest <= _CONTRADICTION * ACCURACY)
             found.append(root._replace(speed_a=np.where(usable, root.speed_a, np.nan)))
             misfits.append(np.where(usable, rest, np.inf))
-            pushes = self._can_occur(regime) & (root.slopes[0] > 0.0)
+            pushes = self._can_occur(regime) & (root.slope_1 > 0.0)
             open_slip = np.fmin(open_slip, np.where(stays_open & pushes, rest, np.inf))
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
         for i, (root, rest) in enumerate(zip(found, misfits, strict=True)):
@@ -106,14 +109,13 @@ class ComponentScene(Scene):
             return []
         (at,) = self.unknown
         known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
-        *_, stick = self.regimes()
         found = []
         for sign in (1.0, -1.0):
 
             def beyond(*more: Any, sign: float = sign) -> Any:
                 speed_a, speed_b = (speed + change for speed, change in zip(known, more, strict=True))
-                seen = self.observe(stick, speed_a, speed_b, e)
-                return seen["tangential"] - sign * self.bound * seen["normal"]
+                seen = self.observe(STICK, speed_a, speed_b, e)
+                return seen.tangential - sign * self.bound * seen.normal
 
             one = [np.where(at == i, 1.0, 0.0) for i in range(2)]
             here, by_unknown, by_known = beyond(0.0, 0.0), beyond(*one), beyond(*one[::-1])
@@ -121,20 +123,20 @@ class ComponentScene(Scene):
             speeds = [speed + 0.0 * here for speed in known]
             speeds[at] = np.where(np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan)
             moved = abs((by_known - here) / slope * known[1 - at])
-            found.append((stick, *self._root(stick, speeds, e, moved), np.zeros((), dtype=bool)))
+            found.append((STICK, *self._root(STICK, speeds, e, moved), np.zeros((), dtype=bool)))
         return found
 
     def _root(self, regime: Any, speeds: Sequence[Any], e: Any, moved: Any) -> tuple[Root, Any]:
         """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse."""
         seen = self.observe(regime, speeds[0], speeds[1], e)
-        impulse = seen["normal"], seen["tangential"]
+        impulse = seen.normal, seen.tangential
         left = self._left(regime, speeds[0], speeds[1], e)
         misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(*impulse)
-        return Root(speeds[0], speeds[1], e, moved / abs(seen["closing"]), impulse), misfit
+        return Root(speeds[0], speeds[1], e, moved / abs(seen.closing), *impulse), misfit
 
     def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
         seen = self.observe(regime, speed_a, speed_b, e)
-        return [n * seen["normal"] + t * seen["tangential"] for n, t in self._axes]
+        return [n * seen.normal + t * seen.tangential for n, t in self._axes]
 
     def _left(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
         seen = self._seen_momenta(regime, speed_a, speed_b, e)
@@ -146,11 +148,10 @@ class ComponentScene(Scene):
 
     def fits(self, root: Root) -> tuple[Any, Any]:
         """Whether the given law leads from these speeds to the impulse of the root's regime, and the closing speed."""
-        raw = self.run(root.speed_a, root.speed_b, root.restitution, self.rule, self.bound)
-        normal, tangential = root.slopes
-        apart = abs(raw.normal_impulse - normal) + abs(raw.tangential_impulse - tangential)
-        fits = self.pushed(raw, root.speed_a, root.speed_b) & (apart <= ROOT_TOL * abs(normal))
-        return fits, raw.closing_speed
+        seen = self.observe(LAW, root.speed_a, root.speed_b, root.restitution)
+        normal, tangential = root[4:]
+        apart = abs(seen.normal - normal) + abs(seen.tangential - tangential)
+        return pushed(seen) & (apart <= ROOT_TOL * abs(normal)), seen.closing
 
     def warn(self, answered: Any) -> None:
         """Warn of answers whose known values differ beyond the stated accuracy, or that may have slid."""
