@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -24,7 +24,7 @@ from ..vehicle import Vehicle, missing, moved
 from ..warning import warn, warn_of_samples
 from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
-from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene
+from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
 
 # Above this restitution hardly any energy is lost along the normal.
@@ -174,34 +174,13 @@ def speeds(
         },
     )
     reader = ArgumentReader()
-    measured = {name: value for name, value in given.items() if name in components}
+    measured = [name for name in given if name in components]
     known = read_amounts(reader, {name: value for name, value in given.items() if name not in measured})
-    known |= {name: reader.number(value, "m/s", name) for name, value in measured.items()}
-    courses = {}
-    for label, angle, body in (("a", course_a, a), ("b", course_b, b)):
-        if angle is not None:
-            courses[label] = course(reader, angle, f"course_{label}")
-        elif np.any(np.not_equal(known.get(f"speed_{label}", np.nan), 0.0)):
-            reader.refuse(
-                MissingInputError(
-                    f"course_{label} is None, and speeds needs the course of every vehicle that moves; only a known speed of 0 "
-                    f"needs none",
-                    code="missing_course",
-                    argument=f"course_{label}",
-                )
-            )
-        else:
-            courses[label] = Angle(0.0, False)
-        if isinstance(body, Vehicle) and body.pivot is not None:
-            reader.refuse(
-                InputError(
-                    f"{label} has a pivot, so its velocity has no course of its own; use planar",
-                    code="pinned",
-                    argument="pivot",
-                )
-            )
-        if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in measured):
-            reader.refuse(missing(body, "heading", "a component of its delta-V", label))
+    known |= {name: reader.number(given[name], "m/s", name) for name in measured}
+    courses = {
+        label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), measured)
+        for label, body, angle in (("a", a, course_a), ("b", b, course_b))
+    }
     inputs, _ = read_inputs(
         "eccentric",
         a,
@@ -215,13 +194,6 @@ def speeds(
         (*known.values(), *(angle.value for angle in courses.values())),
         incomplete,
     )
-    if LAWS[inputs.law or BRACH].energetic:
-        raise InputError(
-            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not linear in the speeds; give "
-            f"another law, or fit a model with this one to what is known (reconstruct.fit)",
-            code="law_not_reversible",
-            argument="law",
-        )
     numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
@@ -229,45 +201,36 @@ def speeds(
         numbers |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
     cases = Cases.of(numbers)
     with np.errstate(all="ignore"):
-        _refuse_pairs(known, a, b)
+        _refuse_combinations(inputs, known, callable(restitution))
         function = RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0) if callable(restitution) else None
+        kind = ComponentScene if measured else Scene
         known_of = numbers, inputs.rule, inputs.law or BRACH, counted(given), cases.shape or ()
 
         def roots_of(scene: Scene) -> tuple[Scene, list[tuple[Root, Any]]]:
-            scene.forward_only = bool(forward_only)
-            if measured and (function is not None or scene.shares_critical()):
-                raise InputError(
-                    "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
-                    "friction=, friction=inf or impulse_ratio=",
-                    code="bad_combination",
-                    argument="restitution" if function is not None else "critical_fraction",
-                )
-            return scene, _in_order(scene, scene.roots() if function is None else _with_function(scene, function))
+            roots = scene.roots() if function is None else _with_function(scene, function)
+            return scene, _in_order(scene, roots, bool(forward_only))
 
         try:
-            plain = cases.shape is None and function is None
-            scene, found = roots_of(ComponentScene(*known_of) if measured else Scene(*known_of, plain))
+            scene, found = roots_of(kind(*known_of, plain=cases.shape is None and function is None))
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-            scene, found = roots_of(Scene(*known_of))
+            scene, found = roots_of(kind(*known_of))
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
-        return _answers(cases, scene, found, inputs, known, function)
+        return _answers(cases, scene, found, inputs, known, function, bool(forward_only))
 
 
 def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
     """What was given: two of the kinds of knowledge, or components, with speeds, two at least."""
-    if not components:
-        return exactly(known, 2, "speeds")
-    others = {name: value for name, value in known.items() if value is not None}
-    stray = [name for name in others if not name.startswith("speed")]
+    others = {name: value for name, value in known.items() if value is not None} if components else exactly(known, 2, "speeds")
+    if {"speed_a", "speed_b"} <= others.keys():
+        raise InputError(
+            "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
+        )
+    stray = [name for name in others if components and not name.startswith("speed")]
     if stray:
         raise InputError(
             f"{', '.join(components)} and {', '.join(stray)} are not taken together: beside components of delta-V give a speed",
             code="bad_combination",
             argument=stray[0],
-        )
-    if len(others) == 2:
-        raise InputError(
-            "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
         )
     if len(components) + len(others) < 2:
         raise InputError(
@@ -278,13 +241,39 @@ def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
     return others | components
 
 
-def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
-    if known.keys() == {"speed_a", "speed_b"}:
+def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, measured: Sequence[str]) -> Angle:
+    """The course of a vehicle, which needs none at rest; refuses a vehicle that has a pivot, or lacks the heading it needs."""
+    if given is None and np.any(np.not_equal(speed, 0.0)):
+        reader.refuse(
+            MissingInputError(
+                f"course_{label} is None, and speeds needs the course of every vehicle that moves; only a known speed of 0 "
+                f"needs none",
+                code="missing_course",
+                argument=f"course_{label}",
+            )
+        )
+    if isinstance(body, Vehicle) and body.pivot is not None:
+        reader.refuse(
+            InputError(
+                f"{label} has a pivot, so its velocity has no course of its own; use planar", code="pinned", argument="pivot"
+            )
+        )
+    if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in measured):
+        reader.refuse(missing(body, "heading", "a component of its delta-V", label))
+    return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
+
+
+def _refuse_combinations(inputs: Inputs, known: dict[str, Any], function: bool) -> None:
+    """Refuse what tells the same twice, and what cannot be solved together."""
+    if LAWS[inputs.law or BRACH].energetic:
         raise InputError(
-            "speed_a and speed_b are both known: that is the forward problem, use eccentric", code="too_many_knowns"
+            f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not linear in the speeds; give "
+            f"another law, or fit a model with this one to what is known (reconstruct.fit)",
+            code="law_not_reversible",
+            argument="law",
         )
     if known.keys() == {"delta_v_a", "delta_v_b"}:
-        on_a, on_b = (np.multiply(body.mass, known[f"delta_v_{label}"]) for label, body in (("a", a), ("b", b)))
+        on_a, on_b = (np.multiply(body.mass, known[f"delta_v_{label}"]) for label, body in (("a", inputs.a), ("b", inputs.b)))
         # fmax passes over the NaN of infinite masses.
         apart = float(np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0))
         raise InputError(
@@ -300,34 +289,43 @@ def _refuse_pairs(known: dict[str, Any], a: Vehicle, b: Vehicle) -> None:
             code="same_information",
             argument="ees_a",
         )
-
-
-def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
-    """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
-    if scene.shares_critical():
+    shares = shares_critical(inputs.rule, inputs.rule_value)
+    argument = "restitution" if function else "critical_fraction"
+    if (function or shares) and any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+        raise InputError(
+            "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
+            "friction=, friction=inf or impulse_ratio=",
+            code="bad_combination",
+            argument=argument,
+        )
+    if function and shares:
         raise InputError(
             "a function of restitution and a critical_fraction between 0 and 1 cannot be solved together; give impulse_ratio= "
             "or a number for the restitution",
             code="bad_combination",
             argument="critical_fraction",
         )
+
+
+def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
+    """Candidates where the restitution is a function of the closing speed: found on a grid of e, then refined."""
     count = math.prod(scene.shape)
 
-    def of_closing(part: Scene, closing: Any, e: Any) -> Any:
-        return function(np.ravel(part.speed_unit * closing + 0.0 * e))
+    def difference(part: Scene, closing: Any, e: Any) -> Any:
+        return function(np.ravel(part.speed_unit * closing + 0.0 * e)) - e
 
     def mismatch(e: Any, case: Any) -> list[Any]:
         part = scene.of(case)
-        return [of_closing(part, part.fits(root)[1], e) - e for root in part.roots(e, polish=False)]
+        return [difference(part, part.fits(root)[1], e) for root in part.roots(e, polish=False)]
 
     def slips(e: Any, case: Any) -> list[Any]:
         part = scene.of(case)
         return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
 
     found: list[Root] = []
-    of_case = crossings(mismatch, count, function.least)
-    if of_case:
-        case, candidate, restitution = map(np.array, zip(*of_case, strict=True))
+    of_cases = crossings(mismatch, count, function.least)
+    if of_cases:
+        case, candidate, restitution = map(np.array, zip(*of_cases, strict=True))
         roots = np.stack(scene.of(case).roots(restitution, function=function))
         chosen = roots[candidate, :, np.arange(case.size)]
         # Of each case the first root, then the second and so on.
@@ -340,28 +338,27 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
     if not scene.kinds[0].startswith("speed"):
         for at, row, e in crossings(slips, count, function.least):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
-            part = scene.of(np.array([at]))
-            closing = part.any_slip_at(part.regimes()[row], np.full(1, e))[1]
-            undetermined[at] |= abs(of_closing(part, closing, np.full(1, e))[0] - e) <= REDUNDANT
+            part, one = scene.of(np.array([at])), np.full(1, e)
+            undetermined[at] |= abs(difference(part, part.any_slip_at(part.regimes()[row], one)[1], one)[0]) <= REDUNDANT
     scene.undetermined = undetermined.reshape(scene.shape)
     return found
 
 
-def _in_order(scene: Scene, roots: list[Root]) -> list[tuple[Root, Any]]:
+def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
     fitting = [(root, fits, closing) for root, (fits, closing) in ((one, scene.fits(one)) for one in roots) if np.any(fits)]
     for root, here, _ in fitting:
         scene.undetermined = scene.undetermined | (here & scene.one_of_many(root))
     if not fitting or np.all(scene.undetermined):
         return []
-    if len(fitting) == 1 and scene.plain and not scene.forward_only:
+    if len(fitting) == 1 and scene.plain and not forward_only:
         return [(fitting[0][0], np.True_)]
     rows = [(*root[:4], here, closing) for root, here, closing in fitting]
     *parts, fits, closing = (
         np.stack([np.broadcast_to(part, scene.shape) for part in of_all]) for of_all in zip(*rows, strict=True)
     )
     fits &= ~scene.undetermined
-    if scene.forward_only:
+    if forward_only:
         fits &= np.minimum(parts[0], parts[1]) >= -ROOT_TOL * closing
     order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
     *values, fits, closing = (np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing))
@@ -381,6 +378,7 @@ def _answers(
     inputs: Inputs,
     known: dict[str, Any],
     function: RestitutionOf | None,
+    forward_only: bool,
 ) -> tuple[Impact, ...]:
     """The impact of each root; raises for a single case without one."""
     faults = input_faults(scene.numbers, inputs.incomplete)
@@ -406,7 +404,7 @@ def _answers(
     for root, there in found or [nothing]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
-            raise _refusal(scene, status, known, function)
+            raise _refusal(scene, status, known, function, forward_only)
         origin = cases.provenance("speeds", scene.names, root.condition, count)
         impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
         for speed in root[:2]:
@@ -447,12 +445,14 @@ def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> N
         )
 
 
-def _refusal(scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None) -> CollisionsError:
+def _refusal(
+    scene: Scene, status: int, known: dict[str, Any], function: RestitutionOf | None, forward_only: bool
+) -> CollisionsError:
     """The error for a single case without a solution."""
     names = " and ".join(known)
     values = {name: f"{name} = {show(value, 'J' if name == 'energy_loss' else 'm/s')}" for name, value in known.items()}
     speed_is_known = scene.kinds[0].startswith("speed")
-    forward = ", none of them backwards," if scene.forward_only else ""
+    forward = ", none of them backwards," if forward_only else ""
     (ax, ay), (bx, by) = ([scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))

@@ -164,8 +164,6 @@ class Scene:
         self.fixed = [spinning if name == "spinning" else v[name] for name in _FIXED]
         self.e, self.bound = v["restitution"], v[rule]
         self.targets = {kind: number(self._target(name)) for kind, name in zip(self.kinds, names, strict=True)}
-        # Whether backward roots are left out.
-        self.forward_only = False
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
 
@@ -195,16 +193,16 @@ class Scene:
             return energy_of_speeds(self.numbers["a.mass"], value, self.numbers["b.mass"], self.numbers[PAIRS[name]])
         return value
 
-    def shares_critical(self) -> bool:
-        """Whether the impulse ratio depends on the answer."""
-        return self.rule == CRITICAL_FRACTION and bool(np.any((self.bound > 0.0) & (self.bound < 1.0)))
-
     def regimes(self) -> list[Any]:
         """The impulse ratios, or sticking, that have to be tried."""
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
-            return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *([_SHARE] if self.shares_critical() else [])]
+            return [
+                np.where(self.bound == 0.0, 0.0, np.nan),
+                STICK,
+                *([_SHARE] if shares_critical(self.rule, self.bound) else []),
+            ]
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
         return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
 
@@ -503,6 +501,11 @@ class Scene:
             if not np.any(fit):
                 break
         return fit
+
+
+def shares_critical(rule: str, value: Any) -> bool:
+    """Whether the impulse ratio depends on the answer."""
+    return rule == CRITICAL_FRACTION and bool(np.any(np.greater(value, 0.0) & np.less(value, 1.0)))
 
 
 def pushed(seen: Seen) -> Any:
