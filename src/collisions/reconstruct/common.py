@@ -200,8 +200,7 @@ def finish(
     """
     check_options(on_failure)
     if not isinstance(status, np.ndarray):
-        if status != Status.OK and on_failure != "nan":
-            raise refusal()
+        raise_or_warn(status, on_failure, lambda index: refusal())
         return run_forward(inputs_of, status, origin, on_failure)
     found = run_forward(inputs_of, status, origin, "nan")
 
@@ -230,10 +229,13 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
 
 
 def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]) -> None:
-    """Raise or warn about the refused cases of a batch."""
-    if on_failure != "nan" and np.any(status > Status.ENERGY_GAIN):
-        if on_failure == "raise":
-            index, place = first_refused(status)
-            problem = error(index)
-            raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
-        warn_of_refusals(status)
+    """Raise or warn about refused cases; ``error`` gives that of the case at an index, () if there is only one."""
+    if on_failure == "nan" or not np.any(status > Status.ENERGY_GAIN):
+        return
+    if not isinstance(status, np.ndarray):
+        raise error(())
+    if on_failure == "raise":
+        index, place = first_refused(status)
+        problem = error(index)
+        raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
+    warn_of_refusals(status)

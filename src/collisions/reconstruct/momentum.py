@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +26,7 @@ from ..reading import ArgumentReader, amount
 from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
 from ..warning import warn, warn_of_cases
-from .common import Cases, exactly, raise_or_warn, read_masses
+from .common import Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
@@ -152,7 +151,12 @@ def momentum(
         terms = _terms(numbers, angles, together)
         exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
-        return _solve(_Known(cases, numbers, angles, terms, unlike), given if cases.shape is None else None, on_failure)
+        impulse, normal = (
+            (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None
+            for name in ("outside_impulse", "normal")
+        )
+        known = _Known(cases, numbers, angles, terms, impulse, normal, unlike)
+        return _solve(known, given if cases.shape is None else None, on_failure)
 
 
 def _as_given(value: Any) -> str | float:
@@ -222,21 +226,15 @@ class _Known(NamedTuple):
     numbers: dict[str, Any]
     angles: dict[str, Angle]
     terms: dict[str, Term]
+    impulse: tuple[Any, Any] | None
+    normal: tuple[Any, Any] | None
     unlike: Any
-
-    def pair(self, name: str) -> tuple[Any, Any] | None:
-        """Both components of an argument."""
-        return (self.numbers[f"{name}[0]"], self.numbers[f"{name}[1]"]) if f"{name}[0]" in self.numbers else None
-
-    def bodies(self, speed: str) -> str:
-        """The vehicles that share a speed."""
-        return "ab" if speed == "speed_a_after" and "speed_b_after" not in self.terms else speed[6]
 
 
 def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> MomentumSolution:
     """Solve one case or many; raises for a refused single case."""
-    cases, impulse, normal = known.cases, known.pair("outside_impulse"), known.pair("normal")
-    mass_a, mass_b = known.numbers["mass_a"], known.numbers["mass_b"]
+    cases, impulse, normal = known.cases, known.impulse, known.normal
+    masses = known.numbers["mass_a"], known.numbers["mass_b"]
     terms = [term for term in known.terms.values() if term.speed is not None]
     (first, one), (second, other) = unknown = [(name, term) for name, term in known.terms.items() if term.speed is None]
     cosine, sine = between(one.course, other.course)
@@ -244,28 +242,28 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     speeds[first] = unknown_speed(terms, impulse, one, other, between)
     speeds[second] = unknown_speed(terms, impulse, other, one, between)
     speeds.setdefault("speed_b_after", speeds["speed_a_after"])
-    outcome = _outcome(known, speeds, normal)
+    outcome = _outcome(known, speeds)
     condition = np.divide(1.0 + abs(cosine), abs(sine))
     # Rounding error of the results, as a speed of the lighter vehicle.
     flow = sum(known.numbers[f"mass_{name[6]}"] * abs(speeds[name]) for name in _SPEEDS)
-    lighter = np.minimum(mass_a, mass_b)
+    lighter = np.minimum(*masses)
     rounding = 16.0 * cases.eps * condition * (flow / lighter)
     loss = outcome["translational_energy_loss"]
     gains = -loss > 4.0 * rounding * lighter * sum(abs(speeds[name]) for name in _SPEEDS)
     status = cases.first_status(
         (
-            *_faults(known, normal),
+            *((np.isposinf(mass), Status.INFINITE_MASS) for mass in masses),
+            (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
+            *input_faults(known.numbers),
+            (known.unlike, Status.CONTRADICTORY),
             (abs(sine) <= _angle_rounding(one.course, other.course, cases.eps), Status.PARALLEL_HEADINGS),
             (cases.beyond(speeds[first] + speeds[second] + loss), Status.OUT_OF_RANGE),
             (gains & (impulse is None), Status.ENERGY_GAIN),
         )
     )
-    if cases.shape is not None:
-        raise_or_warn(status, on_failure, lambda index: _refusal(Status(int(status[index])), first, second))
-    elif status > Status.ENERGY_GAIN and on_failure != "nan":
-        raise _refusal(Status(status), first, second)
+    raise_or_warn(status, on_failure, lambda index: _refusal(Status(int(np.asarray(status)[index])), first, second))
     sure = np.less_equal(status, Status.ENERGY_GAIN)
-    found: dict[str, Any] = {**dict.fromkeys(_COURSES), "mass_a": mass_a, "mass_b": mass_b}
+    found: dict[str, Any] = {**dict.fromkeys(_COURSES), "mass_a": masses[0], "mass_b": masses[1]}
     found |= {name: angle.radians for name, angle in known.angles.items()}
     if normal is not None:
         found["normal_angle"] = angle_of(*normal)
@@ -276,31 +274,13 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     values: dict[str, Any] = {name: None if value is None else cases.values(value) for name, value in found.items()}
     solution = MomentumSolution(
         **values,
-        sensitivity=_sensitivity(known, found, unknown, impulse, sure),
+        sensitivity=_sensitivity(known, found, unknown, sure),
         unknowns=(first, second),
         status=Status(status) if isinstance(status, int) else status,
         given=given,
     )
     _warn(known, sure, np.equal(status, Status.ENERGY_GAIN), found, solution, rounding)
     return solution
-
-
-def _faults(known: _Known, normal: tuple[Any, Any] | None) -> list[tuple[Any, int]]:
-    """The faults of arrays, whose elements the reader does not check."""
-    numbers = known.numbers | {name: angle.value for name, angle in known.angles.items()}
-    masses = numbers["mass_a"], numbers["mass_b"]
-    speeds = [value for name, value in numbers.items() if name.startswith("speed")]
-    return [
-        (_any(map(np.isposinf, masses)), Status.INFINITE_MASS),
-        (_any(np.less_equal(mass, 0.0) for mass in masses), Status.NOT_POSITIVE),
-        (_any(~np.isfinite(value) for value in numbers.values()), Status.NOT_FINITE),
-        (normal is not None and (normal[0] == 0.0) & (normal[1] == 0.0), Status.ZERO_NORMAL),
-        (_any(np.less(speed, 0.0) for speed in speeds) | known.unlike, Status.CONTRADICTORY),
-    ]
-
-
-def _any(findings: Iterable[Any]) -> Any:
-    return np.logical_or.reduce(np.broadcast_arrays(False, *findings))
 
 
 def _refusal(status: Status, first: str, second: str) -> CollisionsError:
@@ -326,7 +306,7 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
     return InputError(f"momentum: {why}", code=status.label)
 
 
-def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | None) -> dict[str, Any]:
+def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
     """The solution from all speeds and courses."""
     velocity = {}
     for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
@@ -344,8 +324,8 @@ def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | No
             hx, hy = known.angles[f"heading_{side}"].direction
             found[f"pdof_{side}"] = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
     found["translational_energy_loss"] = loss
-    if normal is not None:
-        nx, ny = normal
+    if known.normal is not None:
+        nx, ny = known.normal
         (ax, ay), (bx, by), (cx, cy), (ex, ey) = (velocity[name] for name in _SPEEDS)
         closing = nx * (ax - bx) + ny * (ay - by)
         parting = nx * (ex - cx) + ny * (ey - cy)
@@ -354,9 +334,7 @@ def _outcome(known: _Known, speeds: dict[str, Any], normal: tuple[Any, Any] | No
     return found
 
 
-def _sensitivity(
-    known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], impulse: tuple[Any, Any] | None, sure: Any
-) -> Sensitivity:
+def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str, Term]], sure: Any) -> Sensitivity:
     """Derivatives of both unknown speeds by every input, from the momentum balance itself."""
     found = Sensitivity()
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
@@ -364,13 +342,14 @@ def _sensitivity(
         sine = {label: between(term.course, other.course)[1] for label, term in moving.items()}
         row: dict[str, Any] = {}
         for side in "ab":
-            own = [label for label in moving if side in known.bodies(label)]
+            # Vehicles that leave together have one term.
+            own = [label for label in moving if side == label[6] or (label == "speed_a_after" and len(known.terms) == 3)]
             row[f"mass_{side}"] = sum(moving[label].sign * (speeds[label] * sine[label]) for label in own)
         for label, term in moving.items():
             if term.speed is not None:
                 row[label] = term.sign * term.mass * sine[label]
             row[label.replace("speed", "course")] = course_change(term, speeds[label], other, between)
-        if impulse is not None:
+        if known.impulse is not None:
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
         found[name] = {
