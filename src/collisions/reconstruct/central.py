@@ -119,12 +119,12 @@ def central(
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b)
     for name, value in given.items():
-        if name == "energy_loss":
-            numbers |= read_amounts(reader, {name: value})
+        if name in VELOCITIES:
+            numbers[name] = reader.number(value, "m/s", name)
         elif name == "restitution":
             numbers[name] = reader.number(value, "", name, restitution_domain(incomplete))
         else:
-            numbers[name] = reader.number(value, "m/s", name)
+            numbers |= read_amounts(reader, {name: value})
     check_incomplete(reader, incomplete)
     reader.close()
     with np.errstate(all="ignore"):
@@ -185,43 +185,30 @@ def _answer(
     return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
 
 
-def _candidates(numbers: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:
+def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:
     """The one or two candidates that agree with the known values, possible or not."""
-    share_a, share_b, reduced, fixed = shares(numbers["mass_a"], numbers["mass_b"])
-    return [
-        _candidate(numbers, share_a, share_b, closing, separation, fixed, eps, incomplete)
-        for closing, separation in inline_speeds(numbers, share_a, share_b, reduced, eps, incomplete)
-    ]
-
-
-def _candidate(
-    known: dict[str, Any],
-    share_a: Any,
-    share_b: Any,
-    closing: Any,
-    separation: Any,
-    fixed: Any,
-    eps: float,
-    incomplete: bool,
-) -> Candidate:
-    """The candidate for a closing and a separation speed."""
-    total = closing + separation
-    va, vb = known.get("va"), known.get("vb")
-    if va is None and vb is None:
-        va = known["va_after"] + share_a * total if "va_after" in known else None
-        vb = known["vb_after"] - share_b * total if "vb_after" in known else None
-    va = vb + closing if va is None else va
-    vb = va - closing if vb is None else vb
-    # Rounding may move an e of exactly 0 or 1; the change of velocity of a heavy body says little about the impact.
-    scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
+    share_a, share_b, reduced, fixed = shares(known["mass_a"], known["mass_b"])
+    # The change of velocity of a heavy body says little about the impact.
     share = {"a": share_a, "b": share_b, "": 1.0}[_only_changing(known)]
-    rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
-    e = separation / closing
-    e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
-    e = known.get("restitution", e)
-    least = (e > -1.0) if incomplete else (e >= 0.0)
-    fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
-    return Candidate(va, vb, e, closing, fits)
+    found = []
+    for closing, separation in inline_speeds(known, share_a, share_b, reduced, eps, incomplete):
+        va, vb = known.get("va"), known.get("vb")
+        if va is None and vb is None:
+            total = closing + separation
+            va = known["va_after"] + share_a * total if "va_after" in known else None
+            vb = known["vb_after"] - share_b * total if "vb_after" in known else None
+        va = vb + closing if va is None else va
+        vb = va - closing if vb is None else vb
+        # Rounding may move an e of exactly 0 or 1.
+        scale = sum(abs(known[name]) for name in VELOCITIES if name in known) + abs(va) + abs(vb)
+        rounding = np.fmin(16.0 * eps * (1.0 + scale / (share * abs(closing))), _MOST_ROUNDING)
+        e = separation / closing
+        e = np.where((e < 0.0) & (e >= -rounding), 0.0, np.where((e > 1.0) & (e <= 1.0 + rounding), 1.0, e))
+        e = known.get("restitution", e)
+        least = (e > -1.0) if incomplete else (e >= 0.0)
+        fits = (closing > 0.0) & least & (e <= 1.0) & np.isfinite(va + vb) & ~np.asarray(fixed)
+        found.append(Candidate(va, vb, e, closing, fits))
+    return found
 
 
 def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float, incomplete: bool) -> Any:
@@ -237,10 +224,7 @@ def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float
 
 def _only_changing(known: dict[str, Any]) -> str:
     """The body whose change of velocity is the only information on the impact; it says nothing if its mass is infinite."""
-    v = [name for name in VELOCITIES if name in known]
-    if len(v) == 3:
-        return "a" if {"va", "va_after"} <= set(v) else "b"
-    return "a" if v == ["va", "va_after"] else "b" if v == ["vb", "vb_after"] else ""
+    return next((label for label in "ab" if {f"v{label}", f"v{label}_after"} <= known.keys()), "")
 
 
 def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:

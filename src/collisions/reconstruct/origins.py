@@ -81,12 +81,10 @@ class End:
         self.at_rest = (abs(self.slip) <= self.noise) & (abs(self.separation) <= self.noise)
 
     def origins(self, regime: str | None) -> list[Origin]:
-        """The candidates of a regime, or all, of which those fit that lead to this end and are none of those before them."""
+        """The candidates, of which those of the regime fit that lead to this end and are none of those before them."""
         found: list[Origin] = []
         for origin in self._candidates():
-            if regime not in (None, origin.regime):
-                continue
-            new = np.asarray(origin.fits)
+            new = np.asarray(origin.fits) & (regime in (None, origin.regime))
             for earlier in found:
                 apart = abs(origin.normal - earlier.normal) + abs(origin.tangential - earlier.tangential)
                 new = new & ~(earlier.fits & (apart <= _IMPULSE_TOL * (abs(origin.normal) + abs(origin.tangential))))

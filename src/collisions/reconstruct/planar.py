@@ -253,10 +253,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
 
 
 def _first_that_fits(origins: Sequence[Origin]) -> Origin:
-    """The first origin that fits in each case; NaN without one."""
-    if not origins:
-        nan = math.nan
-        return Origin("", nan, nan, nan, nan, (nan, nan), False, ((nan, nan, nan), (nan, nan, nan)), False)
+    """The first origin that fits in each case, or the first of all."""
     which = np.argmax(np.stack(np.broadcast_arrays(*(one.fits for one in origins))), axis=0)
 
     def choose(values: Sequence[Any]) -> Any:
