@@ -109,7 +109,7 @@ WHY = {
     "memory": "The states after are arrays of their own.",
     "quantities": "The type, the dimension and the factor of every argument are looked up.",
     "propagate": "The cases are drawn from the distributions, and a few are asked again alone.",
-    "speeds": "Every regime of the contact has candidates of its own, each refined by the forward formulas.",
+    "speeds": "Every regime of the contact has candidates of its own, each tried on the forward formulas.",
     "solve": "It asks for the impulse by all models before it takes one.",
 }
 PROCESSOR = "A thread waits for Python's interpreter lock before each of some two hundred numpy calls a block"

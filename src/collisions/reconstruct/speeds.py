@@ -24,7 +24,7 @@ from ..vehicle import Vehicle, missing, moved
 from ..warning import warn, warn_of_samples
 from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
-from .speeds_algebra import REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
+from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
 
 # Above this restitution hardly any energy is lost along the normal.
@@ -316,7 +316,7 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
 
     def mismatch(e: Any, case: Any) -> list[Any]:
         part = scene.of(case)
-        return [difference(part, part.fits(root)[1], e) for root in part.roots(e, polish=False)]
+        return [difference(part, part.observe(LAW, *root[:2], e).closing, e) for root in part.roots(e, polish=False)]
 
     def slips(e: Any, case: Any) -> list[Any]:
         part = scene.of(case)

@@ -74,7 +74,6 @@ class ComponentScene(Scene):
     def _solved(self, regime: Any, e: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
         zero, one = np.zeros(()), np.ones(())
-        known = tuple(self.targets.get(f"speed_{label}", zero) for label in "ab")
         rest = self._seen_momenta(regime, zero, zero, e)
         effects = [
             [at - still for at, still in zip(self._seen_momenta(regime, *pair, e), rest, strict=True)]
@@ -82,17 +81,16 @@ class ComponentScene(Scene):
         ]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
-        speeds = [value + 0.0 * rest[0] for value in known]
+        speeds = [self.targets.get(f"speed_{label}", zero) + 0.0 * rest[0] for label in "ab"]
         for _ in range(_REFINEMENTS):
             left = self._left(regime, speeds[0], speeds[1], e)
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = sum(part * off for part, off in zip(row, left, strict=True))
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
         # A known speed enters by what it takes off the momenta.
-        given = [(momentum, i) for i, momentum in enumerate(self._momenta)]
         moved: Any = 0.0
         for row in inverse:
-            of_row = sum(abs(row[i] * momentum) for momentum, i in given)
+            of_row = sum(abs(part * momentum) for part, momentum in zip(row, self._momenta, strict=True))
             for at, label in enumerate("ab"):
                 if at not in self.unknown:
                     by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
@@ -109,16 +107,11 @@ class ComponentScene(Scene):
             return []
         (at,) = self.unknown
         known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
+        of_unknown, of_known = ([speed + (1.0 if i == one else 0.0) for i, speed in enumerate(known)] for one in (at, 1 - at))
+        seen = [self.observe(STICK, speed_a, speed_b, e) for speed_a, speed_b in (known, of_unknown, of_known)]
         found = []
         for sign in (1.0, -1.0):
-
-            def beyond(*more: Any, sign: float = sign) -> Any:
-                speed_a, speed_b = (speed + change for speed, change in zip(known, more, strict=True))
-                seen = self.observe(STICK, speed_a, speed_b, e)
-                return seen.tangential - sign * self.bound * seen.normal
-
-            one = [np.where(at == i, 1.0, 0.0) for i in range(2)]
-            here, by_unknown, by_known = beyond(0.0, 0.0), beyond(*one), beyond(*one[::-1])
+            here, by_unknown, by_known = (one.tangential - sign * self.bound * one.normal for one in seen)
             slope = by_unknown - here
             speeds = [speed + 0.0 * here for speed in known]
             speeds[at] = np.where(np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan)
