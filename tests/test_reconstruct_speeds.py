@@ -403,6 +403,7 @@ def test_a_function_in_a_batch(function, pair):
     assert any("1 of 4 cases" in str(one.message) for one in said)
     assert found[0].a.before.vx.shape == (1, 4)
     assert found[0].refused.tolist() == [[False, False, False, True]]
+    assert all(np.array_equal(np.isnan(root.restitution), root.refused) for root in found)
     for i, (hit, known) in enumerate(zip(hits, one_by_one, strict=True)):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.CollisionsWarning)
