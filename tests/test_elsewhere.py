@@ -56,7 +56,9 @@ def test_compiled_and_over_many_cases(jax):
             scale = np.max(np.abs(np.asarray(other)[answered]), initial=0.0) if np.ndim(other) else 1.0
             # Levers that nearly cancel cost a factor of 100 or so of the rounding.
             np.testing.assert_allclose(
-                np.asarray(one)[answered], np.broadcast_to(other, answered.shape)[answered], rtol=1e-12, atol=1e-13 * scale
+                *(np.broadcast_to(np.asarray(each), answered.shape)[answered] for each in (one, other)),
+                rtol=1e-12,
+                atol=1e-13 * scale,
             )
 
 

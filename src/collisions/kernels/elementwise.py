@@ -18,6 +18,7 @@ def select(condition: Any, yes: Any, no: Any) -> Any:
     xp = library(condition, yes, no)
     if xp is not np:
         yes, no = (xp.asarray(int(value)) if isinstance(value, Status) else value for value in (yes, no))
+        yes = xp.asarray(yes) if isinstance(yes, float) and isinstance(no, float) else yes
     return xp.where(condition, yes, no)
 
 
