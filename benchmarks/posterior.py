@@ -56,7 +56,7 @@ class Effort(NamedTuple):
     runs: int
 
 
-FULL = Effort(320, 200, 2048, 512, (512, 2048, 8192), 6)
+FULL = Effort(1000, 1000, 2048, 512, (512, 2048, 8192), 10)
 QUICK = Effort(2, 2, 512, 512, (512, 1024), 2)
 
 

@@ -18,8 +18,8 @@ from ..uncertainty.model import Model, check_names
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint, in_order
 from ..units import shown
-from .fit_result import Residual, warn_of
-from .islands import Island, UnreachableError, islands
+from .fit_result import residual_of, warn_of
+from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
 from .observations import Observation, listed, observed_columns, read_each, read_reading, refused_everywhere
 from .posterior_result import Posterior, PosteriorOutput, notes_of
@@ -180,12 +180,12 @@ class _Problem:
                 report(int((len(found) + part * _SIDE_BY_SIDE) * count), ISLANDS * count)
 
         def work(first: int) -> list[Island]:
-            seeds = [np.random.SeedSequence(seed, spawn_key=(3, first + k)) for k in range(_SIDE_BY_SIDE)]
-            randoms = [np.random.Generator(np.random.PCG64DXSM(each)) for each in seeds]
+            random = np.random.Generator(np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(3, first))))
+            shape = (_SIDE_BY_SIDE, count, self.joint.dimensions)
             within = tell if threads == 1 else lambda part: None
             with np.errstate(all="ignore"):
                 # Always the first islands check that the model answers case by case.
-                return islands(lambda scores: self.evaluate(scores, not first), self.joint.dimensions, count, randoms, within)
+                return Islands(lambda scores: self.evaluate(scores, not first), shape, random).found(within)
 
         try:
             for each in in_order(work, range(0, ISLANDS, _SIDE_BY_SIDE), threads):
@@ -244,7 +244,10 @@ class _Problem:
         for row, column, angle in self.columns(answers):
             apart = row.apart(column, angle)
             squares += (apart / row.sigma) ** 2 if row.sigma else 0.0
-            residuals[row.name] = _residual(row, column, float(np.mean(apart)), self.model.units[row.name])
+            middle = float(np.mean(apart))
+            computed = row.value.given_mean - middle if isinstance(row.value, Normal) else float(np.mean(column))
+            over = middle / row.sigma if row.sigma else 0.0
+            residuals[row.name] = residual_of(row, self.model.units[row.name], computed, middle, over)
         units = {name: prior.unit for name, prior in self.joint.inputs.items()}
         return Posterior(
             priors=dict(self.joint.inputs),
@@ -262,22 +265,6 @@ class _Problem:
             seed=seed,
             interrupted=len(islands) < ISLANDS,
         )
-
-
-def _residual(row: Observation, computed: Any, apart: float, unit: str | None) -> Residual:
-    """An observation beside the mean of what is computed; of a censored reading the bound that is missed, if any."""
-    middle = float(np.mean(computed))
-    observed = row.value.given_mean if isinstance(row.value, Normal) else middle + apart
-    return Residual(
-        name=row.name,
-        unit=row.value.unit or unit or "",
-        observed=observed,
-        computed=observed - apart,
-        residual=apart,
-        sigma=row.sigma,
-        over_sigma=apart / row.sigma if row.sigma else 0.0,
-        is_prior=False,
-    )
 
 
 def _log_mean(logs: Any) -> float:

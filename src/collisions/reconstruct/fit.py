@@ -12,9 +12,9 @@ from ..errors import AmbiguousSolutionError, NoSolutionError, SuspectUnitsWarnin
 from ..quantities import lock
 from ..settings import in_si
 from ..warning import warn
-from .fit_candidate import SAME_CHI_SQUARED, Candidate, examined
+from .fit_candidate import SAME_CHI_SQUARED, Candidate, ended_at, examined
 from .fit_problem import FitInputs, read_fit_inputs
-from .fit_result import Direction, Fit, Residual, Values, notes_of, warn_of
+from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
 from .least_squares import (
     AT_REFUSAL,
     CONVERGED,
@@ -30,9 +30,7 @@ from .least_squares import (
 from .observations import listed, refused_everywhere
 
 _STARTS = 64
-_MORE_STARTS = 4096  # looked at where the model refuses all of the first
-_FEW = 2  # searches that ended at the best: more are begun around it
-_CLOSER, _CLOSEST = 4.0, 6  # how many times closer each time, and how often
+_FEW = 2  # searches that ended at the best, among more: there may be a better one
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
 _TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
 _APART = 1.0  # standard errors
@@ -121,11 +119,14 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     with np.errstate(all="ignore"):
         inputs = read_fit_inputs(model, unknowns, observed)
         problem = inputs.problem()
-        first = _search(inputs, problem)
-        ends = _search_around(inputs, problem, first)
+        starts = spread(_STARTS, *inputs.box)
+        starts[0] = inputs.numbers_of("start")
+        ends = minimise(problem, starts)
+        if np.all(ends.state == REFUSED):
+            raise _refused_everywhere(inputs)
         best = examined(inputs, problem, ends, _lowest(ends))
         _check_minimum(best, ends)
-        fits = [_answer(candidate, ends, len(ends.state) - len(first.state)) for candidate in _rivals(problem, ends, best)]
+        fits = [_answer(candidate, ends) for candidate in _rivals(problem, ends, best)]
         if len(fits) > 1:
             raise _ambiguous(fits)
         found = fits[0]
@@ -137,46 +138,17 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     return found
 
 
-def _search(inputs: FitInputs, problem: Problem) -> Ends:
-    """The ends of the searches from all starts; refused if the model has no answer at any of them."""
-    starts = spread(_STARTS, *inputs.box)
-    starts[0] = inputs.numbers_of("start")
-    ends = minimise(problem, starts)
-    if np.all(ends.state == REFUSED):
-        starts = spread(_MORE_STARTS, *inputs.box)
-        known = np.all(np.isfinite(problem.evaluate(starts)), axis=1)
-        if np.any(known):
-            ends = minimise(problem, starts[known][:_STARTS])
-    if np.all(ends.state == REFUSED):
-        raise _refused_everywhere(inputs)
-    return ends
-
-
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
     at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
-    tried = _STARTS + _MORE_STARTS
     return NoSolutionError(
-        f"the model refuses all {tried} points tried for the unknowns, among them {listed(at)}"
-        f"{refused_everywhere(inputs.model, at)}. Give bounds or starts of the unknowns within which the impact happens",
+        f"the model refuses all {_STARTS} points tried for the unknowns, among them {listed(at)}"
+        f"{refused_everywhere(inputs.model, at)}. Give bounds or starts of the unknowns within which the impact happens; "
+        f"reconstruct.posterior finds rare ones too",
         code="refused",
-        points=tried,
+        points=_STARTS,
         at=at,
     )
-
-
-def _search_around(inputs: FitInputs, problem: Problem, ends: Ends) -> Ends:
-    """These searches and, if few of them reached the best minimum, more around it, in ever smaller boxes."""
-    low, high = inputs.box
-    best = _lowest(ends)
-    here = (ends.state == CONVERGED) & (ends.chi_squared <= ends.chi_squared[best] + SAME_CHI_SQUARED)
-    if ends.state[best] != CONVERGED or np.count_nonzero(here) > _FEW or len(here) <= _FEW:
-        return ends
-    for closer in range(1, _CLOSEST + 1):
-        middle, half = ends.points[_lowest(ends)], 0.5 * (high - low) / _CLOSER**closer
-        more = minimise(problem, spread(_STARTS, middle - half, middle + half))
-        ends = Ends(*(np.concatenate(both) for both in zip(ends, more, strict=True)))
-    return ends
 
 
 def _lowest(ends: Ends) -> int:
@@ -189,15 +161,18 @@ def _lowest(ends: Ends) -> int:
 
 def _check_minimum(best: Candidate, ends: Ends) -> None:
     """Raise if the misfit is least at a point that is not a minimum of a smooth model."""
-    why = _WHY_NO_MINIMUM.get(best.state)
+    why, here = _WHY_NO_MINIMUM.get(best.state), ended_at(ends, best.chi_squared)
     if why is None and best.problem.has_kink(best.point):
         why = _WHY_NO_MINIMUM[STALLED]
     if why is None and (best.turns_round(ends) or best.overstates_errors(_OVERSTATED)):
         why = "there the model turns round, so that its slopes give no error"
+    if why is None and np.count_nonzero(here) <= _FEW < np.count_nonzero(ends.state != REFUSED):
+        why = f"few of the {_STARTS} searches ended there, so that a better answer may lie between them"
     if why is not None:
         at = dict(zip(best.inputs.names, best.point.tolist(), strict=True))
         raise NoSolutionError(
-            f"no search ended at a minimum: the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, and "
+            f"no search ended at a minimum that can be relied on: the least misfit found is chi-squared "
+            f"{best.chi_squared:.6g} at {listed(at)}, and "
             f"{why}. reconstruct.posterior answers there too, with a range; or narrow the bounds to one side of it, or give a "
             f"prior of it (a Normal), or fewer unknowns",
             code="no_convergence",
@@ -242,14 +217,20 @@ def _precision(covariance: Any) -> Any:
     return np.linalg.pinv(correlation, hermitian=True) / np.outer(size, size)
 
 
-def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
-    """The ``Fit`` of a candidate; the last ``around`` searches were started around the best."""
+def _answer(found: Candidate, ends: Ends) -> Fit:
+    """The ``Fit`` of a candidate."""
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
     names = inputs.names
     units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
     identified = np.isfinite(found.errors).tolist()
     over_sigma = -problem.misfit(found.outputs)
-    residuals = _residuals(inputs, inputs.computed(point[np.newaxis])[0], over_sigma)
+    computed = inputs.computed(point[np.newaxis])[0]
+    residuals = {
+        f"prior of {row.name}" if row.is_prior else row.name: residual_of(
+            row, inputs.model.units.get(row.name), value, sigmas * row.sigma, sigmas
+        )
+        for row, value, sigmas in zip(inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True)
+    }
     sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", "")).tolist()
     degrees_of_freedom = len(inputs.rows) - found.determination_of(found.free).rank
     chi_squared = float(over_sigma @ over_sigma)
@@ -273,29 +254,12 @@ def _answer(found: Candidate, ends: Ends, around: int) -> Fit:
         ),
         at_bounds={name: side for name, side, known in zip(names, sides, identified, strict=True) if side and known},
         nonlinearity=found.nonlinearity,
-        searches=_counted(ends, found.chi_squared) | {"around": around},
+        searches=_counted(ends, found.chi_squared),
     )
 
 
-def _residuals(inputs: FitInputs, computed: Any, over_sigma: Any) -> dict[str, Residual]:
-    return {
-        f"prior of {row.name}" if row.is_prior else row.name: Residual(
-            name=row.name,
-            unit=row.value.unit or inputs.model.units.get(row.name) or "",
-            observed=row.value.given_mean,
-            computed=value,
-            residual=sigmas * row.value.given_sd,
-            sigma=row.value.given_sd,
-            over_sigma=sigmas,
-            is_prior=row.is_prior,
-        )
-        for row, value, sigmas in zip(inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True)
-    }
-
-
 def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
-    converged, refused = ends.state == CONVERGED, ends.state == REFUSED
-    here = converged & (abs(ends.chi_squared - chi_squared) <= SAME_CHI_SQUARED)
+    here, converged, refused = ended_at(ends, chi_squared), ends.state == CONVERGED, ends.state == REFUSED
     kinds = {"here": here, "elsewhere": converged & ~here, "refused": refused, "without_end": ~refused & ~converged}
     return {"starts": len(here)} | {name: int(np.count_nonzero(one)) for name, one in kinds.items()}
 

@@ -64,11 +64,8 @@ class Candidate:
 
     def turns_round(self, ends: Ends) -> bool:
         """Whether all searches agree in an unknown of which slopes tell nothing: its misfit turns there."""
-        here = (ends.state == CONVERGED) & (ends.chi_squared <= self.chi_squared + SAME_CHI_SQUARED)
-        if np.count_nonzero(here) < 2:
-            return False
-        agreed = np.ptp(ends.points[here], axis=0) < _AGREEMENT * self.problem.scale
-        return bool(np.any(np.isinf(self.errors) & agreed))
+        here = ends.points[ended_at(ends, self.chi_squared)]
+        return len(here) > 1 and bool(np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale)))
 
     @cached_property
     def moves(self) -> tuple[Any, Any]:
@@ -108,6 +105,11 @@ class Candidate:
         far, risen = self.moves
         over = (risen > _TWO_ERRORS) & (risen > times * far)
         return bool(np.any(np.all(over | (far < _LEAST_MOVE), axis=0) & np.any(over, axis=0)))
+
+
+def ended_at(ends: Ends, chi_squared: float) -> Any:
+    """Which searches ended at a minimum of this misfit."""
+    return (ends.state == CONVERGED) & (abs(ends.chi_squared - chi_squared) <= SAME_CHI_SQUARED)
 
 
 def examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> Candidate:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,24 +36,12 @@ class Unknown(NamedTuple):
         return max(self.low, self.start - span), min(self.high, self.start + span)
 
 
-class Stated(NamedTuple):
-    """An observation or a prior: a row of the least squares."""
-
-    name: str
-    value: Normal
-    is_prior: bool
-
-    def is_angle(self, units: Mapping[str, str | None]) -> bool:
-        """Whether it is an observed angle, given the units of the model's outputs."""
-        return not self.is_prior and Observation(self.name, self.value).is_angle(units.get(self.name))
-
-
 class FitInputs(NamedTuple):
     """The inputs of a fit; ``rows`` are the observations in their order, then the priors."""
 
     model: Model
     unknowns: dict[str, Unknown]
-    rows: tuple[Stated, ...]
+    rows: tuple[Observation, ...]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -90,11 +77,12 @@ class FitInputs(NamedTuple):
 
     def problem(self) -> Problem:
         """The least-squares problem, in units of standard deviations."""
-        sigma = np.array([row.value.given_sd for row in self.rows])
+        sigma = np.array([row.sigma for row in self.rows])
+        angles = [not row.is_prior and row.is_angle(self.model.units[row.name]) for row in self.rows]
         return Problem(
             evaluate=lambda points: self.computed(points) / sigma,
-            target=np.array([row.value.given_mean for row in self.rows]) / sigma,
-            period=np.where([row.is_angle(self.model.units) for row in self.rows], math.tau / sigma, np.nan),
+            target=np.array([row.apart(0.0, False) for row in self.rows]) / sigma,
+            period=np.where(angles, math.tau / sigma, np.nan),
             low=self.numbers_of("low"),
             high=self.numbers_of("high"),
             scale=self.numbers_of("scale"),
@@ -107,8 +95,8 @@ def read_fit_inputs(model: Any, unknowns: Any, observed: Any) -> FitInputs:
     known = read_each(reader, unknowns, "unknowns", "20.0", _unknown)
     measured = read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_value)
     reader.close()
-    rows = [Stated(name, value, False) for name, value in measured]
-    rows += [Stated(name, unknown.prior, True) for name, unknown in known if unknown.prior]
+    rows = [Observation(name, value) for name, value in measured]
+    rows += [Observation(name, unknown.prior, is_prior=True) for name, unknown in known if unknown.prior]
     inputs = FitInputs(Model(model, {}), dict(known), tuple(rows))
     check_names(model, inputs.names, "unknowns", "bad_model")
     # Two cases, because a model that takes numbers would answer an array of one.

@@ -18,6 +18,7 @@ from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
 from ..warning import warn
+from .observations import Observation
 
 _GIVEN_ERRORS = "A standard error is given the stated errors of the observations and priors."
 _NONE = "\u2013"
@@ -119,6 +120,21 @@ class Residual(WithUnit):
     _title = "Residual"
 
 
+def residual_of(row: Observation, unit: str | None, computed: float, apart: float, over_sigma: float) -> Residual:
+    """An observation or prior beside what is computed of it; of a censored reading the bound that is missed, if any."""
+    observed = row.value.given_mean if isinstance(row.value, Normal) else computed + apart
+    return Residual(
+        name=row.name,
+        unit=row.value.unit or unit or "",
+        observed=observed,
+        computed=computed,
+        residual=apart,
+        sigma=row.sigma,
+        over_sigma=over_sigma,
+        is_prior=row.is_prior,
+    )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Direction:
     """A direction in which the evidence does not determine the unknowns: the change of each in SI, all moving together.
@@ -157,7 +173,7 @@ class Fit(Shown):
     unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
     percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
     the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there.
-    ``searches`` counts the starts by how they ended; ``around`` are those that were added around an answer that few found.
+    ``searches`` counts the starts by how they ended.
     """
 
     values: Values
@@ -373,12 +389,6 @@ def notes_of(found: Fit) -> Iterator[Note]:
             f"it, not the evidence",
             "; give an observation that says more, or a prior",
             "told_by_bounds",
-        )
-    if found.searches["around"]:
-        yield Note(
-            None,
-            f"few searches ended at this answer, so that {found.searches['around']} more were begun around it; a better one "
-            f"may still lie between them, which narrower bounds would show",
         )
     if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
         yield Note(IllConditionedWarning, found.bend, "; reconstruct.posterior has no need of that", "not_linear")

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 # Log-likelihoods of points (cases, dimensions), and by how much they miss sharp bounds: infinite where there is no answer.
 Evaluate: TypeAlias = Callable[[Any], tuple[Any, Any]]
-# Yields points to be evaluated.
-Steps: TypeAlias = Generator[Any, tuple[Any, Any], None]
 
 _FEWEST = 0.25  # of a population: with fewer answers more of the prior is drawn
 _MOST_DRAWS = 64  # populations of the prior
@@ -40,136 +38,115 @@ class Island(NamedTuple):
     moved: float
 
 
-def islands(
-    evaluate: Evaluate,
-    dimensions: int,
-    count: int,
-    randoms: Sequence[np.random.Generator],
-    report: Callable[[float], None],
-) -> list[Island]:
-    """Points of the prior (standard normal) times the likelihood: an island for each generator, worked on side by side.
+class Islands:
+    """Points (islands, points, dimensions) of the prior (standard normal) times likelihood**power, within ``limit`` of bounds.
 
-    By way of the rising powers of the likelihood: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J. R.
-    Statist. Soc. B 68 (2006); each power is the one that leaves half of the effective sample. The points are then moved by
-    Metropolis steps along differences of two of them, which suit separate modes too: C. J. F. ter Braak, Statistics and
-    Computing 16 (2006). Sharp bounds are met first, by thresholds that half of the points pass: S.-K. Au and J. L. Beck,
-    Probabilistic Engineering Mechanics 16 (2001).
+    The powers rise to 1: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J. R. Statist. Soc. B 68 (2006);
+    each is the one that leaves half of the effective sample. The points are then moved by Metropolis steps along differences of
+    two points, which suit separate modes too: C. J. F. ter Braak, Statistics and Computing 16 (2006). These are of the next
+    island: steps that depended on the errors of their own would leave the evidence too high. Sharp bounds are met first, by
+    thresholds that half of the points pass: S.-K. Au and J. L. Beck, Probabilistic Engineering Mechanics 16 (2001).
     """
-    found = [_Population(dimensions, count, random) for random in randoms]
-    at_work = [(one, one.steps()) for one in found]
-    waiting = [next(steps) for _, steps in at_work]
-    while at_work:
-        likelihood, missed = evaluate(np.concatenate(waiting))
-        ends = np.cumsum([len(points) for points in waiting])[:-1]
-        answers = zip(at_work, np.split(likelihood, ends), np.split(missed, ends), strict=True)
-        at_work, waiting = [], []
-        for (one, steps), *answer in answers:
-            try:
-                waiting.append(steps.send((answer[0].copy(), answer[1].copy())))
-                at_work.append((one, steps))
-            except StopIteration:
-                pass
-        report(min(one.power for one in found))
-    return [Island(one.points, one.log_evidence, one.refused, one.moved) for one in found]
-
-
-class _Population:
-    """Points of the prior times likelihood**power, within ``limit`` of the sharp bounds."""
 
     points: Any
     likelihood: Any
     missed: Any
 
-    def __init__(self, dimensions: int, count: int, random: np.random.Generator) -> None:
-        self.dimensions, self.count, self.random = dimensions, count, random
-        self.power, self.limit, self.scale = 0.0, math.inf, 2.38 / math.sqrt(2.0 * dimensions)
-        self.log_evidence, self.refused, self.moved = 0.0, 0.0, 1.0
+    def __init__(self, evaluate: Evaluate, shape: tuple[int, int, int], random: np.random.Generator) -> None:
+        self.evaluate, self.shape, self.random = evaluate, shape, random
+        self.power, self.limit, self.scale = 0.0, math.inf, 2.38 / math.sqrt(2.0 * shape[2])
+        self.log_evidence, self.refused, self.moved = (np.full(shape[0], start) for start in (0.0, 0.0, 1.0))
 
-    def steps(self) -> Steps:
-        """From the prior to the posterior."""
-        yield from self._draw()
-        yield from self._meet_bounds()
+    def found(self, report: Callable[[float], None]) -> list[Island]:
+        """The islands, taken from the prior to the posterior."""
+        self._draw()
+        self._meet_bounds()
         while self.power < 1.0:
-            yield from self._raise_power()
+            self._raise_power()
+            report(self.power)
+        return list(map(Island, self.points, self.log_evidence.tolist(), self.refused.tolist(), self.moved.tolist()))
 
-    def _draw(self) -> Steps:
+    def _evaluated(self, points: Any) -> tuple[Any, Any, Any]:
+        """Points with their log-likelihoods and by how much they miss."""
+        likelihood, missed = self.evaluate(points.reshape(-1, points.shape[2]))
+        return points, likelihood.reshape(points.shape[:2]), missed.reshape(points.shape[:2])
+
+    def _draw(self) -> None:
         """Points of the prior that have an answer."""
-        drawn: list[tuple[Any, Any, Any]] = []
-        draws = answers = 0
-        while answers < _FEWEST * self.count and draws < _MOST_DRAWS * self.count:
-            points = self.random.standard_normal((self.count, self.dimensions))
-            likelihood, missed = yield points
-            known = missed < math.inf
-            drawn.append((points[known], likelihood[known], missed[known]))
-            draws, answers = draws + self.count, answers + int(np.count_nonzero(known))
-        if not answers:
-            raise UnreachableError(draws, math.inf)
-        self.points, self.likelihood, self.missed = (np.concatenate(part) for part in zip(*drawn, strict=True))
-        self.refused = 1.0 - answers / draws
-        self.log_evidence = math.log(answers / draws)
-        if answers < draws:
-            yield from self._select(np.ones(answers))
+        count, drawn, known = self.shape[1], [], np.zeros((self.shape[0], 0), dtype=bool)
+        while np.any(np.sum(known, axis=1) < _FEWEST * count) and known.shape[1] < _MOST_DRAWS * count:
+            drawn.append(self._evaluated(self.random.standard_normal(self.shape)))
+            known = np.concatenate([known, drawn[-1][2] < math.inf], axis=1)
+        if not np.all(np.any(known, axis=1)):
+            raise UnreachableError(known.shape[1], math.inf)
+        self.points, self.likelihood, self.missed = (np.concatenate(part, axis=1) for part in zip(*drawn, strict=True))
+        self.refused = np.mean(~known, axis=1)
+        if not np.all(known):
+            self._select(known.astype(np.float64))
 
-    def _meet_bounds(self) -> Steps:
+    def _meet_bounds(self) -> None:
         """Narrow the limit until the sharp bounds are met."""
         stuck = 0
         while self.limit > 0.0 and np.any(self.missed > 0.0):
-            limit = float(np.median(self.missed))
+            # That half of the points of each island pass.
+            limit = float(np.max(np.median(self.missed, axis=1)))
             stuck = stuck + 1 if limit > _NO_NEARER * self.limit else 0
             if stuck == _MOST_OF_THESE:
                 raise UnreachableError(0, float(np.min(self.missed)))
             self.limit = limit
-            inside = (self.missed <= limit).astype(np.float64)
-            self.log_evidence += math.log(np.mean(inside))
-            yield from self._select(inside)
+            self._select((self.missed <= limit).astype(np.float64))
         self.limit = 0.0
 
-    def _raise_power(self) -> Steps:
+    def _raise_power(self) -> None:
         """The next power, at which half of the effective sample is left, or 1."""
-        best = float(np.max(self.likelihood))
+        best = np.max(self.likelihood, axis=1, keepdims=True)
         behind = self.likelihood - best
 
         def effective(more: float) -> float:
             weights = np.exp(more * behind)
-            return float(np.sum(weights)) ** 2 / float(np.sum(weights**2))
+            return float(np.mean(np.mean(weights, axis=1) ** 2 / np.mean(weights**2, axis=1)))
 
         more = high = 1.0 - self.power
-        if effective(high) < 0.5 * self.count:
+        if effective(high) < 0.5:
             low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
             for _ in range(_BISECTIONS):
                 more = math.sqrt(low * high)
-                low, high = (more, high) if effective(more) >= 0.5 * self.count else (low, more)
-        weights = np.exp(more * behind)
-        self.log_evidence += math.log(np.mean(weights)) + more * best
+                low, high = (more, high) if effective(more) >= 0.5 else (low, more)
         self.power = 1.0 if more == 1.0 - self.power else self.power + more
-        yield from self._select(weights)
+        self.log_evidence += more * best[:, 0]
+        self._select(np.exp(more * behind))
 
-    def _select(self, weights: Any) -> Steps:
-        """Systematic resampling by weight, then moves that keep the distribution."""
-        weights = weights / np.sum(weights)
-        away = self.points - np.sum(weights[:, np.newaxis] * self.points, axis=0)
-        spread = np.sqrt(np.sum(weights[:, np.newaxis] * away**2, axis=0))
-        places = (self.random.random() + np.arange(self.count)) / self.count
-        chosen = np.minimum(np.searchsorted(np.cumsum(weights), places), len(weights) - 1)
-        self.points, self.likelihood, self.missed = self.points[chosen], self.likelihood[chosen], self.missed[chosen]
-        yield from self._move(spread)
+    def _select(self, weights: Any) -> None:
+        """Systematic resampling by weight, whose mean goes into the evidence; then moves that keep the distribution."""
+        self.log_evidence += np.log(np.mean(weights, axis=1))
+        sums = np.cumsum(weights, axis=1)
+        weights = (weights / sums[:, -1:])[..., np.newaxis]
+        away = self.points - np.sum(weights * self.points, axis=1, keepdims=True)
+        spread = np.sqrt(np.sum(weights * away**2, axis=1, keepdims=True))
+        count = self.shape[1]
+        places = (self.random.random((len(sums), 1)) + np.arange(count)) / count * sums[:, -1:]
+        chosen = np.stack([np.searchsorted(row, place) for row, place in zip(sums, places, strict=True)])
+        chosen = np.minimum(chosen, weights.shape[1] - 1)
+        self.points = np.take_along_axis(self.points, chosen[..., np.newaxis], axis=1)
+        self.likelihood, self.missed = (np.take_along_axis(part, chosen, axis=1) for part in (self.likelihood, self.missed))
+        self._move(np.roll(self.points, 1, axis=0), _NOISE * np.roll(spread, 1, axis=0))
 
-    def _move(self, spread: Any) -> Steps:
-        """Metropolis steps along differences between points as they were at first, with some noise in all directions."""
-        start, accepted = self.points.copy(), np.zeros(self.count, dtype=np.intp)
+    def _move(self, others: Any, noise: Any) -> None:
+        """Metropolis steps along differences between the points of the other islands, with some noise in all directions."""
+        count, accepted = self.shape[1], np.zeros(self.shape[:2], dtype=np.intp)
+        which = np.arange(self.shape[0])[:, np.newaxis]
         for _ in range(_MOST_SWEEPS):
-            one = self.random.integers(self.count, size=self.count)
-            other = (one + self.random.integers(1, self.count, size=self.count)) % self.count
-            noise = _NOISE * spread * self.random.standard_normal(self.points.shape)
-            points = self.points + self.scale * (start[one] - start[other] + noise)
-            likelihood, missed = yield points
-            prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=1)
+            one = self.random.integers(count, size=accepted.shape)
+            other = (one + self.random.integers(1, count, size=accepted.shape)) % count
+            step = others[which, one] - others[which, other] + noise * self.random.standard_normal(self.shape)
+            points, likelihood, missed = self._evaluated(self.points + self.scale * step)
+            prior = 0.5 * np.sum((self.points - points) * (self.points + points), axis=2)
             gain = prior + self.power * (likelihood - self.likelihood)
-            better = (missed <= self.limit) & (-self.random.standard_exponential(self.count) < gain)
+            better = (missed <= self.limit) & (-self.random.standard_exponential(accepted.shape) < gain)
             self.points[better], self.likelihood[better] = points[better], likelihood[better]
             self.missed[better] = missed[better]
             accepted += better
             self.scale *= math.exp(np.mean(better) - _ACCEPTED)
             if np.mean(accepted) >= (_MOVES if self.power < 1.0 else _MOVES_LAST):
                 break
-        self.moved = float(np.mean(accepted > 0))
+        self.moved = np.mean(accepted > 0, axis=1)

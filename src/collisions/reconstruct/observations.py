@@ -22,10 +22,11 @@ _LOG_ROOT_TURN = 0.5 * math.log(math.tau)
 
 
 class Observation(NamedTuple):
-    """One observed output of the model by name."""
+    """One observed output of the model by name, or what was stated of an unknown before."""
 
     name: str
     value: Normal | Censored
+    is_prior: bool = False
 
     @property
     def sigma(self) -> float:
