@@ -905,7 +905,7 @@ def test_intervals_alone_have_no_mean():
                                   inputs, method="interval")  # fmt: skip
     part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
     low, high = known["b.delta_v"].interval()
-    assert ("b.delta_v", "range, wherever in the intervals the truth is", f"{low:.2f} m/s to {high:.2f} m/s") in rows(part)
+    assert ("b.delta_v", "range, wherever in the intervals the truth is", f"{low:.2f} to {high:.2f} m/s") in rows(part)
     assert "mean" not in part
     assert "95 percent" not in part
 

@@ -242,7 +242,7 @@ def test_a_simulated_path_is_a_frozen_record_with_units():
     # The place of rest is what is compared with the scene.
     (part,) = (part for part in path.summary("us").parts if not part.folded)
     cells = dict(part.rows)
-    assert cells["rest x"] == f"{path.rest.x / 0.3048:.1f} ft"
+    assert cells["rest x"] == f"{path.rest.x / 0.3048:.2f} ft"
     assert cells["rest heading"] == f"{math.degrees(path.rest.heading):.0f}°"
     assert f"rest.y={path.rest.y:.6g} m" in repr(path)
 

@@ -144,7 +144,7 @@ def test_a_fit_and_findings_are_tables():
         {"speed": Interval("1 m/s", "40 m/s")},
         {"delta_v": ("20 mph", "1 mph")},
     )
-    assert re.search(r"speed +40\.0 mph +2\.0 mph +36\.1 mph to 43\.9 mph", str(fit.summary("us")))  # twice 20 +- 1, 1.96 sigma
+    assert re.search(r"speed +40\.0 mph +2\.0 mph +36\.1 to 43\.9 mph", str(fit.summary("us")))  # twice 20 +- 1, 1.96 sigma
     assert fit._repr_html_().count("<table>") == 2
     found = diagnose(col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.8), units="us")
     assert found[0].code == "restitution"
@@ -175,7 +175,7 @@ def test_a_propagation_needs_no_method_and_speaks_the_units_of_its_inputs():
         found["delta_v"].to("lb")
     between = propagate(struck, {"speed": Interval("40 mph", "42 mph")})
     assert between.method == "interval"
-    assert re.search(r"delta_v +22\.0 mph to 23\.1 mph", str(between.summary()))
+    assert re.search(r"delta_v +22\.0 to 23\.1 mph", str(between.summary()))
     plain = propagate(lambda speed: {"v": 2.0 * speed}, {"speed": Uniform("1 m/s", "2 m/s")}, seed=1)["v"]
     with pytest.raises(col.InputError, match="return a Quantity"):
         plain.to("mph")
@@ -321,3 +321,24 @@ def test_a_run_out_speaks_the_units_of_its_survey():
     vehicle = col.Vehicle(mass="3400 lb", yaw_inertia=2500.0, x="0 ft", y=0.0, heading=0.0, vx=10.0, vy=1.0)
     rolled = travel.simulate(vehicle, friction=0.7, lock=0.5, moments=2)
     assert "3400 lb" in str(rolled.rest.summary())
+
+
+def test_one_output_alone_is_shown_in_the_units_of_the_inputs():
+    found = propagate(
+        lambda speed: {"twice": 2.0 * travel.q.speed("60 ft", drag=0.7) + 0.0 * speed}, {"speed": Normal(1.0, 0.1)}
+    )
+    assert "m/s" in str(found["twice"])
+    found = propagate(
+        lambda speed: {"a": col.Vehicle(mass=1.0, vx=speed).q.speed}, {"speed": Normal("30 mph", "2 mph")}, seed=1
+    )
+    assert re.search(r"a +30\.0 ± 2\.0 mph +26\.1 to 33\.9 mph", str(found["a"]))
+    assert "30.0 ± 2.0 mph" in found["a"]._repr_html_()
+    assert plot.distribution(found["a"]).get_xlabel() == "a [mph]"
+    assert repr(found["a"].to("mph")).startswith("<a in mph: ")
+    assert str(Uniform("10 deg", "20 deg")) == "10 to 20°, all values equally likely"
+
+
+def test_a_plain_table_is_at_most_88_wide():
+    found = col.diagnose(crash(), limits=dict.fromkeys(("normal", "tyre_impulse", "normal_yaw"), 1e-3))
+    assert len(found) > 2
+    assert max(map(len, str(found).splitlines())) <= 88

@@ -85,6 +85,14 @@ class Numbers:
             )
         return found
 
+    def span(self, low: float, high: float, kind: str, deviation: float | None = None) -> str:
+        """A range as a result, with the unit at its end; one value if both ends are printed alike."""
+        ends = [self.answer(end, kind, deviation).partition(" ± ")[0] for end in (low, high)]
+        if not math.isfinite(low + high):
+            return " to ".join(ends)
+        unit = self.unit(kind)
+        return " to ".join(dict.fromkeys(end.removesuffix(unit) for end in ends)) + unit
+
     def answer(self, value: float, kind: str, deviation: float | None = None) -> str:
         """A number as a result, rounded to its standard deviation where that is known, with the unit."""
         if not math.isfinite(value):

@@ -158,15 +158,19 @@ class Quantities:
 class InUnit(Quantities):
     """The owner's attributes and the results of its methods as plain numbers in a unit that was asked for."""
 
-    __slots__ = ("_factor",)
+    __slots__ = ("_factor", "_unit")
 
     def __init__(self, owner: Any, unit: str) -> None:
         super().__init__(owner)
         reader = ArgumentReader()
         # A text or a unit of pint; anything else is refused by how it is written.
         name = f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+        self._unit = unit
         self._factor = reader.number(f"1 {name}", owner.unit, "unit")
         reader.close()
+
+    def __repr__(self) -> str:
+        return f"<{self._owner.name} in {self._unit}: mean, std, interval(0.95) and so on as plain numbers>"
 
     def _with_unit(self, value: Any, unit: str) -> Any:
         return tuple(part / self._factor for part in value) if isinstance(value, tuple) else value / self._factor

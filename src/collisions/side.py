@@ -371,7 +371,7 @@ class Side(Frozen, Summarized):
 
 SIGNS = (
     "Courses and yaw are counter-clockwise from the x axis.",
-    "PDOF is where the force comes from: 0 from straight ahead, positive clockwise, from the right.",
+    "PDOF is where the force comes from: 0 from straight ahead, positive from the right.",
 )
 _STATE = {"speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
 _CHANGE = {"delta_v": "total", "delta_v_forward": "forward", "delta_v_left": "left", "pdof": "PDOF"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from itertools import zip_longest
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from .units import system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten, in SI
 _SHORT = 30  # characters of a cell that is a number, and not a sentence
-_WIDEST = 66  # characters of a cell on one line of the plain table
+_PAGE, _LEAST = 88, 24  # characters of a line of the plain table, and at least of its longest column
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
 _SIDED = r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)"
@@ -113,7 +114,7 @@ class Summary:
             for row in rows:
                 lines += _line(row, own, id(part) not in wide)
         for note in self.notes:
-            lines += wrap(note, 88)
+            lines += wrap(note, _PAGE)
         return "\n".join(lines)
 
     __repr__ = __str__
@@ -192,14 +193,18 @@ def label_of(name: str) -> str:
 
 def _widths(rows: Sequence[tuple[str, ...]]) -> list[int]:
     most = max((len(row) for row in rows), default=0)
-    return [max(min(max((len(row[i]) for row in rows if len(row) > i), default=0), _WIDEST), 1) for i in range(most)]
+    widths = [max([1, *(len(row[i]) for row in rows if len(row) > i)]) for i in range(most)]
+    if most > 1:
+        at = max(range(1, most), key=widths.__getitem__)
+        widths[at] = min(widths[at], max(widths[at] + _PAGE - sum(widths) - 2 * (most - 1), _LEAST))
+    return widths
 
 
 def _line(row: tuple[str, ...], widths: Sequence[int], right: bool) -> list[str]:
     """One row of a plain table, in as many lines as its longest cell needs."""
     from textwrap import wrap
 
-    wrapped = [wrap(cell, _WIDEST) or [""] if i else [cell] for i, cell in enumerate(row)]
+    wrapped = [wrap(cell, widths[i]) or [""] if i else [cell] for i, cell in enumerate(row)]
     lines = []
     for at in range(max(map(len, wrapped))):
         parts = [cell[at] if at < len(cell) else "" for cell in wrapped]
@@ -218,16 +223,18 @@ def _html(title: str, parts: Sequence[Part], span: int) -> str:
     lines = [f"<table>{f'<caption>{escape(title)}</caption>' if title else ''}<tbody>"]
     columns: tuple[str, ...] = ()
     for part in parts:
+        # Columns of numbers are aligned at the right and never broken, those with sentences in them at the left.
+        longest = [max(map(len, column)) for column in zip_longest(*(row[1:] for row in part.rows), fillvalue="")]
+        short = "text-align:right;white-space:nowrap" if not part.folded else "text-align:left"
+        styles = [f"{short if most <= _SHORT else 'text-align:left'};padding-left:1em" for most in longest]
         if part.heading or part.columns != columns:
             heads = part.columns if part.columns != columns else ()
             columns = part.columns
-            cells = "".join(f"<th style='text-align:right;padding-left:1em'>{escape(head)}</th>" for head in heads)
+            cells = "".join(f"<th style='{style}'>{escape(head)}</th>" for style, head in zip(styles, heads, strict=False))
             rest = "" if heads else f" colspan='{span}'"
             if part.heading or heads:
                 lines.append(f"<tr><th style='text-align:left'{rest}>{escape(part.heading)}</th>{cells}</tr>")
         for label, *texts in part.rows:
-            sides = ("right" if span > 2 and len(text) <= _SHORT else "left" for text in texts)
-            cell = "<td style='text-align:{};padding-left:1em'>{}</td>"
-            tds = "".join(cell.format(side, escape(text)) for side, text in zip(sides, texts, strict=True))
+            tds = "".join(f"<td style='{style}'>{escape(text)}</td>" for style, text in zip(styles, texts, strict=False))
             lines.append(f"<tr><th style='text-align:left;font-weight:normal'>{escape(label)}</th>{tds}</tr>")
     return "".join([*lines, "</tbody></table>"])

@@ -29,7 +29,7 @@ def path(
     outline_a: Any = None,
     outline_b: Any = None,
     axes: Axes | None = None,
-    units: UnitSystem = "si",
+    units: UnitSystem | None = None,
 ) -> Axes:
     """The way of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
 
@@ -44,7 +44,7 @@ def path(
         As for ``scene``. Without it only the centre of mass is marked, at separation and at rest.
     axes : matplotlib.axes.Axes, optional
         To draw on; by default that of a new figure.
-    units : "si", "metric" or "us"
+    units : "si", "metric" or "us", optional
         m or ft.
 
     Returns
@@ -69,7 +69,7 @@ def path(
     >>> axes.get_xlabel()
     'x [m]'
     """
-    labels = Units(units)
+    labels = Units(units, path)
     if path_b is None and outline_b is not None:
         raise InputError("outline_b has no path_b to go with; give both", code="bad_option", argument="outline_b")
     given = {"a": (path_a, outline_a)} | ({} if path_b is None else {"b": (path_b, outline_b)})

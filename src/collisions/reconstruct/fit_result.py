@@ -293,9 +293,10 @@ class Fit(Shown):
         def row(one: Estimate) -> tuple[str, ...]:
             if not one.determined:
                 return one.name, "not determined", _NONE, _NONE
-            value, error, *ends = (numbers.text(end, one.unit) for end in (one.value, one.standard_error, *one.interval(0.95)))
+            value, error = (numbers.text(end, one.unit) for end in (one.value, one.standard_error))
+            ends = numbers.text(np.array(one.interval(0.95)), one.unit)
             bound = f" ({one.at_bound} bound)" if one.at_bound else ""
-            return one.name, value + bound, error, " to ".join(ends)
+            return one.name, value + bound, error, ends
 
         found = [row(self[name]) for name in self.names]
         misfit = [

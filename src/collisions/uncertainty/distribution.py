@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from ..errors import InputError, ShapeError, UnitsError
+from ..formatting import typeset
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..reading import ArgumentReader, is_whole
 from ..units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
@@ -75,7 +76,9 @@ class Stated:
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def __str__(self) -> str:
-        return self._words.format(**{name: show(part, self.unit) for name, part in self._parts.items()})
+        text = self._words.format(**{name: show(part, self.unit) for name, part in self._parts.items()})
+        unit = f" {self.unit.written}" if isinstance(self.unit, GivenUnit) else f" {self.unit}".rstrip()
+        return typeset(text.replace(f"{unit} to ", " to ") if unit else text)
 
 
 class Distribution(Stated):

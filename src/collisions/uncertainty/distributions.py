@@ -228,7 +228,7 @@ class Samples(Distribution):
 
     def __str__(self) -> str:
         low, high = (show(end, self.unit) for end in self.support)
-        return f"one of {self.rows.size} measured values from {low} to {high}"
+        return f"one of {self.rows.size} values from {low} to {high}"
 
     def _at(self, below: Any, above: Any) -> Any:
         places = np.minimum(np.floor(np.asarray(below) * self.rows.size).astype(np.intp), self.rows.size - 1)

@@ -56,7 +56,7 @@ class Histogram(NamedTuple):
         return not self == other
 
 
-class Output:
+class Output(Summarized):
     """One named output of a propagation, given the stated inputs.
 
     Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the model returned. With an
@@ -70,6 +70,8 @@ class Output:
     """
 
     given = "the stated inputs"
+    texts: tuple[str, ...] = ()
+    """What the units of its summary are chosen by."""
 
     def __init__(self, name: str, unit: str | None) -> None:
         self.name = name
@@ -208,6 +210,15 @@ class Output:
     def __repr__(self) -> str:
         name, text = self.row()
         return f"<{name}: {text}, given {self.given}>"
+
+    def __str__(self) -> str:
+        return str(self.summary())
+
+    def _summary(self, numbers: Cells) -> Summary:
+        return Summary(f"Given {self.given}", [outputs_part({self.name: self}, numbers), all_numbers([self.row()])])
+
+    def _texts(self) -> tuple[str, ...]:
+        return self.texts
 
     def _basics(self) -> dict[str, Any]:
         return {
@@ -395,6 +406,10 @@ class Propagation(Summarized):
     seed: int | None = None
     interrupted: bool = False
 
+    def __post_init__(self) -> None:
+        for output in self.outputs.values():
+            output.texts = tuple(self._texts())
+
     def __getitem__(self, name: str) -> Output:
         try:
             return self.outputs[name]
@@ -461,23 +476,21 @@ def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[t
     if kind is None:
         return [("figures", output.row()[1])]
     mean, std, (low, high) = ends_of(output.mean), ends_of(output.std), output.interval()
-    ends = f"{numbers.answer(low, kind)} to {numbers.answer(high, kind)}"
+    ends = numbers.span(low, high, kind)
     if output.bounds_only:
         return [("range, wherever in the intervals the truth is", ends)]
     if len(mean) > 1:
         return [
-            ("mean, wherever in the intervals the truth is", " to ".join(numbers.answer(end, kind) for end in mean)),
+            ("mean, wherever in the intervals the truth is", numbers.span(mean[0], mean[1], kind)),
             ("range that holds 95 percent", ends),
         ]
     if math.isnan(std[0]):
         return [("in the one case that has an answer, so no spread is known", numbers.answer(mean[0], kind))]
     if not varies(output, kind):
         return [("the same in every case", numbers.answer(mean[0], kind))]
-    first, second = (numbers.answer(end, kind, std[0]).partition(" ± ")[0] for end in (low, high))
-    unit = numbers.unit(kind)
     return [
         ("mean ± standard deviation", numbers.answer(mean[0], kind, std[0])),
-        ("95 percent interval", f"{first.removesuffix(unit)} to {second.removesuffix(unit)}{unit}"),
+        ("95 percent interval", numbers.span(low, high, kind, std[0])),
     ]
 
 
