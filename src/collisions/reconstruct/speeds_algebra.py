@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property, lru_cache, partial
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -163,6 +164,8 @@ class Scene:
         spinning = number(sum(abs(v[f"{label}.yaw_rate"]) * arm for label, arm in arms.items()))
         self.fixed = [spinning if name == "spinning" else v[name] for name in _FIXED]
         self.e, self.bound = v["restitution"], v[rule]
+        # Both observations of what is seen.
+        self.both: Callable[[Seen], Any] = attrgetter(*self.kinds)
         self.targets = {kind: number(self._target(name)) for kind, name in zip(self.kinds, names, strict=True)}
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
@@ -279,24 +282,27 @@ class Scene:
 
     def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
-        k1, k2 = self.kinds
-        c1, c2 = self.targets.values()
+        (k1, c1), (k2, c2) = self.targets.items()
+
+        def apart(seen: Seen) -> Any:
+            one, other = self.both(seen)
+            return c2 * one - c1 * other
+
         # Where both observations depend on slip alike, every slip fits, or none.
         samples = self._samples(regime, e)
         rounding = [c2 * _observation_rounding(k1, seen) + c1 * _observation_rounding(k2, seen) for seen in samples]
-        apart = [abs(c2 * getattr(seen, k1) - c1 * getattr(seen, k2)) for seen in samples]
-        alike = np.logical_and.reduce([off <= least for off, least in zip(apart, rounding, strict=True)])
+        alike = np.logical_and.reduce([abs(apart(seen)) <= least for seen, least in zip(samples, rounding, strict=True)])
         any_slip = (self._redundant(c1, c2, samples) | alike) & self._can_occur(regime) & ((c1 > 0.0) | (c2 > 0.0))
         self.undetermined = self.undetermined | any_slip
 
         def difference(ratio: Any) -> Any:
             seen = self._per_closing(regime, ratio, e)
-            return np.where(any_slip, np.nan, (c2 * getattr(seen, k1) - c1 * getattr(seen, k2)) * seen.weight)
+            return np.where(any_slip, np.nan, apart(seen) * seen.weight)
 
         pairs = []
         for ratio in _roots(regime, difference, np.ones(())):
-            seen = self._per_closing(regime, ratio, e)
-            closing = np.sqrt(np.where(c1 > 0.0, c1 / getattr(seen, k1), c2 / getattr(seen, k2)))
+            one, other = self.both(self._per_closing(regime, ratio, e))
+            closing = np.sqrt(np.where(c1 > 0.0, c1 / one, c2 / other))
             pairs.append(self.speeds_at(closing, ratio * closing))
         return pairs
 
@@ -309,8 +315,7 @@ class Scene:
 
     def _redundant(self, p1: Any, p2: Any, samples: Sequence[Seen]) -> Any:
         """Whether both observations have the ratio p1 to p2 at every slip."""
-        k1, k2 = self.kinds
-        pairs = [(p2 * getattr(seen, k1), p1 * getattr(seen, k2)) for seen in samples]
+        pairs = [(p2 * one, p1 * other) for one, other in map(self.both, samples)]
         scale = sum(abs(one) + abs(other) for one, other in pairs)
         return np.logical_and.reduce([abs(one - other) <= REDUNDANT * scale for one, other in pairs])
 
@@ -318,7 +323,7 @@ class Scene:
         """For two observations that depend on slip alike: their relative difference, and the closing speed."""
         c1, c2 = self.targets.values()
         samples = self._samples(regime, e)
-        q1, q2 = (getattr(samples[1], kind) for kind in self.kinds)
+        q1, q2 = self.both(samples[1])
         of_first, of_second = c2 * q1, c1 * q2
         apart = (of_first - of_second) / (abs(of_first) + abs(of_second))
         return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(c1 / q1)
@@ -348,7 +353,7 @@ class Scene:
         for _ in range(_NEWTON_STEPS):
             rows = self._derivatives(regime, e, speed_a, speed_b, _STEP * (abs(speed_a) + abs(speed_b) + abs(here.closing)))
             (j11, j12), (j21, j22) = rows
-            r1, r2 = (getattr(here, kind) - target for kind, target in self.targets.items())
+            r1, r2 = (value - target for value, target in zip(self.both(here), self.targets.values(), strict=True))
             determinant = j11 * j22 - j12 * j21
             step_a, step_b = (r1 * j22 - r2 * j12) / determinant, (r2 * j11 - r1 * j21) / determinant
             ahead = self.observe(regime, speed_a - step_a, speed_b - step_b, e)
@@ -365,7 +370,8 @@ class Scene:
             # The restitution changes with the closing speed, and the observations with it.
             after, before = (self.observe(regime, speed_a, speed_b, e + step) for step in (_STEP, -_STEP))
             e_by_closing = self.speed_unit * function.slope(self.speed_unit * here.closing)
-            by_e = [e_by_closing * (getattr(after, kind) - getattr(before, kind)) / (2.0 * _STEP) for kind in self.kinds]
+            changes = zip(self.both(after), self.both(before), strict=True)
+            by_e = [e_by_closing * (up - down) / (2.0 * _STEP) for up, down in changes]
             g_a, g_b = self._linear[1]
             whole = [(j_a + by * g_a, j_b + by * g_b) for (j_a, j_b), by in zip(rows, by_e, strict=True)]
             condition = self._condition(whole, here.closing)
@@ -373,10 +379,10 @@ class Scene:
 
     def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
         """Derivatives of each observation by both speeds."""
-        ahead_a, behind_a = (self.observe(regime, speed_a + h, speed_b, e) for h in (size, -size))
-        ahead_b, behind_b = (self.observe(regime, speed_a, speed_b + h, e) for h in (size, -size))
-        pairs = (ahead_a, behind_a), (ahead_b, behind_b)
-        return [tuple((getattr(x, kind) - getattr(y, kind)) / (2.0 * size) for x, y in pairs) for kind in self.kinds]
+        by_a = (self.both(self.observe(regime, speed_a + h, speed_b, e)) for h in (size, -size))
+        by_b = (self.both(self.observe(regime, speed_a, speed_b + h, e)) for h in (size, -size))
+        both = zip(*by_a, *by_b, strict=True)
+        return [((up_a - down_a) / (2.0 * size), (up_b - down_b) / (2.0 * size)) for up_a, down_a, up_b, down_b in both]
 
     def _off(self, seen: Seen, here: Seen) -> Any:
         """Largest relative residual of both observations; an energy loss is measured against closing speed times impulse."""

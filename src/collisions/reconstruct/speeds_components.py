@@ -52,11 +52,10 @@ class ComponentScene(Scene):
 
     def roots(self, e: Any = None, polish: bool = True, function: RestitutionOf | None = None) -> list[Root]:
         """The answer with the least misfit that the law leads to, or all that fit exactly; NaN in place of others."""
-        e = self.e if e is None else e
         self.undetermined = np.zeros((), dtype=bool)
         found, misfits, open_slip = [], [], np.full((), np.inf)
-        tried = [(regime, *self._solved(regime, e)) for regime in self.regimes()]
-        for regime, root, rest, stays_open in [*tried, *self._edges(e)]:
+        tried = [(regime, *self._solved(regime)) for regime in self.regimes()]
+        for regime, root, rest, stays_open in [*tried, *self._edges()]:
             fits, _ = self.fits(root)
             usable = fits & ~stays_open & (rest <= _CONTRADICTION * ACCURACY)
             found.append(root._replace(speed_a=np.where(usable, root.speed_a, np.nan)))
@@ -71,19 +70,19 @@ class ComponentScene(Scene):
         self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
         return found
 
-    def _solved(self, regime: Any, e: Any) -> tuple[Root, Any, Any]:
+    def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
         zero, one = np.zeros(()), np.ones(())
-        rest = self._seen_momenta(regime, zero, zero, e)
+        rest = self._seen_momenta(regime, zero, zero)
         effects = [
-            [at - still for at, still in zip(self._seen_momenta(regime, *pair, e), rest, strict=True)]
+            [at - still for at, still in zip(self._seen_momenta(regime, *pair), rest, strict=True)]
             for pair in ((one, zero), (zero, one))
         ]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
         speeds = [self.targets.get(f"speed_{label}", zero) + 0.0 * rest[0] for label in "ab"]
         for _ in range(_REFINEMENTS):
-            left = self._left(regime, speeds[0], speeds[1], e)
+            left = self._left(regime, speeds[0], speeds[1])
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = sum(part * off for part, off in zip(row, left, strict=True))
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
@@ -96,9 +95,9 @@ class ComponentScene(Scene):
                     by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
                     of_row = of_row + abs(by_speed * self.targets[f"speed_{label}"])
             moved = np.maximum(moved, of_row)
-        return *self._root(regime, speeds, e, moved), stays_open
+        return *self._root(regime, speeds, moved), stays_open
 
-    def _edges(self, e: Any) -> list[tuple[Any, Root, Any, Any]]:
+    def _edges(self) -> list[tuple[Any, Root, Any, Any]]:
         """With one speed known: where sticking just uses up the friction, one way or the other.
 
         There the least misfit lies where each regime has its own beyond its end.
@@ -108,7 +107,7 @@ class ComponentScene(Scene):
         (at,) = self.unknown
         known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         of_unknown, of_known = ([speed + (1.0 if i == one else 0.0) for i, speed in enumerate(known)] for one in (at, 1 - at))
-        seen = [self.observe(STICK, speed_a, speed_b, e) for speed_a, speed_b in (known, of_unknown, of_known)]
+        seen = [self.observe(STICK, speed_a, speed_b, self.e) for speed_a, speed_b in (known, of_unknown, of_known)]
         found = []
         for sign in (1.0, -1.0):
             here, by_unknown, by_known = (one.tangential - sign * self.bound * one.normal for one in seen)
@@ -116,23 +115,23 @@ class ComponentScene(Scene):
             speeds = [speed + 0.0 * here for speed in known]
             speeds[at] = np.where(np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan)
             moved = abs((by_known - here) / slope * known[1 - at])
-            found.append((STICK, *self._root(STICK, speeds, e, moved), np.zeros((), dtype=bool)))
+            found.append((STICK, *self._root(STICK, speeds, moved), np.zeros((), dtype=bool)))
         return found
 
-    def _root(self, regime: Any, speeds: Sequence[Any], e: Any, moved: Any) -> tuple[Root, Any]:
+    def _root(self, regime: Any, speeds: Sequence[Any], moved: Any) -> tuple[Root, Any]:
         """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse."""
-        seen = self.observe(regime, speeds[0], speeds[1], e)
+        seen = self.observe(regime, speeds[0], speeds[1], self.e)
         impulse = seen.normal, seen.tangential
-        left = self._left(regime, speeds[0], speeds[1], e)
+        left = self._left(regime, speeds[0], speeds[1])
         misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(*impulse)
-        return Root(speeds[0], speeds[1], e, moved / abs(seen.closing), *impulse), misfit
+        return Root(speeds[0], speeds[1], self.e, moved / abs(seen.closing), *impulse), misfit
 
-    def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
-        seen = self.observe(regime, speed_a, speed_b, e)
+    def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any) -> list[Any]:
+        seen = self.observe(regime, speed_a, speed_b, self.e)
         return [n * seen.normal + t * seen.tangential for n, t in self._axes]
 
-    def _left(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> list[Any]:
-        seen = self._seen_momenta(regime, speed_a, speed_b, e)
+    def _left(self, regime: Any, speed_a: Any, speed_b: Any) -> list[Any]:
+        seen = self._seen_momenta(regime, speed_a, speed_b)
         return [target - one for target, one in zip(self._momenta, seen, strict=True)]
 
     def _of(self, label: str, left: Sequence[Any]) -> Any:
