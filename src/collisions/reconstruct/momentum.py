@@ -361,11 +361,11 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
 def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
     """Warn where the solution is ill-conditioned or not a possible impact."""
 
-    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, *, pick: Any = np.min, **field: Any) -> None:
+    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, **field: Any) -> None:
         if np.any(where):
             ((name, values),) = field.items()
-            where, values = np.broadcast_arrays(where, values)
-            worst = float(pick(values[where]))
+            values = np.broadcast_to(values, np.shape(where))[where]
+            worst = float(values[np.argmax(abs(values))])
             give = warn_of_cases if kind is EnergyGainWarning else warn
             give(kind(known.cases.how_many(where) + text.format(worst), code=code, **{name: worst}))
 
@@ -379,13 +379,13 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
             f"the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line (condition {{:.3g}}): "
             f"{numbers}; an in-line method may tell more"
         )
-        say(IllConditionedWarning, near, text, "nearly_collinear", pick=np.max, condition=found["condition"])
+        say(IllConditionedWarning, near, text, "nearly_collinear", condition=found["condition"])
     for name in solution.unknowns:
         text = f"{name} = {{:.6g}} m/s: backwards along its course; check the courses, or turn this one by 180 deg"
         # A negative speed within rounding of 0 is not a backward motion.
         say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", value=found[name])
     text = "the vehicles leave with {:.6g} J more than they came with, which no impact gives; check courses and speeds"
-    say(EnergyGainWarning, gains, text, "energy_gain", pick=np.max, gain=-found["translational_energy_loss"])
+    say(EnergyGainWarning, gains, text, "energy_gain", gain=-found["translational_energy_loss"])
     closing, e = found["closing_speed"], found["restitution"]
     if closing is None:
         return
@@ -395,13 +395,11 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
     )
     say(OutOfRangeWarning, closing <= 0.0, text, "separating", closing_speed=closing)
     slack = rounding / closing
-    below, above = e < -slack, e > 1.0 + slack
     text = (
         "the restitution of the centres along the normal is {:.4g}, outside 0 to 1: check the normal, courses and speeds, or "
         "ask reconstruct.restitution with the contact point"
     )
-    pick = np.min if np.any(below) else np.max
-    say(OutOfRangeWarning, below | above, text, "observed_restitution", pick=pick, value=e)
+    say(OutOfRangeWarning, (e < -slack) | (e > 1.0 + slack), text, "observed_restitution", value=e)
 
 
 def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
