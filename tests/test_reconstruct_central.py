@@ -748,3 +748,18 @@ def test_the_largest_speed_of_all_beside_an_energy_is_refused_without_a_word_of_
     impact = reconstruct.central(1256.0, 1441.0, **known, on_failure="nan")
     assert np.isnan(impact.restitution[0])
     assert impact.status[0] > col.Status.ENERGY_GAIN
+
+
+def test_a_refused_neighbour_leaves_the_digits_of_a_tiny_closing_speed():
+    """A case of a batch, another of which the forward solver refuses, is solved again from the closing speed that was found."""
+    known = {"va": 30.0, "restitution": 0.5}
+    alone = reconstruct.central(1000.0, 1200.0, **known, energy_loss=1e-13)
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases"):
+        both = reconstruct.central(1000.0, 1200.0, **known, energy_loss=np.array([1e-13, 1e308]))
+    assert both.refused.tolist() == [False, True]
+    assert np.isnan(both.inputs.contact_velocity[0]).tolist() == [False, True]
+    # loss = m g^2 (1 - e^2) / 2 and P = m (1 + e) g, with m = 6000 / 11: the rounded speeds leave seven digits.
+    reduced = 6000.0 / 11.0
+    impulse = 1.5 * reduced * math.sqrt(2.0 * 1e-13 / (0.75 * reduced))
+    for impact in (alone, both.case(0), col.Impact.from_dict(both.to_dict()).case(0)):
+        assert impact.normal_impulse == pytest.approx(impulse, rel=1e-14)

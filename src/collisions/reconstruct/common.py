@@ -17,7 +17,7 @@ from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..models import body_numbers
-from ..provenance import Reconstruction
+from ..provenance import Reconstruction, origin_where_answered
 from ..quantities import lock
 from ..reading import ArgumentReader, amount, broadcast
 from ..solving import check_options, error_of, first_refused, warn_of_refusals
@@ -224,7 +224,8 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
     impact = solved(inputs, plain=not isinstance(status, np.ndarray), on_failure=on_failure)
     if np.any(found & impact.refused):
-        inputs = inputs_of(found & np.logical_not(impact.refused))
+        velocity = origin_where_answered(origin, impact.status).contact_velocity
+        inputs = replace(inputs_of(found & np.logical_not(impact.refused)), contact_velocity=velocity)
     return found_by(origin, inputs, answer_of(impact), status)
 
 
