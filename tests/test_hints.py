@@ -86,3 +86,30 @@ def test_an_attribute_that_cannot_be_worked_out_says_why():
 
     with pytest.raises(AttributeError, match="'int' object has no attribute 'slope_of_a_number'"):
         _ = Answer().slope
+
+
+@pytest.mark.parametrize("given", ["2100 lb-ft-s2", "2100 ft-lb-sec^2", "2100 slug ft2", "2100 slug-ft^2", "2100 lb*ft*s2"])
+def test_what_a_refused_yaw_inertia_is_told_to_write_can_be_read(given):
+    with pytest.raises(col.UnitsError, match=r"raised by \*\*, '([^']*)'") as caught:
+        col.Vehicle(mass=1500.0, yaw_inertia=given)
+    cure = re.search(r"raised by \*\*, '([^']*)'", str(caught.value))[1]
+    assert col.Vehicle(mass=1500.0, yaw_inertia=cure).yaw_inertia == pytest.approx(2847.22, rel=1e-5)  # 2100 slug ft2
+
+
+@pytest.mark.parametrize("given", ["30 to 35 mph", "30-35 mph", "35 +/- 2 mph", "35 ± 2 mph"])
+def test_a_range_in_place_of_a_number_is_named(given):
+    with pytest.raises(col.UnitsError, match=r"this is a range; ranges go to collisions\.uncertainty\.propagate"):
+        col.Vehicle(mass=1500.0, vx=given)
+
+
+def test_metres_per_hour_are_no_miles_per_hour():
+    with pytest.raises(col.UnitsError, match="write 'mph' for miles"):
+        col.Vehicle(mass=1500.0, vx="35 m/h")
+
+
+def test_a_name_of_a_part_says_where_it_is():
+    with pytest.raises(AttributeError, match=r"write collisions\.uncertainty\.Normal$"):
+        _ = col.Normal
+    with pytest.raises(AttributeError, match=r"write collisions\.plot\.momentum or collisions\.reconstruct\.momentum$"):
+        _ = col.momentum
+    assert not hasattr(col, "Vehicel")

@@ -215,7 +215,7 @@ def test_a_number_that_no_case_has_is_said_to_be_none(cases):
     refused = col.linear_central(col.Vehicle(mass=1000.0), col.Vehicle(mass=1.0, vx=apart), 0.1, normal=0.0, on_failure="nan")
     shown = refused._repr_html_()
     assert f"energy_loss</th><td style='text-align:left;padding-left:1em'>array{(cases,)} not defined</td>" in shown
-    assert "energy lost</th><td style='text-align:right;padding-left:1em'>not defined</td>" in shown
+    assert "energy lost</th><td style='text-align:right;white-space:nowrap;padding-left:1em'>not defined</td>" in shown
     assert f"energy_loss=array{(cases,)} not defined" in repr(refused)
 
 

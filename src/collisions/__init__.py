@@ -98,7 +98,9 @@ def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return import_module(f".{name}", __name__)
     if name not in _LATER:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        homes = [] if name[0] == "_" else [part for part in _MODULES if name in import_module(f".{part}", __name__).__all__]
+        hint = f"; write {' or '.join(f'collisions.{part}.{name}' for part in homes)}" if homes else ""
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}", name=name)
     found = globals()[name] = getattr(import_module(f".{_LATER[name]}", __name__), name)
     return found
 

@@ -170,8 +170,7 @@ def bad_system(units: Any) -> InputError | None:
     if isinstance(units, str) and units in SYSTEMS:
         return None
     return InputError(
-        f"units must be 'si', 'metric' or 'us', got {shown(units)}; the units of the numbers given are known, only those of "
-        f"what is written are chosen",
+        f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what is printed, not those of the inputs",
         code="bad_option",
         argument="units",
     )

@@ -313,8 +313,13 @@ def _cure(text: str) -> str:
         return f": no comma stands in a number, {' or '.join(map(repr, whole + point))}" if whole or point else ""
     if "\u2212" in text:
         return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
-    if re.search(r"[a-z]-[a-z]", text):
-        return f": units are multiplied by *, {text.replace('-', '*')!r}"
+    if re.search(r"\d\s*(?:-|\.\.|to|–|±|\+/?-)\s*\d", text):
+        return ": this is a range; ranges go to collisions.uncertainty.propagate"
+    cured = re.sub(r"(?<=[a-z])(\d)\b", r"**\1", re.sub(r"(?<=[a-z])-(?=[a-z])", "*", text))
+    if cured != text:
+        # Pounds beside seconds are a force: lb ft s2 is the yaw inertia of a US data sheet.
+        cured = re.sub(r"\blbs?\b", "lbf", cured) if re.search(r"\bs(?:ec)?\b", cured) else cured
+        return f": units are multiplied by * and raised by **, {cured!r}"
     return ""
 
 
@@ -392,6 +397,8 @@ def _is_count(registry: Any, name: str) -> bool:
 def _ambiguous_unit(quantity: Any) -> str:
     """The hint for a unit whose name means different things to different people; "" for others."""
     registry = quantity._REGISTRY
+    if set(map(str, quantity._units)) == {"meter", "hour"}:
+        return "; m/h are metres per hour: write 'mph' for miles, 'km/h' for kilometres"
     for name in map(str, quantity._units):
         (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]
         if root in _AMBIGUOUS:

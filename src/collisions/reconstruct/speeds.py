@@ -400,16 +400,16 @@ def _answers(
     nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
     impacts: list[Impact] = []
-    backward = 0.0
+    backward, whose = 0.0, ""
     for root, there in found or [nothing]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function, forward_only)
         origin = cases.provenance("speeds", scene.names, root.condition, count)
         impact = run_forward(partial(inputs_of, root), status, origin, None if cases.shape is None else "nan")
-        for speed in root[:2]:
+        for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            backward = min(backward, float(np.fmin.reduce(speed, axis=None, initial=0.0)))
+            backward, whose = min((backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label))
         impacts.append(impact)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
@@ -419,8 +419,8 @@ def _answers(
     if backward < 0.0:
         warn(
             OutOfRangeWarning(
-                f"a speed came out as {backward:.6g} m/s: backwards along its course; check the courses, and the normal, which "
-                f"must point from A into B",
+                f"the speed of {whose} came out as {backward:.4g} m/s: backwards along its course; check the courses, and the "
+                f"normal, which must point from A into B",
                 code="negative_speed",
                 value=backward,
             )
