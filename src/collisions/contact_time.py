@@ -155,19 +155,18 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
         block = slice(start, min(start + length, size))
 
         def cut(value: Any) -> Any:
-            return flat(value, shape)[block].astype(np.float64) if isinstance(value, np.ndarray) else value
-
-        def cut_one(value: Any) -> Any:
-            return float(flat(value, shape)[start]) if isinstance(value, np.ndarray) else value
+            if not isinstance(value, np.ndarray):
+                return value
+            return float(flat(value, shape)[start]) if length == 1 else flat(value, shape)[block].astype(np.float64)
 
         with np.errstate(all="ignore"):
             faults = [check.fault(*map(cut, check.values)) for check in reversed(cases.checks)]
             if length > 1:
                 found = time_resolved(**_arguments(inputs, cut), run=block_run)
-            elif any(fault[0] for fault in map(np.atleast_1d, faults)):
+            elif any(faults):
                 found = Passed(Status.OK)
             else:
-                found = solve_case_in_time(inputs, cut_one)
+                found = solve_case_in_time(inputs, cut)
             for name in names:
                 outputs[name][block] = getattr(found, name)
             status = outputs["status"][block]

@@ -360,47 +360,37 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
     return least_models((inputs.rule, inputs.law, known, eps), (*numbers, limit), cases, progress)
 
 
-def _reason_in_time(which: int, errors: tuple[Any, ...], tolerance: float) -> str:
-    """The same where a contact that takes time was a candidate."""
-    if which < _LAST:
-        text = f"{_NAMES[which]}: with what an impulse leaves out of this duration it errs by {errors[which]:.3g} m/s"
-        return f"{text}, and {tolerance:.3g} m/s are accepted"
-    if tolerance == 0.0:
-        return f"{_IN_TIME}: a tolerance of 0 asks for the fullest model"
-    error = errors[_LAST - 1]
-    if math.isnan(error):
-        return f"{_IN_TIME}: in {_ROUGH} steps it has no answer, so what the others err by is not known"
-    text = f"{_ECCENTRIC} has no answer" if error == math.inf else f"{_ECCENTRIC} would err by {error:.3g} m/s in this duration"
-    return f"{_IN_TIME}: {text}, and {tolerance:.3g} m/s are accepted"
-
-
 def _reason(choice: ModelChoice) -> str:
     """The reason for the choice, in a sentence."""
-    which, errors, tolerance = choice._which, choice._predicted, choice.tolerance
+    which, errors, tolerance, timed = choice._which, choice._predicted, choice.tolerance, choice._timed
     if isinstance(which, np.ndarray):
         counts = ((name, int(np.count_nonzero(which == at))) for at, name in enumerate(_NAMES))
         listed = ", ".join(f"{count} {name}" for name, count in counts if count)
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
-    if choice._timed:
-        return _reason_in_time(which, errors, tolerance)
-    if choice._untimed:
+    if choice._untimed and not timed:
         bare = replace(choice, _untimed="", _predicted=errors[:2])
         return f"{_reason(bare)}; {choice._untimed}"
-    model, oblique = _NAMES[which], errors[_NAMES.index(_OBLIQUE)]
-    predicted = [
-        f"{name} has no answer" if error == math.inf else f"{name} would err by {error:.3g} m/s"
-        for name, error in zip(_NAMES[:which], errors, strict=False)
-    ]
-    if which != ECCENTRIC:
-        others = f"; {predicted[0]}" if predicted else ""
-        return f"{model}: it errs by {errors[which]:.3g} m/s, and {tolerance:.3g} m/s are accepted{others}"
+
+    def would(at: int) -> str:
+        return f"{_NAMES[at]} {'has no answer' if errors[at] == math.inf else f'would err by {errors[at]:.3g} m/s'}"
+
+    model, accepted = _NAMES[which], f", and {tolerance:.3g} m/s are accepted"
+    fullest = _LAST if timed else ECCENTRIC
+    if which != fullest:
+        how = "with what an impulse leaves out of this duration it errs" if timed else "it errs"
+        others = f"; {would(0)}" if which and not timed else ""
+        return f"{model}: {how} by {errors[which]:.3g} m/s{accepted}{others}"
+    nearest = errors[fullest - 1]
     if tolerance == 0.0:
-        return f"{model}: a tolerance of 0 asks for the full model"
-    if choice._beyond:
-        return f"{model}: {choice._beyond} is beyond the central models"
-    if math.isnan(oblique) and choice._lacks:
-        return f"{model}: the error of a central model cannot be estimated without {', '.join(choice._missing)}"
-    if math.isnan(oblique):
-        return f"{model}: there is no answer that a cheaper one could come near to"
-    accepted = "" if math.isinf(oblique) else f", and {tolerance:.3g} m/s are accepted"
-    return f"{model}: {predicted[1]}{accepted}"
+        why = f"a tolerance of 0 asks for the {'fullest' if timed else 'full'} model"
+    elif choice._beyond:
+        why = f"{choice._beyond} is beyond the central models"
+    elif not math.isnan(nearest):
+        why = would(fullest - 1) + ("" if nearest == math.inf else f"{' in this duration' if timed else ''}{accepted}")
+    elif timed:
+        why = f"in {_ROUGH} steps it has no answer, so what the others err by is not known"
+    elif choice._lacks:
+        why = f"the error of a central model cannot be estimated without {', '.join(choice._missing)}"
+    else:
+        why = "there is no answer that a cheaper one could come near to"
+    return f"{model}: {why}"

@@ -209,12 +209,16 @@ def _drifted(contact: Contact, on_a: Motion, on_b: Motion, passing: Passing, tim
     return drifted(on_a, time), drifted(on_b, time), passing._replace(c=c, s=s)
 
 
-def _peak(body: Body, motion: Motion, impulse_x: Any, impulse_y: Any, per_time: Any, before: Motion, per_tyres: Any) -> Any:
-    """The square of the largest acceleration of the centre of mass so far."""
-    ax = body.per_mass * (impulse_x * per_time + (motion.tyre_x - before.tyre_x) * per_tyres)
-    ay = body.per_mass * (impulse_y * per_time + (motion.tyre_y - before.tyre_y) * per_tyres)
+def _pushed(body: Body, motion: Motion, x: Any, y: Any, arm: tuple[Any, Any], per_time: Any, tyres: tuple[Any, Any]) -> Motion:
+    """The motion after an impulse, and the square of its largest acceleration so far, by that and by the force of the tyres."""
+    ax, ay = body.per_mass * (x * per_time + tyres[0]), body.per_mass * (y * per_time + tyres[1])
     square = ax * ax + ay * ay
-    return select(square > motion.acceleration, square, motion.acceleration)
+    return motion._replace(
+        vx=motion.vx + body.per_mass * x,
+        vy=motion.vy + body.per_mass * y,
+        spin=motion.spin + body.per_inertia * (arm[0] * y - arm[1] * x),
+        acceleration=select(square > motion.acceleration, square, motion.acceleration),
+    )
 
 
 def advance(
@@ -242,7 +246,8 @@ def advance(
     step = select(active, step, 0.0)
     pay = passing.owed + 0.5 * step
     pay = select(active & (pay > 0.0), pay, 0.0)
-    was_a, was_b = on_a, on_b
+    per_tyres = select(pay > 0.0, 1.0, 0.0) / select(pay > 0.0, pay, 1.0)
+    held_before = (on_a.tyre_x, on_a.tyre_y), (on_b.tyre_x, on_b.tyre_y)
     on_a, on_b = braked(a, on_a, pay, wheels_a), braked(b, on_b, pay, wheels_b)
     if moves:
         on_a, on_b, passing = _drifted(contact, on_a, on_b, passing, 0.5 * step)
@@ -282,19 +287,12 @@ def advance(
     px, py = place.nx * normal - place.ny * along, place.ny * normal + place.nx * along
     took = part * step
     per_time = select(took > 0.0, 1.0, 0.0) / select(took > 0.0, took, 1.0)
-    per_tyres = select(pay > 0.0, 1.0, 0.0) / select(pay > 0.0, pay, 1.0)
-    on_a = on_a._replace(
-        vx=on_a.vx - a.per_mass * px,
-        vy=on_a.vy - a.per_mass * py,
-        spin=on_a.spin - a.per_inertia * (place.ax * py - place.ay * px),
-        acceleration=_peak(a, on_a, -px, -py, per_time, was_a, per_tyres),
+    pull_a, pull_b = (
+        ((motion.tyre_x - x) * per_tyres, (motion.tyre_y - y) * per_tyres)
+        for motion, (x, y) in zip((on_a, on_b), held_before, strict=True)
     )
-    on_b = on_b._replace(
-        vx=on_b.vx + b.per_mass * px,
-        vy=on_b.vy + b.per_mass * py,
-        spin=on_b.spin + b.per_inertia * (place.bx * py - place.by * px),
-        acceleration=_peak(b, on_b, px, py, per_time, was_b, per_tyres),
-    )
+    on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), per_time, pull_a)
+    on_b = _pushed(b, on_b, px, py, (place.bx, place.by), per_time, pull_b)
     mean = 0.5 * (closing + after)
     crush = crush + took * mean
     deepest = select(crush > deepest, crush, deepest)
