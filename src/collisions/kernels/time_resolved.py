@@ -332,57 +332,44 @@ def _start(
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
     guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
-    # Of a block only the cases that have not arrived are followed again.
-    rest = np.flatnonzero(usable & (passing.closing == passing.closing)) if isinstance(passing.closing, np.ndarray) else None
-    near = np.zeros(passing.closing.shape, dtype=bool) if rest is not None else False
+    usable = usable & (passing.closing == passing.closing)
     for step, enough in ((max(_COARSE, contact.step), _ROUGHLY), (contact.step, _NEAR)):
-        some, older = rest, None
-        part, now = cases_of((contact._replace(step=step), a, b, spring, moving), some), cases_of(guess, some)
+        left, trial, older = usable, guess, None
         for _ in range(_CORRECTIONS):
-            start = _moved_back(part[0], part[1], part[2], now)
-            first_a, first_b, first = part[4]
-            closing, _ = approach(place_of(*start, *part[4]), first_a, first_b)
-            begun = first_a, first_b, first._replace(closing=closing, active=closing > 0.0)
-            end = run((part[3], *start), begun, True, None)
+            # Of a block only the cases that have not arrived are followed again.
+            guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
+            start = _moved_back(contact._replace(step=step), a, b, guess)
+            closing, _ = approach(place_of(*start, *moving), on_a, on_b)
+            end = run(
+                (spring, *start), (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None
+            )
             reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
-            off = [new - old for new, old in zip(reached, now, strict=True)]
+            off = [new - old for new, old in zip(reached, guess, strict=True)]
             far: Any = sum(abs(one) for one in off)
-            arrived = (far <= enough) & (closing > 0.0)
-            guess, near = put(guess, some, now), put(near, some, arrived)
-            if np.all(arrived):
+            left = left & (((far <= enough) & (closing > 0.0)) ^ True)
+            if not np.any(left):
                 break
-            now = reached if older is None else _secant(reached, off, *older)
-            if some is not None:
-                left = np.logical_not(arrived)
-                some, part, now, off, reached = cases_of((some, part, now, off, reached), left)
+            trial = reached if older is None else _secant(reached, off, *older)
             older = off, reached
-    return _moved_back(contact, a, b, guess), near
+    return _moved_back(contact, a, b, guess), usable & (left ^ True)
 
 
 def cases_of(parts: Any, some: Any) -> Any:
-    """Some cases of arrays, also of those in tuples and lists; all where there is nothing to choose."""
-    if some is None:
-        return parts
-    if isinstance(parts, np.ndarray):
-        return parts[some]
-    if isinstance(parts, list):
-        return [cases_of(part, some) for part in parts]
+    """Some cases of the arrays in a tuple."""
     if isinstance(parts, tuple):
         values = (cases_of(part, some) for part in parts)
         return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
-    return parts
+    return parts[some] if isinstance(parts, np.ndarray) else parts
 
 
 def put(parts: Any, some: Any, new: Any) -> Any:
-    """The same with some cases replaced."""
-    if some is None:
-        return new
-    if isinstance(parts, np.ndarray):
-        whole = parts.copy()
-        whole[some] = new
-        return whole
-    values = [put(part, some, one) for part, one in zip(parts, new, strict=True)]
-    return type(parts)(*values) if hasattr(parts, "_fields") else type(parts)(values)
+    """The same arrays with some cases replaced."""
+    if isinstance(parts, tuple):
+        values = (put(part, some, one) for part, one in zip(parts, new, strict=True))
+        return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
+    whole = parts.copy()
+    whole[some] = new
+    return whole
 
 
 def _secant(reached: list[Any], off: list[Any], off_before: list[Any], reached_before: list[Any]) -> list[Any]:
