@@ -12,6 +12,8 @@ import pytest
 import collisions as col
 
 ROOT = Path(__file__).resolve().parent.parent
+# The file keeps three digits.
+THREE_DIGITS = 0.006
 PAGE = ROOT / "docs" / "speed_against_accuracy.md"
 # Rows of what need not be installed.
 OPTIONAL = {"numba", "numba_threads", "pymunk"}
@@ -100,6 +102,51 @@ def test_the_figures_can_be_drawn(tables, committed, tmp_path):
     assert drawn <= {path.name for path in (ROOT / "docs" / "_static").iterdir()}
 
 
+@pytest.fixture(scope="module")
+def ladder():
+    """The script of the rungs."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        import ladder
+    finally:
+        sys.path.remove(str(ROOT / "benchmarks"))
+    return ladder
+
+
+def test_every_rung_is_nearer_than_the_one_before(tables):
+    """From linear_central to 200 steps; the tyres from outside take most of what tyres alone leave, as far as they are estimated."""
+    found = tables.load_ladder()
+    medians = [row["median"] for name, row in found["rungs"].items() if not name.endswith(", from maximum engagement")]
+    assert len(medians) == 10
+    assert medians == sorted(medians, reverse=True)
+    assert all(row["no_answer"] == 0 for row in found["rungs"].values())
+    (wheels, held), (centre, nearly) = found["tyres_alone"].values()
+    assert held < 0.3 * wheels
+    assert nearly < 0.12 * centre < 0.02
+
+
+def test_too_little_is_accepted_in_less_than_one_of_a_hundred(tables, ladder):
+    """Of 5,000 scenes at 0.5, 1 and 2 m/s; of fewer, the file's own script finds none again."""
+    found = tables.load_ladder()["choices"]
+    assert [row["tolerance"] for row in found] == [0.5, 1.0, 2.0]
+    for row in found:
+        assert row["impacts"] >= 5000
+        assert sum(row["models"].values()) == row["impacts"]
+        assert row["wrong"] < 0.01 * row["impacts"]
+        assert row["wrong_share"] == pytest.approx(row["wrong"] / row["impacts"], rel=THREE_DIGITS)
+    for row in ladder.choices(150):
+        assert row["impacts"] > 140
+        assert row["wrong"] <= 1
+
+
+def test_the_rungs_measured_again_are_near_to_the_committed_ones(tables, ladder):
+    """Over a tenth of the scenes; a median of 150 is known to a fifth."""
+    found, again = tables.load_ladder(), ladder.rungs(150)
+    assert again["rungs"].keys() == found["rungs"].keys()
+    for name, row in again["rungs"].items():
+        assert row["median"] == pytest.approx(found["rungs"][name]["median"], rel=0.4), name
+
+
 def test_every_budget_is_that_of_the_design(committed):
     """The page judges by them; whether they hold is not judged here."""
     budgets = {row["key"]: row["budget"] for row in committed[0]["budgets"]}
@@ -128,10 +175,6 @@ def test_every_budget_is_that_of_the_design(committed):
 def car(**given):
     """The car of the curves."""
     return col.Vehicle(mass=1500.0, **given)
-
-
-# The file keeps three digits.
-THREE_DIGITS = 0.006
 
 
 def test_errors_over_the_lever_are_those_of_the_solvers(committed):

@@ -203,6 +203,18 @@ def by_events(a, b, e, normal, point, friction):
     return np.array(found), velocity
 
 
+def test_from_event_to_event_is_the_law():
+    """law="stronge" to the rounding of the other way, which looks for its end by a square root: 1e-12, half of them to 1e-14."""
+    errors, regimes = [], set()
+    for a, b, e, contact in scenes(400, 12, (0.05, 0.2, 0.5, 0.8, 1.5)):
+        law = col.eccentric(a, b, e, **contact, law="stronge")
+        errors.append(off(change(law), by_events(a, b, e, **contact)[0]))
+        regimes.add(law.regime)
+    assert np.median(errors) < 1e-14
+    assert max(errors) < 1e-12
+    assert regimes == {"sliding", "sticking", "reversing"}
+
+
 @pytest.mark.slow
 def test_fixed_geometry_is_energetic_restitution():
     """At second order: 3e-5 (median) at 100 steps, a quarter at 200; sliding, sticking and reversing; whatever the stiffness."""
@@ -761,6 +773,7 @@ def test_pictures():
         ({"friction": None}, "one_tangential", "no default"),
         ({"friction": -0.5}, "bad_friction", "friction"),
         ({"restitution": 1.5}, "bad_restitution", "restitution"),
+        ({"restitution": -0.1}, "bad_restitution", "restitution"),
         ({"point": None}, "missing_point", "time_resolved needs it"),
         ({"normal": math.pi}, "separating", "closing speed -20"),
         ({"on_failure": "no"}, "bad_option", "on_failure"),
