@@ -37,6 +37,11 @@ FILES = [
     '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\nrestitution = 0.1\n'
     '[fit.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n',
 ]  # fmt: skip
+# Takes the time of hundreds of others, and more the wider its priors are.
+POSTERIOR = (
+    '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\nrestitution = "0.1 .. 0.3"\n'
+    '[posterior]\nsamples = 512\n[posterior.observed]\n"b.delta_v" = "9 m/s +/- 0.3 m/s"\n"a.before.vx" = "12 m/s .. 30 m/s"\n'
+)
 SEED = '[propagate]\nmethod = "quasi_random"\nseed = 1\nsamples = 64\n'
 VALUES = (
     "inf", "-inf", "nan", "true", "[]", "[[]]", "{}", "[1, 2, 3]", '""', '"x"', "1979-05-27T07:32:00Z", "07:32:00", "0x" + "f" * 5000, "9" * 400,
@@ -61,19 +66,21 @@ def seeds():
 
 def mutated(case):
     """One of the files with some changes of what people, editors and chance do to a text."""
-    text = case.choice(FILES)
+    text = POSTERIOR if case.random() < 0.02 else case.choice(FILES)
     lines = [line.partition("#")[0].rstrip() for line in text.splitlines()]
-    if "[propagate]" not in lines and "fit" not in text:
+    if "[propagate]" not in lines and "fit" not in text and "posterior" not in text:
         lines += SEED.splitlines()
     lines = [line for line in lines if not line.startswith("samples")]
-    if "[propagate]" in lines:
-        lines.insert(lines.index("[propagate]") + 1, "samples = 64")
+    for table, least in (("[propagate]", 64), ("[posterior]", 512)):
+        if table in lines:
+            lines.insert(lines.index(table) + 1, f"samples = {least}")
     for _ in range(case.choice((1, 1, 1, 2, 3))):
         at, how = case.randrange(len(lines)), case.randrange(20)
         key, equals, value = lines[at].partition(" = ")
         if how < 6 and equals:
             numbers = re.findall(r"[0-9.]+", value) or ["0"]
-            other = case.choice((f"{case.uniform(-50.0, 90.0):.3g}", str(case.randrange(10)), repr(case.choice(EXTREMES))))
+            extreme = repr(case.choice(EXTREMES) if text is not POSTERIOR else 3.0)
+            other = case.choice((f"{case.uniform(-50.0, 90.0):.3g}", str(case.randrange(10)), extreme))
             lines[at] = f"{key} = {value.replace(case.choice(numbers), other, 1)}"
         elif how < 11 and equals:
             lines[at] = f"{key} = {case.choice(VALUES)}"
@@ -110,6 +117,8 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
                 found = answers(read_text(data))
                 assert found.text(case.choice((None, "us")))
                 assert json.dumps(found.to_dict(), allow_nan=False)
+                page = case.choice((lambda found=found: found.report("markdown"), lambda found=found: found.what_if("metric")))
+                assert page()
         except CaseError as error:
             refused += 1
             lines = [f"{key}: {text}" for key, text in error.problems]
@@ -124,6 +133,6 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
 
 def test_the_unchanged_files_are_answered():
     """What is mutated would else be refused for reasons of its own."""
-    for text in FILES:
+    for text in (*FILES, POSTERIOR):
         assert answers(read_text(text.encode())).results
     assert all(descriptions(function) for function in SOLVERS.values())

@@ -6,7 +6,6 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -232,17 +231,6 @@ def ends(stated: Any) -> tuple[str, str]:
     return f"{low!r} {stated.unit}", f"{high!r} {stated.unit}"
 
 
-def _middle(one: str, sign: str, other: str) -> str | None:
-    """What is written before +/-, or the middle of a range in the unit of both its ends; None if they have none."""
-    if sign != "..":
-        return one.strip()
-    units = [unit_as_written(end) for end in (one, other)]
-    with suppress(ValueError):
-        low, high = (float(end.strip().removesuffix(unit)) for end, unit in zip((one, other), units, strict=True))
-        return f"{0.5 * low + 0.5 * high:.12g} {units[0]}" if units[0] == units[1] != "" else None
-    return None
-
-
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
         return values.get(node.key, node.nominal)
@@ -373,8 +361,8 @@ class _Reader:
             if any(name in kind for name in SEVERAL):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
             self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
-        elif isinstance(value, str) and (found := _UNCERTAIN.fullmatch(value)):
-            return self.stated(key, Call(key, stated, {"text": value}), _middle(*found.groups()[:3]))
+        elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
+            return self.stated(key, Call(key, stated, {"text": value}))
         elif isinstance(value, str) and (found := _RANGE.fullmatch(value)):
             low, high = (f"{found[at]} {found[4] or ''}".strip() for at in (1, 3))
             self.refuse(key, f'cannot read {shown(value)}; a range has two dots: write "{low} .. {high}"')
@@ -394,15 +382,17 @@ class _Reader:
         self.refuse(key, f"is a table that names no function which may stand for a number, got {shown(table)}; {cure}")
         return None
 
-    def stated(self, key: str, call: Call, written: str | None = None) -> Any:
-        """An uncertain number; as ``written``, its mean, or the middle of an interval it stands in a single case."""
+    def stated(self, key: str, call: Call) -> Any:
+        """An uncertain number; its mean, or the middle of an interval, stands in a single case, in the unit as written."""
         try:
             found = call({})
         except CaseError as error:
             self.problems.extend(error.problems)
             return None
         middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else getattr(found, "mean", None)
-        self.uncertain[key] = Uncertain(key, found, written or middle)
+        if middle is not None and hasattr(found.unit, "written"):
+            middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
+        self.uncertain[key] = Uncertain(key, found, middle)
         return self.uncertain[key]
 
     def study(self, name: str) -> dict[str, Any]:
