@@ -1360,6 +1360,18 @@ def test_residuals_stand_where_they_are(two_speeds):
     plt.close("all")
 
 
+def test_axes_that_held_a_scene_take_another_picture(two_speeds):
+    """clear() leaves the equal scales; a range of 1e-6 by 1e3 is a needle on them, whose width is 0 in pixels."""
+    a, b = col.Vehicle(mass=1500.0, vx=20.0, x=-2.0, y=0.0), col.Vehicle(mass=1200.0, x=2.0, y=0.0)
+    axes = plot.momentum(col.linear_central(a, b, 0.1))
+    assert axes.get_aspect() == 1.0
+    axes.clear()
+    axes.set(xlim=(0.0, 1e-300), ylim=(0.0, 1.0))
+    axes.apply_aspect()
+    assert plot.distribution(two_speeds["x"], axes=axes).get_aspect() == "auto"
+    plt.close("all")
+
+
 def test_evidence_that_cannot_be_drawn(two_speeds):
     sharp = reconstruct.posterior(
         lambda x: {"x": x, "one": 1.0 + 0.0 * x},

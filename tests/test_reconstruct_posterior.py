@@ -481,6 +481,17 @@ def test_conditions_that_are_none(condition):
     assert caught.value.code == "bad_condition"
 
 
+@pytest.mark.parametrize(
+    ("prior", "reading"),
+    [(Normal(0.0, 1.0), 1e3), (Normal(0.0, 1.0), -1e9), (Normal(0.0, 1.0), 1e151), (Uniform(1.8e151, 2.7e151), 20.0)],
+)
+def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
+    """So many deviations away the samples crept on without end, or stayed where they were, as likely as one another."""
+    with pytest.raises(col.NoSolutionError, match="contradicts the priors") as caught:
+        posterior(lambda x: {"s": x}, {"x": prior}, {"s": (reading, 1.0)}, samples=512, seed=1)
+    assert caught.value.code == "contradictory"
+
+
 def test_what_no_sample_shows_has_an_error_of_one_sample():
     found = posterior(side, *SIDE, samples=512, seed=1)
     assert found.probability(lambda at: at["speed"] > 29.9) == (0.0, 1 / 512)

@@ -15,7 +15,7 @@ from .errors import CollisionsWarning, InputError
 from .impact import Impact
 from .kernels.batch import precision
 from .kernels.elementwise import select
-from .quantities import Shown, hypot, lock, numeric
+from .quantities import Shown, hypot, in_units_of, lock, numeric
 from .reading import ArgumentReader, broadcast, widened
 from .settings import computing
 from .travel.surfaces import out_of_range
@@ -277,10 +277,10 @@ def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
     """A ``LeftOut`` from its fields by name, in the units of these texts."""
     lock(found)
     a, b = (
-        LeftOutSide(**{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}).in_units_of(texts)
+        in_units_of(LeftOutSide(**{name[2:]: value for name, value in found.items() if name.startswith(f"{label}.")}), texts)
         for label in "ab"
     )
-    return LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b).in_units_of(texts)
+    return in_units_of(LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b), texts)
 
 
 def _unusable(values: dict[str, Any], beyond: Any) -> Any:

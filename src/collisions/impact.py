@@ -20,7 +20,7 @@ from .model_choice import ModelChoice, part_of_choice, solve_least, until_compre
 from .models import model_of, read_again
 from .provenance import Reconstruction, origin_where_answered
 from .pulse import Pulse
-from .quantities import Frozen, Quantities, attributes, derived, hypot, lock, numeric, returns, same, show, unit_of
+from .quantities import Frozen, Quantities, attributes, derived, hypot, in_units_of, lock, numeric, returns, same, show, unit_of
 from .quantity_names import ImpactQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .settings import in_si
@@ -361,7 +361,7 @@ class Impact(Frozen, Summarized):
         curves = () if passed.history is None else passed.history
         names = [f.name for f in fields(Pulse)]
         pulse = Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
-        return pulse.in_units_of(self._texts())
+        return in_units_of(pulse, self._texts())
 
     @derived()
     def status(self) -> Any:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, fields
 from functools import partial, wraps
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, Self, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Never, ParamSpec, TypeVar, overload
 
 import numpy as np
 
@@ -257,11 +257,6 @@ class Shown(Summarized):
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     _title: ClassVar[str]
 
-    def in_units_of(self, texts: Iterable[Any]) -> Self:
-        """This result, whose summary is in the units of these texts."""
-        object.__setattr__(self, "_inputs_as_texts", tuple(texts))
-        return self
-
     def _texts(self) -> Iterable[Any]:
         return getattr(self, "_inputs_as_texts", ())
 
@@ -296,6 +291,12 @@ class Shown(Summarized):
             yield name, show(value, unit)
 
 
+def in_units_of(result: T, texts: Iterable[Any]) -> T:
+    """A result that was just made, with the texts in whose units its summary is to be."""
+    object.__setattr__(result, "_inputs_as_texts", tuple(texts))
+    return result
+
+
 def _restored(kind: type[Any], values: dict[str, Any], texts: Iterable[Any] = ()) -> Any:
     """An unpickled result; pickle restores arrays writable, so they are locked again."""
-    return kind(**lock(values)).in_units_of(texts)
+    return in_units_of(kind(**lock(values)), texts)

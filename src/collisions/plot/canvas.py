@@ -152,6 +152,9 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
             code="bad_option",
             argument="axes",
         )
+    # Axes that held a scene are still of equal scales, which clear() leaves: other pictures would be needles.
+    axes.set_aspect("auto")
+    axes.apply_aspect()
     return axes
 
 

@@ -218,7 +218,9 @@ class _Problem:
             )
         sharp = [row.name for row in self.rows if not row.sigma] if math.isfinite(problem.missed) else []
         what = "fits within numbers that a float holds"
-        if sharp:
+        if problem.missed == 0.0:
+            what = "comes near what was observed"
+        elif sharp:
             what = f"meets the bounds observed of {', '.join(sharp)}: the nearest misses them by {problem.missed:.3g} (SI)"
         return NoSolutionError(
             f"the evidence contradicts the priors: no point of them {what}. Look for a slipped digit or a wrong unit, or give "

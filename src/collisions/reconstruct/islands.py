@@ -17,11 +17,14 @@ _MOVES, _MOVES_LAST, _MOST_SWEEPS = 3.0, 10.0, 80  # accepted moves a point afte
 _ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
 _NOISE = 0.1  # of the spread, beside the differences of points
 _NO_NEARER, _MOST_OF_THESE = 0.98, 5  # sharp bounds that so many stages miss by as much cannot be met
+# A stage goes on by about one deviation: so little is left of its gain when the samples are 200 deviations beyond the prior.
+_CRAWLING = 0.995
+_MOST_MISFIT = 1e13  # where the rounding of a logarithm is no longer small against 1, and all points are as likely
 _BISECTIONS = 40
 
 
 class UnreachableError(Exception):
-    """No point has an answer (``missed`` is infinite), or none meets the sharp bounds."""
+    """No point has an answer (``missed`` is infinite), none meets the sharp bounds, or all are too far away (it is 0)."""
 
     def __init__(self, draws: int, missed: float) -> None:
         super().__init__(draws, missed)
@@ -61,9 +64,16 @@ class Islands:
         """The islands, taken from the prior to the posterior."""
         self._draw()
         self._meet_bounds()
+        stuck = 0
         while self.power < 1.0:
+            before = self.power
             self._raise_power()
+            stuck = stuck + 1 if before >= _CRAWLING * self.power else 0
+            if stuck == _MOST_OF_THESE and self.power < 1.0:
+                raise UnreachableError(0, 0.0)
             report(self.power)
+        if np.max(self.likelihood) < -_MOST_MISFIT:
+            raise UnreachableError(0, 0.0)
         return list(map(Island, self.points, self.log_evidence.tolist(), self.refused.tolist(), self.moved.tolist()))
 
     def _evaluated(self, points: Any) -> tuple[Any, Any, Any]:
@@ -110,7 +120,7 @@ class Islands:
         if effective(high) < 0.5:
             low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
             for _ in range(_BISECTIONS):
-                more = math.sqrt(low * high)
+                more = math.sqrt(low) * math.sqrt(high)
                 low, high = (more, high) if effective(more) >= 0.5 else (low, more)
         self.power = 1.0 if more == 1.0 - self.power else self.power + more
         self.log_evidence += more * best[:, 0]

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..quantities import Shown, derived, lock
+from ..quantities import Shown, derived, in_units_of, lock
 from ..reading import ArgumentReader
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
 from ..uncertainty import Censored, Normal, Uniform
@@ -175,7 +175,7 @@ def recorded_pulse(
     ended = _ended(times, size, at)
     if not ended:
         warn(OutOfRangeWarning(_cut(times, size[at]), code="pulse_cut"))
-    return RecordedPulse(
+    found = RecordedPulse(
         delta_v_forward=float(forward[at]),
         delta_v_left=None if left is None else float(left[at]),
         duration=float(times[at] - times[0]),
@@ -184,7 +184,8 @@ def recorded_pulse(
         time=lock(times),
         forward=lock(forward),
         left=lock(left),
-    ).in_units_of(texts_of(reader.texts))
+    )
+    return in_units_of(found, texts_of(reader.texts))
 
 
 def _error(value: float) -> float:

@@ -14,7 +14,7 @@ from ..directions import Angle, angle_of
 from ..drag import HIGHEST_DRAG, one_value
 from ..errors import InputError, MissingInputError, OutOfRangeWarning, ShapeError
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
-from ..quantities import Shown, derived, hypot, numeric
+from ..quantities import Shown, derived, hypot, in_units_of, numeric
 from ..quantities import lock as write_locked
 from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
@@ -259,7 +259,7 @@ def path(
             raise out_of_range()
     _warn_of_wide_segments(turned, locks)
     _warn_of_fast_yaw(run)
-    return run.in_units_of(texts_of(surveyed))
+    return in_units_of(run, texts_of(surveyed))
 
 
 def _run_out(

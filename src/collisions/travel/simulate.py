@@ -13,7 +13,7 @@ from ..drag import one_value
 from ..errors import InputError, NoSolutionError, ShapeError
 from ..kernels.batch import precision
 from ..kernels.elementwise import UNIT_INTERVAL
-from ..quantities import Shown, hypot
+from ..quantities import Shown, hypot, in_units_of
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
 from ..units import Input, Pair, Texts, shown, texts_of
@@ -221,7 +221,7 @@ def simulate(
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     texts = texts_of(vehicle.given)
     rest = vehicle_of(state, given=Texts(units=texts))
-    return SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=rest).in_units_of(texts)
+    return in_units_of(SimulatedPath(time=time, x=x, y=y, heading=heading, marks=marks, rest=rest), texts)
 
 
 def _prepared(flat: dict[str, Any], corners: Sequence[Any]) -> tuple[Wheels, Any]:
