@@ -16,7 +16,7 @@ from ..units import with_symbol
 
 RECORD = "collisions-record"
 _STYLE = """\
-body { font: 10.5pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 48em; margin: 2em auto; padding: 0 1em; }
+body { font: 12pt/1.4 Georgia, "Times New Roman", serif; color: #1a1a1a; max-width: 48em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin: 0 0 .3em; }
 h2 { font-size: 1.15em; margin: 1.2em 0 .3em; border-bottom: 1px solid #6a6a6a; break-after: avoid; }
 p, ul { margin: .4em 0; overflow-wrap: anywhere; }

@@ -113,8 +113,8 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.say(
-        "Where a value says how it was given, it was converted from that text. Of all others only the number was kept, and "
-        "of a normal only its direction; they are shown in the units of this page. The record at the end has every digit."
+        "“Given as” repeats the text of an input that was given in another unit than that of this page. Of a normal only the "
+        "direction counts. The record at the end has every digit."
     )
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
@@ -297,8 +297,9 @@ def assumptions(
         lines.append(("Impulse:", instant))
     lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
     for label, corners in outlines.items():
-        places = "; ".join(", ".join(sheet.number(float(part), "length") for part in corner) for corner in corners)
-        lines.append((f"Outline of {label.upper()}:", f"corners (forward, left) from the centre of mass: {places}."))
+        lines.append(
+            (f"Outline of {label.upper()}:", f"{_outline(sheet, [(float(ahead), float(left)) for ahead, left in corners])}.")
+        )
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
@@ -363,6 +364,16 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
             part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
             part = f": {why}" if math.isnan(float(change)) else part
             yield what, sheet.system.answer(float(change), "speed") + part
+
+
+def _outline(sheet: Sheet, corners: Sequence[tuple[float, float]]) -> str:
+    """An outline in words: length and width of a rectangle about the centre of mass, else its corners."""
+    length, width = (max(corner[i] for corner in corners) for i in (0, 1))
+    if set(corners) == {(ahead, left) for ahead in (length, -length) for left in (width, -width)}:
+        long, wide = (sheet.number(2.0 * half, "length") for half in (length, width))
+        return f"{long} long and {wide} wide, about the centre of mass"
+    places = "; ".join(", ".join(sheet.number(part, "length") for part in corner) for corner in corners)
+    return f"corners (forward, left) from the centre of mass: {places}"
 
 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:

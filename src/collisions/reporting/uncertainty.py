@@ -7,7 +7,7 @@ from typing import Any
 
 from ..derivation.explain import kinds_of_answers
 from ..errors import InputError
-from ..formatting import SI_UNITS, percent, with_decimals
+from ..formatting import SI_UNITS, with_decimals
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
@@ -48,17 +48,18 @@ class Spread:
         for output in uncertainty.outputs.values():
             rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output)]
         sheet.table(rows)
-        if any(what.startswith("share of the variance") for _, what, _ in rows):
+        if any(what.startswith("variance from") for _, what, _ in rows):
             sheet.say(
-                "By itself: the share of an input without its interactions with others; in all: with them. Where the shares by "
-                "themselves fall short of 100 percent by more than their errors, the rest comes from interactions."
+                "Variance from an input: its share by itself, and in all, with its interactions with other inputs. Where the "
+                "shares fall short of 100 % by more than their errors, the rest comes from interactions."
             )
         stated = [("Inputs as stated", plain(name), plain(str(value))) for name, value in uncertainty.inputs.items()]
         sheet.table(stated)
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
         sheet.say(
-            f"Method: {uncertainty.method}, {cases}{seed}. Whatever the stated inputs leave out, these figures leave out too."
+            f"± is one standard deviation. Method: {uncertainty.method}, {cases}{seed}. Whatever the stated inputs leave "
+            f"out, these figures leave out too."
         )
         if uncertainty.failed:
             sheet.say("Cases without an answer are left out: the figures hold for those that have one.")
@@ -97,19 +98,20 @@ def _shares(output: Output) -> list[tuple[str, str]]:
     whole, errors = output.total_contributions, output.contribution_standard_errors
     rows = [
         (
-            f"share of the variance by {plain(name)}",
-            f"{_share(_within(part), errors[name][0])} by itself, {_share(_within(whole[name]), errors[name][1])} in all",
+            f"variance from {plain(name)}",
+            f"{_share(_within(part), errors[name][0])}, in all {_share(_within(whole[name]), errors[name][1])}",
         )
         for name, part in shares.items()
     ]
-    return [*rows, ("sum of the shares by themselves", _share(sum(map(_within, shares.values()))))]
+    return [*rows, ("sum of the shares", _share(sum(map(_within, shares.values()))))]
 
 
 def _share(share: float, error: float = math.nan) -> str:
     """A share of the variance, with its standard error where that shows."""
     if math.isnan(share):
         return "not known"
-    return f"{with_decimals(100.0 * share, 0)} ± {percent(error)}" if error >= 0.005 else percent(share)
+    spread = f" ± {with_decimals(100.0 * error, 0)}" if error >= 0.005 else ""
+    return f"{with_decimals(100.0 * share, 0)}{spread} %"
 
 
 def _within(share: float) -> float:
