@@ -424,6 +424,17 @@ def test_the_schema_is_that_of_the_functions(capsys):
     assert DISTRIBUTIONS.keys() <= schema["$defs"]["function"]["properties"].keys()
 
 
+def test_the_text_is_that_of_any_editor():
+    """Line ends of Windows, marks of the encoding, and what PowerShell makes of the output of ``new``."""
+    text = REAR_END.replace("[a]", '[a]\nname = "Käfer"')
+    wanted = solved(text)
+    for data in (text.encode("utf-8-sig"), text.replace("\n", "\r\n").encode(), text.replace("\n", "\r\n").encode("utf-16")):
+        assert answers(read_text(data)).results == (wanted,)
+    for data in (text.encode("latin-1"), text.encode("utf-16")[:-1]):
+        with pytest.raises(CaseError, match="is no text in UTF-8; save it with this encoding"):
+            read_text(data)
+
+
 def test_nothing_is_evaluated():
     """Texts that Python or pint would work out are refused as what they are."""
     for text in ("__import__('os')", "2*3", "9**9**9 kg", "1e3+1"):

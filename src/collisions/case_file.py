@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -139,13 +140,15 @@ def read_text(data: bytes) -> Case:
     if len(data) > _LARGEST_FILE:
         raise CaseError(("", "is larger than 1 MB; a case file is a page of text, such as 'new' prints"))
     try:
-        document = tomllib.loads(data.decode("utf-8-sig"))
+        # Some shells write UTF-16 where the output of a command is sent to a file.
+        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+        document = tomllib.loads(text)
     except UnicodeDecodeError:
         raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
     except RecursionError:
         raise CaseError(("", "is nested too deeply; a value is a number, a text, a pair or a table of these")) from None
     except ValueError as error:
-        raise CaseError(("", _not_toml(data.decode("utf-8-sig"), str(error)))) from None
+        raise CaseError(("", _not_toml(text, str(error)))) from None
     return _Reader(document).case()
 
 
