@@ -824,7 +824,7 @@ def known_posterior(mean: float = 4.0) -> reconstruct.Posterior:
 
 @fuzzes(
     "reconstruct.posterior", "reconstruct.Posterior", "reconstruct.compare", "reconstruct.Comparison", "uncertainty.Censored",
-    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary", "reconstruct.Comparison.summary",
+    *(f"reconstruct.Posterior.{name}" for name in ("inputs", "probability", "to_dict")), "reconstruct.Comparison.to_dict", "reconstruct.Posterior.summary", "reconstruct.Comparison.summary", "PosteriorOutput.summary",
     *(f"PosteriorOutput{name}" for name in ("", ".record", ".histogram", ".quantile_standard_error", ".may_wrap", ".turned")),
     "plot.corner", "plot.residuals",
     share=0.25,
@@ -841,6 +841,7 @@ def test_posterior(case: Case) -> None:
     for name in found:
         output = found[name]
         case.look(output, POSTERIOR_OPEN, thorough=False)
+        assert str(case.must("PosteriorOutput.summary", output.summary, case.choice(UNIT_SYSTEMS)))
         assert json.dumps(case.must("PosteriorOutput.record", output.record), allow_nan=False)
         case.call("PosteriorOutput.histogram", output.histogram, case.option(40, 5, case.garbage()))
         case.call(
@@ -862,7 +863,7 @@ def test_posterior(case: Case) -> None:
         assert str(case.must("reconstruct.Comparison.summary", compared.summary))
         assert json.dumps(case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False)
         assert math.isclose(sum(compared.probability.values()), 1.0, rel_tol=1e-9)
-    if case.maybe(0.1):
+    if case.maybe(0.2):
         case.call(
             "plot.corner",
             plot.corner,
@@ -1220,7 +1221,7 @@ def test_options(case: Case) -> None:
 @fuzzes(
     "Vehicle.summary", "Impact.summary", "Side.summary", "ModelChoice.summary", "LeftOut.summary", "LeftOutSide.summary", "Pulse.summary",
     "Findings.summary", "Estimate.summary", "Residual.summary", "reconstruct.Fit.summary", "reconstruct.MomentumSolution.summary",
-    "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to",
+    "travel.RunOut.summary", "uncertainty.Propagation.summary", "uncertainty.Output.to", "uncertainty.Output.summary",
 )  # fmt: skip
 def test_summaries(case: Case) -> None:
     """A table of any result, in any units, as text and for a notebook."""
@@ -1230,6 +1231,7 @@ def test_summaries(case: Case) -> None:
         # These are always the same; only the units differ.
         results |= {"reconstruct.Fit": known_fit(), "Estimate": known_fit()["x"], "Residual": known_fit().residuals["s"]}
         results |= {"uncertainty.Propagation": known_propagation(), "Pulse": known_impact(6).pulse}
+        results |= {"uncertainty.Output": known_propagation()["delta_v"]}
     impact = case.call("eccentric", col.eccentric, a, b, case.number("restitution"), **found, on_failure="nan")
     if isinstance(impact, col.Impact):
         left = case.call("left_out", col.left_out, impact)

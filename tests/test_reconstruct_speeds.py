@@ -914,3 +914,11 @@ def test_a_right_angle_in_radians(turned, known, law):
     assert max(one.b.before.speed for one in impacts) < 100.0
     # Through a quotient by the change of the observation, which is of the order of 1 here.
     assert min(abs(one.b.before.speed - 3.0) for one in impacts) < 1e-9
+
+
+def test_a_batch_of_no_cases_has_no_answers():
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=-2.0, y=0.4)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=0.8, y=-1.2)
+    known = {"course_a": 0.0, "course_b": 1.5, "speed_b": 8.0, "delta_v_a": np.array([])}
+    found = col.reconstruct.speeds(a, b, restitution=0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, **known)
+    assert all(one.status.shape == one.a.delta_v.shape == (0,) for one in found)

@@ -345,7 +345,7 @@ class Scene:
             e, speed_a, speed_b = (self.flat(part)[cases] for part in (e, speed_a, speed_b))
             regime = regime if isinstance(regime, str) else self.flat(regime)[cases]
             whole[:, cases] = self.of(cases)._polished(regime, e, speed_a, speed_b, function)
-        return Root._make(whole.reshape(-1, *self.shape))
+        return Root._make(whole.reshape(len(whole), *self.shape))
 
     def _polished(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None) -> Root:
         """Newton's method on the kernel, with central differences for its derivatives."""
