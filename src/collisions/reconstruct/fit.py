@@ -84,8 +84,9 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all that the searches met
         are in ``solutions``. So it is with a friction that slides, or sticks whatever its value.
     NoSolutionError
-        The model refuses everywhere (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point of
-        the model, such as no restitution where only its square matters: no error can be given there (code "no_convergence").
+        The model refuses at every start (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point
+        of the model, such as no restitution where only its square matters: no error can be given there; or at most two of the
+        searches ended there, so that a better answer may have been missed (code "no_convergence").
 
     Warns
     -----

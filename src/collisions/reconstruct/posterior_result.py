@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from ..uncertainty.censored import Censored
 from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
 from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
-from ..uncertainty.result import Sampled, Shares, outputs_part, units_of
+from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
 from ..units import shown, to_quantity
 from .fit_result import CONTRADICTION, Note, Residual, agreement
 
@@ -176,9 +175,7 @@ class Posterior(Summarized):
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
         """Correlations by pair of unknowns; NaN where one of them does not vary."""
-        with np.errstate(all="ignore"):
-            scores = {name: (one.values - one.mean) / one.std for name, one in self.unknowns.items()}
-            return {(one, other): float(np.mean(scores[one] * scores[other])) for one, other in combinations(scores, 2)}
+        return correlations(self.unknowns)
 
     @property
     def shrinkage(self) -> dict[str, float]:

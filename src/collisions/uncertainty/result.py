@@ -429,14 +429,7 @@ class Propagation(Summarized):
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
         """Correlation of every pair of outputs, over the cases that answer both; only from sampling."""
-        sampled = {name: output.values for name, output in self.outputs.items() if isinstance(output, Sampled)}
-        found: dict[tuple[str, str], float] = {}
-        for one, other in combinations(sampled, 2):
-            both = ~np.isnan(sampled[one]) & ~np.isnan(sampled[other])
-            pair = [values[both] / power_of_two(values[both]) for values in (sampled[one], sampled[other])]
-            with np.errstate(all="ignore"):
-                found[one, other] = float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
-        return found
+        return correlations({name: output for name, output in self.outputs.items() if isinstance(output, Sampled)})
 
     def to_dict(self) -> dict[str, Any]:
         """Figures of all outputs, and what they are given, as nested plain values that strict JSON can hold."""
@@ -498,6 +491,18 @@ def varies(output: Output, kind: str = "") -> bool:
     """Whether an output varies between cases by more than rounding."""
     size = max(map(abs, ends_of(output.mean)))
     return max(ends_of(output.std)) > max(NO_SPREAD * size, NOTHING.get(kind, NO_SPREAD))
+
+
+def correlations(outputs: Mapping[str, Sampled]) -> dict[tuple[str, str], float]:
+    """Correlation of every pair, over the cases that answer both; NaN where one of them does not vary."""
+    found: dict[tuple[str, str], float] = {}
+    for one, other in combinations(outputs, 2):
+        columns = [outputs[name].values for name in (one, other)]
+        both = ~np.isnan(columns[0]) & ~np.isnan(columns[1])
+        pair = [values[both] / power_of_two(values[both]) for values in columns]
+        with np.errstate(all="ignore"):
+            found[one, other] = float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
+    return found
 
 
 def outputs_part(outputs: Mapping[str, Output], numbers: Cells, heading: str = "") -> Part:
