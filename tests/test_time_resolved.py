@@ -830,6 +830,12 @@ def test_refused_contacts():
     with pytest.raises(col.NoSolutionError, match="geometry='first_contact'") as caught:
         t_bone(**spinning, duration=0.5)
     assert caught.value.code == "no_start"
+    with pytest.raises(col.NoSolutionError, match="pull at each other; give a finite friction=") as caught:
+        col.time_resolved(
+            col.Vehicle(mass=1.0, yaw_inertia=0.09, vx=0.2, vy=-4.0, x=0.0, y=0.0), WALL, 0.5, normal=0.0, point=(0.5, 0.8),
+            friction=math.inf, duration=0.1, geometry="fixed",
+        )  # fmt: skip
+    assert caught.value.code == "no_slip_pulls"
     with pytest.raises(col.InputError) as caught:
         t_bone(a=col.Vehicle(**A | {"vx": 1e200}), geometry="fixed")
     assert caught.value.code == "out_of_range"

@@ -148,8 +148,8 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
     status: Status = raw.status
     nx, ny = inputs.normal
     bodies = (("a", inputs.a), ("b", inputs.b))
-    values: dict[str, Any] = {"closing_speed": raw.closing_speed, "no_slip_normal": raw.no_slip_normal}
-    values |= {"model": inputs.model, "rule": inputs.rule, "value": inputs.rule_value}
+    values: dict[str, Any] = {"closing_speed": raw.closing_speed, "model": inputs.model}
+    values |= {"rule": inputs.rule, "value": inputs.rule_value}
     values |= {"nx": nx, "ny": ny, "opposite_x": 0.0 - nx, "opposite_y": 0.0 - ny}
     extra: dict[str, Any] = {}
     match status:

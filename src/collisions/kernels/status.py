@@ -75,8 +75,8 @@ class Status(IntEnum):
         6,
         "solution",
         "without slip the bodies would have to pull at each other",
-        "{rule} = {value:g} asks for a contact without slip, which here needs the bodies to pull at each other (no-slip "
-        "impulse along the normal {no_slip_normal:.6g} N s); give a finite friction=, or impulse_ratio=",
+        "{rule} = {value:g} asks for a contact without slip, which here needs the bodies to pull at each other; give a finite "
+        "friction=, or impulse_ratio= to a solver that takes it",
     )
     RATIO_JAMS = _Outcome(
         7,
