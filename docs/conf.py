@@ -1,6 +1,7 @@
 """Sphinx settings. Nothing is fetched while building, and the pages fetch nothing."""
 
 import os
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -67,6 +68,8 @@ def render_examples(source: Path, target: Path) -> None:
         notebook = jupytext.read(script, fmt="py:percent")
         for index, cell in enumerate(notebook.cells):
             cell["id"] = f"cell-{index}"  # the same at every build
+            if re.match(r"(axes\[.*\]|right|plot)\.", cell.source.rpartition("\n")[2]):
+                cell.source += ";"  # a picture is shown, and not the name of its axes
         notebook.metadata = NotebookNode(
             kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
         )
@@ -131,7 +134,7 @@ def gallery_of(told: dict[str, tuple[str, str]]) -> str:
             page += [f":img-top: ../_static/gallery/{stem}.png", f":img-alt: {title}"] if picture.exists() else []
             page += ["", caption, ":::", ""]
         page += ["::::", ""]
-    page += ["## To take along", "", "As notebooks:", ""]
+    page += ["## As notebooks", "", "The same examples to download:", ""]
     page += [f"- {{download}}`{stem}.ipynb <{stem}.ipynb>`: {told[stem][0]}" for stem in placed]
     page += ["", "```{toctree}", ":hidden:", "", *placed, "```", ""]
     return "\n".join(page)

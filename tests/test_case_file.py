@@ -451,3 +451,10 @@ def test_every_solver_has_its_table():
     found = {name for name, one in solvers.items() if getattr(one, "__annotations__", {}).get("return") in answers_of}
     assert found == set(SOLVERS)
     assert all(SOLVERS[name] is solvers[name] for name in found)
+
+
+def test_a_case_in_us_units_is_answered_in_them(tmp_path, capsys):
+    text = '[a]\nmass = "3400 lb"\nvx = "30 mph"\n\n[b]\nmass = "2900 lb"\n\n[linear_central]\nrestitution = 0.1\n'
+    (tmp_path / "case.toml").write_text(text)
+    assert main([str(tmp_path / "case.toml")]) == 0
+    assert "30.0 mph" in capsys.readouterr().out

@@ -270,7 +270,7 @@ def test_without_matplotlib_the_error_says_what_to_install(picture, monkeypatch)
     for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(col.MissingInputError, match=re.escape("pip install 'collisions[plot]'")) as caught:
+    with pytest.raises(col.MissingInputError, match=re.escape("python -m pip install matplotlib")) as caught:
         DRAWN[picture](IMPACTS["sticking"])
     assert caught.value.code == "missing_matplotlib"
     assert isinstance(caught.value.__cause__, ImportError)

@@ -100,7 +100,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--report", metavar="FILE", help="write a report: .html with figures, or .md")
     parser.add_argument("--what-if", metavar="FILE", help="write an HTML page with a slider for each uncertain number")
-    parser.add_argument("--units", choices=SYSTEMS, help="of what is written; metric, unless the file says otherwise")
+    parser.add_argument(
+        "--units",
+        choices=SYSTEMS,
+        help="of what is written; by default those of [report], else us or metric, as the inputs are",
+    )
     parser.add_argument("--json", action="store_true", help="print everything as JSON, for other tools")
     parser.add_argument("--version", action="version", version=f"collisions {__version__}")
     return parser

@@ -22,6 +22,7 @@ from .quantities import unit_of
 from .reconstruct import MomentumSolution, Posterior
 from .reporting import report
 from .reporting.record import record
+from .summary import spoken_system
 from .units import shown, to_quantity
 from .what_if_page import starts, what_if
 
@@ -97,7 +98,7 @@ class Answers:
         return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
 
     def _units(self, units: str | None) -> Any:
-        return units or self.case.report.get("units", "metric")
+        return units or self.case.report.get("units") or spoken_system(self.results[0]._texts())
 
     def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
         """What a function makes of the results; its warnings are kept, and a refusal names the table of its options."""

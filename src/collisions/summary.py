@@ -79,6 +79,11 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
     return Cells(units)
 
 
+def spoken_system(texts: Iterable[Any]) -> str:
+    """The system for sentences about inputs given as these texts: "us" if they are in US units, else "metric"."""
+    return "us" if cells(None, texts).name == "us" else "metric"
+
+
 class Summary:
     """A result as a table. ``print`` writes it as plain text, a notebook shows it as HTML, with all numbers folded below.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
 from ..settings import computing
-from ..summary import cells
+from ..summary import spoken_system
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
 from . import checks_consistency, checks_inputs, checks_reliability
@@ -129,7 +129,7 @@ def diagnose(
         if given is not None
     }
     if units is None:
-        units = "us" if cells(None, impact._texts()).name == "us" else "metric"
+        units = cast(UnitSystem, spoken_system(impact._texts()))
     problem = bad_system(units)
     if problem is not None:
         reader.refuse(problem)

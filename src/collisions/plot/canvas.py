@@ -138,7 +138,7 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
         from matplotlib.axes import Axes
     except ImportError as error:
         raise MissingInputError(
-            f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: pip install 'collisions[plot]'",
+            f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: python -m pip install matplotlib",
             code="missing_matplotlib",
             argument="matplotlib",
         ) from error

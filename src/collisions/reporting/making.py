@@ -288,7 +288,7 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
     try:
         import_module("matplotlib.figure")
     except ImportError:
-        sheet.say("None: matplotlib cannot be imported here. Install it with: pip install 'collisions[plot]'")
+        sheet.say("None: matplotlib cannot be imported here. Install it with: python -m pip install matplotlib")
         return
     units = options["units"]
     if isinstance(impact, Impact):
