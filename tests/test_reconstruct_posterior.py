@@ -492,6 +492,14 @@ def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
     assert caught.value.code == "contradictory"
 
 
+def test_an_output_without_any_answer_has_no_figures():
+    found = posterior(lambda x: {"s": x, "d": np.nan * x}, {"x": Normal(0.0, 1.0)}, {"s": (1.0, 1.0)}, samples=512, seed=1)
+    output = found["d"]
+    assert all(math.isnan(one) for one in (output.mean, output.std, output.quantile(0.5), *output.interval(0.95)))
+    assert output.failed == 512
+    assert str(output.summary())
+
+
 def test_what_no_sample_shows_has_an_error_of_one_sample():
     found = posterior(side, *SIDE, samples=512, seed=1)
     assert found.probability(lambda at: at["speed"] > 29.9) == (0.0, 1 / 512)

@@ -342,8 +342,9 @@ class Sampled(Output):
 
     @cached_property
     def _answered(self) -> Any:
-        """The cases with an answer, sorted."""
-        return np.sort(self.values[~np.isnan(self.values)])
+        """The cases with an answer, sorted; one NaN without any, of which every figure is NaN."""
+        found = np.sort(self.values[~np.isnan(self.values)])
+        return found if found.size else np.array([np.nan])
 
     def _quantile_error(self, share: float) -> float:
         found = self._answered
