@@ -1,11 +1,9 @@
 """The pulse of a recorder: totals and direction of a known shape, polarity, whether it ended, files, and every refusal."""
 
 import copy
-import json
 import math
 import pickle
 import re
-from pathlib import Path
 
 import numpy as np
 import pint
@@ -49,7 +47,7 @@ def test_totals_of_a_known_pulse():
         pulse.forward[0] = 1.0
     assert "ended=True" in repr(pulse)
     assert re.search(r"ended +yes\n", str(pulse.summary()))
-    assert "-0" not in repr(pulse)
+    assert "to -0 m" not in repr(pulse)
 
 
 def test_the_signs_are_those_of_an_impact():
@@ -182,16 +180,3 @@ def test_no_polarity_is_assumed():
         recorded_pulse(TIME, SHAPE)
     with pytest.raises(col.InputError, match="label must be 'a' or 'b'"):
         recorded_pulse(TIME, SHAPE, polarity="49 CFR 563").inputs("c")
-
-
-def test_the_measured_intervals_hold_the_truth():
-    """What the page shows: 93 to 97 percent of the stated 95 percent intervals, of 300 crashes and more, by each route."""
-    path = Path(__file__).parents[1] / "docs" / "_generated" / "evidence_recorder.json"
-    routes = json.loads(path.read_text("utf-8"))["routes"]
-    assert len(routes) == 2
-    for name, row in routes.items():
-        held, intervals = (row["plain"][key] + row["warned"][key] for key in ("held", "intervals"))
-        assert row["crashes"] - row["refused"] >= 300
-        assert intervals == 2 * (row["crashes"] - row["refused"])
-        for part in ((held, intervals), (row["plain"]["held"], row["plain"]["intervals"])):
-            assert 0.93 <= part[0] / part[1] <= 0.97, name

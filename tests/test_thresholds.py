@@ -568,6 +568,18 @@ def beside_a_slide(tangent):
     return recorders(0.5, delta_v_forward_a=-8.0 * math.cos(angle), delta_v_left_a=8.0 * math.sin(angle))
 
 
+def by_courses_apart(angle):
+    """Both speeds from the components of one recorder, of a contact that stuck between cars on courses this far apart."""
+    a, b = (
+        col.Vehicle.from_speed(mass=1500.0, yaw_inertia=2500.0, x=x, y=y, speed=speed, course=course, heading=course)
+        for x, y, speed, course in ((-2.0, 0.0, 20.0, 0.0), (2.0, 0.5, 5.0, angle))
+    )
+    contact = {"normal": 0.0, "point": (0.0, 0.2), "friction": math.inf}
+    side = col.eccentric(a, b, 0.1, **contact).a
+    known = {"delta_v_forward_a": side.delta_v_forward, "delta_v_left_a": side.delta_v_left}
+    return reconstruct.speeds(a, b, course_a=0.0, course_b=angle, restitution=0.1, **contact, **known)
+
+
 def a_record_that_stops(change):
     """Flat until 20 ms before the end, where it gains this much."""
     time = np.array([0.0, 0.05, 0.08, 0.10])
@@ -638,6 +650,7 @@ WARNINGS = [
     Warned("courses head on", math.radians(10.0), CONDITION, "nearly_collinear", lambda x: reconstruct.momentum(
         1e3, 1e3, course_a=0.0, course_b=math.pi - x, course_a_after=0.1, course_b_after=-0.1, speed_a_after=9.0, speed_b_after=1.0),
         below=True),
+    Warned("courses of two speeds by a recorder", math.radians(10.0), CONDITION, "nearly_collinear", by_courses_apart, below=True),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
     Warned("impulse beside the edge of the friction", 0.1, CONDITION, "may_slide", beside_a_slide, below=True),

@@ -32,6 +32,8 @@ NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_", "max_crush")
 # Known values of both vehicles that count as one.
 PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
+# Between the courses of two unknown speeds: nearer to one line, they are hardly told apart.
+NEARLY_COLLINEAR = math.radians(10.0)
 # For functions whose result has no status.
 ASK_ALONE = "asked alone, each says why"
 

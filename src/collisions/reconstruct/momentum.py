@@ -26,12 +26,11 @@ from ..reading import ArgumentReader, amount
 from ..solving import check_options
 from ..units import Input, Pair, is_quantity, magnitude, shown
 from ..warning import warn, warn_of_cases
-from .common import Cases, exactly, input_faults, raise_or_warn, read_masses
+from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
-_NEARLY_COLLINEAR = math.radians(10.0)
 
 
 def momentum(
@@ -371,7 +370,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
 
     one, other = (known.terms[name].course for name in solution.unknowns)
     sine = abs(between(one, other)[1])
-    near = sure & (sine < math.sin(_NEARLY_COLLINEAR))
+    near = sure & (sine < math.sin(NEARLY_COLLINEAR))
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
         numbers = "; ".join(_largest_by_degree(answer, row, near) for answer, row in solution.sensitivity.items())

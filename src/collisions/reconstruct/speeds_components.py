@@ -8,6 +8,7 @@ speed that is given is taken as exact.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,6 +19,7 @@ from ..errors import IllConditionedWarning
 from ..kernels.contact_laws import FRICTION
 from ..reference import RECORDER_ACCURACY
 from ..warning import warn_of_cases
+from .common import NEARLY_COLLINEAR
 from .restitution_roots import RestitutionOf
 from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, pushed
 
@@ -146,7 +148,7 @@ class ComponentScene(Scene):
         return pushed(seen) & (apart <= ROOT_TOL * abs(normal)), seen.closing
 
     def warn(self, answered: Any) -> None:
-        """Warn of answers whose known values differ beyond the stated accuracy, or that may have slid."""
+        """Warn of known values that differ beyond their accuracy, of courses near one line, of a contact that may have slid."""
         worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
         if worst > ACCURACY:
             warn_of_cases(
@@ -155,6 +157,17 @@ class ComponentScene(Scene):
                     f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or the geometry is wrong",
                     code="recorders_differ",
                     value=worst,
+                )
+            )
+        (ax, ay), (bx, by) = ([self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
+        sine = float(np.min(np.where(answered, abs(ax * by - ay * bx), 1.0), initial=1.0))
+        if len(self.unknown) > 1 and sine < math.sin(NEARLY_COLLINEAR):
+            warn_of_cases(
+                IllConditionedWarning(
+                    f"the courses of speed_a and speed_b are {math.degrees(math.asin(sine)):.2g} degrees from one line: small "
+                    f"errors of delta-V and of the courses move both speeds far; give one of them",
+                    code="nearly_collinear",
+                    sine=sine,
                 )
             )
         if np.any(self.near_sliding & answered):
