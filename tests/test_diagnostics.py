@@ -847,7 +847,7 @@ def test_a_force_that_turns_with_the_normal():
     (finding,) = of("normal", impact, limits={"normal": 0.1})
     c = math.cos(math.radians(10.0))
     assert finding.measured == pytest.approx(math.sqrt(1.0 + c * c - 2.0 * c * c), rel=1e-9)
-    assert "its direction by 10.0 degrees" in finding.sentence
+    assert "in direction by 10.0 degrees" in finding.sentence
     assert of("normal_yaw", impact) == []
 
 
@@ -1418,7 +1418,7 @@ def test_no_yaw_is_not_turned_the_other_way():
 def test_the_turn_of_the_normal_is_in_the_units_of_the_page(units, turned):
     impact = square(a={"y": 0.05, "vy": 0.0}, b={"vy": 0.0}, friction=0.0)
     (finding,) = of("normal_yaw", impact, units=units)
-    assert re.search(rf"with the normal turned by [-+]{turned} ", finding.sentence)
+    assert re.search(rf"with the normal turned by [-+]{turned}, ", finding.sentence)
 
 
 def test_a_speed_that_was_found_is_no_input():

@@ -149,14 +149,14 @@ def _yaw_change(old: Side, new: Side) -> float:
 def _compare_delta_v(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterator[Measured]:
     refused = [how for how, answer in answers if answer.refused]
     if refused:
-        yield Measured(math.inf, f"{refused[0]} there is no answer")
+        yield Measured(math.inf, f"{refused[0]}, there is no answer")
     elif answers:
         how, label, who, old, new = _worst(case, answers, _delta_v_change)
         change = _delta_v_change(old, new)
         turn = abs(math.remainder(math.atan2(new.delta_vy, new.delta_vx) - math.atan2(old.delta_vy, old.delta_vx), math.tau))
         sentence = (
-            f"{how} delta-V of {who} moves by {percent(change)} of itself, from {case.text(old.delta_v, 'speed')} to "
-            f"{case.text(new.delta_v, 'speed')}, and its direction by {case.text(turn, 'angle')}"
+            f"{how}, delta-V of {who} changes by {percent(change)} as a vector: from {case.text(old.delta_v, 'speed')} to "
+            f"{case.text(new.delta_v, 'speed')}, and in direction by {case.text(turn, 'angle')}"
         )
         yield Measured(change, sentence, label)
 
@@ -168,7 +168,7 @@ def _compare_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterato
         was, now = old.delta_yaw_rate, new.delta_yaw_rate
         other_way = ", the other way" if min(abs(was), abs(now)) > _YAW_RATE_SEEN and was * now < 0.0 else ""
         sentence = (
-            f"{how} the impact turns {who} by {case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
+            f"{how}, the impact turns {who} by {case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
         )
         yield Measured(_yaw_change(old, new), sentence, label)
 

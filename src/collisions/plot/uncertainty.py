@@ -91,7 +91,9 @@ def distribution(
         100.0 * histogram.shares, histogram.edges * factor, fill=True, fc="#c9d6e6", ec=INK, lw=0.9, zorder=2, gid="histogram"
     )
     median = output.quantile(0.5)
-    span = f"{100.0 * coverage:.4g} % interval, {text_of(low)} to {text_of(high)}"
+    ends = text_of(low), text_of(high)
+    named = f" {labels.name(unit)}" if unit else ""
+    span = f"{100.0 * coverage:.4g} % interval, {ends[0].removesuffix(named)} to {ends[1]}"
     for gid, value, style, colour, text in (
         ("mean", output.mean, "-", FORCE, f"mean {text_of(output.mean)}"),
         ("median", median, (0, (1, 1.2)), INK, f"median {text_of(median)}"),
