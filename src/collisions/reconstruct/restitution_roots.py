@@ -154,18 +154,17 @@ class RestitutionOf:
 
     def slope(self, closing: Any) -> Any:
         """Derivative of the restitution by closing speed, one-sided where the function ends; NaN where it has no value."""
-        return np.vectorize(self._slope, otypes=[np.float64])(closing)
-
-    def _slope(self, closing: float) -> float:
-        places, refused = closing * np.array([1.0 - _STEP, 1.0, 1.0 + _STEP]), self.refused
-        values = self(places)
+        places = np.stack([closing * (1.0 - _STEP), closing, closing * (1.0 + _STEP)])
+        refused = self.refused
+        values = self(places.ravel()).reshape(places.shape)
         # The function need not have a value on both sides of the answer.
         self.refused = refused
         known = np.isfinite(values)
-        if np.count_nonzero(known) < 2:
-            return math.nan
-        (first, *_, last) = np.flatnonzero(known)
-        return float((values[last] - values[first]) / (places[last] - places[first]))
+        first, last = np.argmax(known, axis=0), 2 - np.argmax(known[::-1], axis=0)
+        (low, start), (high, end) = (
+            [np.take_along_axis(part, at[np.newaxis], axis=0)[0] for part in (places, values)] for at in (first, last)
+        )
+        return np.where(last > first, (end - start) / (high - low), np.nan)
 
     def _is_one(self, e: Any) -> Any:
         """Whether this is a restitution; never at -1, where nothing happens."""

@@ -337,6 +337,9 @@ class Scene:
         near = _UNPOLISHED * here.whole
         led = (here.closing > 0.0) & (apart <= _IMPULSE_UNPOLISHED * abs(here.normal) + here.effective_mass * near)
         likely = led | (abs(here.closing) <= near)
+        if "energy_loss" in self.kinds:
+            # An energy that is rounding beside those before and after says little of where the root is.
+            likely = likely | (_UNPOLISHED * here.energy_loss <= _observation_rounding("energy_loss", here))
         if self.plain:
             return self._polished(regime, e, float(speed_a), float(speed_b), None) if likely else None
         cases = np.flatnonzero(self.flat(likely))
