@@ -922,3 +922,39 @@ def test_a_batch_of_no_cases_has_no_answers():
     known = {"course_a": 0.0, "course_b": 1.5, "speed_b": 8.0, "delta_v_a": np.array([])}
     found = col.reconstruct.speeds(a, b, restitution=0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, **known)
     assert all(one.status.shape == one.a.delta_v.shape == (0,) for one in found)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.errors.CollisionsWarning")
+@pytest.mark.parametrize("near", ["anywhere", "between sticking and sliding", "elastic"])
+def test_no_answer_is_among_the_candidates_that_are_not_polished(near, monkeypatch):
+    """The same answers to the last bit, or the same refusal, as with every candidate polished: alone and in a batch."""
+    rng, cases = np.random.default_rng(4), []
+    for impact, courses, contact in forward_scenes(11, 30, ("friction",)):
+        e, bodies, pairs = impact.restitution, (impact.a.before, impact.b.before), PAIRS
+        if near == "elastic":
+            # The loss is rounding beside the energies before and after.
+            e, contact, pairs = (
+                1.0 - rng.integers(1, 9) * 2.0**-53,
+                {**contact, "friction": 0.0},
+                [pair for pair in PAIRS if "energy_loss" in pair],
+            )
+        elif near != "anywhere":
+            stuck, _ = attempt(col.eccentric, *bodies, e, **{**contact, "friction": math.inf})
+            ratio = abs(stuck.tangential_impulse / stuck.normal_impulse) if stuck else 0.0
+            contact = {**contact, "friction": ratio * (1.0 + rng.choice((-1.0, 0.0, 1.0)) * 10.0 ** -rng.uniform(1, 16))}
+        hit = col.eccentric(*bodies, e, **contact)
+        cases.append((hit, courses, contact, knowledge(hit, pairs[rng.integers(len(pairs))])))
+
+    def answers():
+        found = []
+        for (hit, courses, contact, known), many in itertools.product(cases, (False, True)):
+            given = {name: np.array([value, value]) for name, value in known.items()} if many else known
+            roots, refusal = attempt(solve_back, hit, courses, contact, **given)
+            speeds = [np.ravel((root.a.before.speed, root.b.before.speed, root.status)).tolist() for root in roots or ()]
+            found.append((speeds, str(refusal)))
+        return str(found)
+
+    some = answers()
+    monkeypatch.setattr("collisions.reconstruct.speeds_algebra._UNPOLISHED", math.inf)
+    assert answers() == some
