@@ -1,6 +1,6 @@
 """Posteriors, measured: how often their intervals hold the truth, whether comparisons mean what they say, error against cost.
 
-``python benchmarks/posterior.py`` runs all of it in half an hour on two processes and writes docs/_generated/posterior.json and
+``python benchmarks/posterior.py`` runs all of it in ten minutes on two processors and writes docs/_generated/posterior.json and
 the figure of the page. ``--quick`` measures less, to see that everything runs; ``--json PATH`` writes there, without figure.
 
 Simulation-based calibration (S. Talts, M. Betancourt, D. Simpson, A. Vehtari and A. Gelman, "Validating Bayesian inference

@@ -41,11 +41,12 @@ def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_p
         for text in (
             script.overall(found),
             script.coverage_table(found),
+            script.compare_table(found),
             script.cost_table(found),
         ):
             assert "nan" not in text
-    assert all(scene["replicates"] >= 300 and len(scene["unknowns"]) >= 6 for scene in committed["scenes"])
-    assert "nan" not in script.compare_table(quick)
+    assert all(scene["replicates"] >= 1000 and len(scene["unknowns"]) >= 6 for scene in committed["scenes"])
+    assert committed["compare"]["crashes"] >= 400
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
@@ -97,8 +98,25 @@ def test_intervals_hold_at_their_rate(committed, script):
             assert script.uniformity(row["ranks"]) > 1e-4, (scene["key"], name)
 
 
+def test_ninety_five_percent_intervals_hold_93_to_97(committed):
+    assert all(
+        0.93 <= row["held"][2] / scene["replicates"] <= 0.97
+        for scene in committed["scenes"]
+        for row in scene["unknowns"].values()
+    )
+
+
+def test_stated_probabilities_of_accounts_come_true(committed):
+    """In each range as often as was stated, within three binomial errors."""
+    rows = committed["compare"]["bins"]
+    assert sum(row["crashes"] for row in rows) == committed["compare"]["crashes"]
+    for row in rows:
+        stated, crashes = row["stated"], row["crashes"]
+        assert abs(row["true"] - stated * crashes) <= 3.0 * (stated * (1.0 - stated) * crashes) ** 0.5, row
+
+
 def test_errors_of_sampling_are_as_stated(committed):
-    """Scatter over six seeds against the stated error: chi-squared of five degrees of freedom is within 0.2**2 and 2.1**2 of its mean."""
+    """Scatter over ten seeds against the stated error, which is of seven degrees of freedom: within a factor of two and a half."""
     for row in committed["cost"]:
         for name in ("mean", "evidence"):
             assert 0.2 < row[name] / row[f"{name}_stated"] < 2.5, row
