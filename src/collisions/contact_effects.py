@@ -12,8 +12,8 @@ from . import pulse
 from .drag import GRAVITY, read_drag, read_duration
 from .during_contact import Kick, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
-from .impact import Impact
-from .kernels.batch import precision
+from .impact import Impact, part_of_impact
+from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, hypot, in_units_of, lock, numeric
 from .reading import ArgumentReader, broadcast, widened
@@ -21,7 +21,10 @@ from .settings import computing
 from .travel.surfaces import out_of_range
 from .units import Input, Value
 from .vehicle import Vehicle
-from .warning import warn_of_cases
+from .warning import quietly, warn_of_cases
+
+# Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
+_BLOCK = 16384
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -216,10 +219,32 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     if shape is None and beyond:
         raise out_of_range()
     unusable = _unusable({"duration": time, "drag": pull}, beyond)
-    found = _estimated(impact, time, pull, unusable)
-    if shape is not None:
-        found = {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()}
-    return _assembled(found, impact.inputs.texts)
+    texts = impact.inputs.texts
+    if shape is None:
+        return _assembled(_estimated(impact, time, pull, unusable), texts)
+    size = math.prod(shape)
+    if size <= _BLOCK:
+        found = _estimated(impact, time, pull, unusable)
+        return _assembled(
+            {name: value if value is None else np.broadcast_to(value, shape).astype(dtype) for name, value in found.items()},
+            texts,
+        )
+    whole: dict[str, Any] = {}
+    for start in range(0, size, _BLOCK):
+        block = slice(start, min(start + _BLOCK, size))
+
+        def cut(value: Any, block: slice = block) -> Any:
+            return flat(value, shape)[block] if isinstance(value, np.ndarray) else value
+
+        # The impact itself gave the warnings about its cases.
+        with quietly():
+            some = part_of_impact(impact, cut, on_failure="nan")
+        for name, value in _estimated(some, cut(time), cut(pull), cut(unusable)).items():
+            if name not in whole:
+                whole[name] = None if value is None else np.empty(size, dtype=dtype)
+            if value is not None:
+                whole[name][block] = value
+    return _assembled({name: value if value is None else value.reshape(shape) for name, value in whole.items()}, texts)
 
 
 def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
-from .inputs import ARGUMENTS, STIFFNESSES, Inputs, index_of, part_of, part_of_inputs
+from .inputs import ARGUMENTS, STIFFNESSES, Inputs, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .kernels.time_resolved import Passed
@@ -636,12 +636,12 @@ def with_vehicles(impact: Impact, a: Vehicle, b: Vehicle) -> Impact:
     return other
 
 
-def part_of_impact(impact: Impact, take: Callable[[Any], Any]) -> Impact:
+def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFailure | None = None) -> Impact:
     """Some cases of a batch, solved again; ``take`` selects them from every array."""
     origin = impact.reconstruction
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
     choice = None if impact.choice is None else part_of_choice(impact.choice, take)
-    part = solved(inputs, choice=choice)
+    part = solved(inputs, on_failure=on_failure, choice=choice)
     return part if origin is None else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
 
 
