@@ -10,6 +10,7 @@ import pytest
 import collisions as col
 from collisions.directions import from_radians
 from collisions.kernels.batch import BLOCK
+from collisions.kernels.status import Answer
 from test_refused_cases import outputs
 
 B = col.Vehicle(mass=950.0, vy=5.0, yaw_rate=0.2, yaw_inertia=1500.0, x=3.0, y=0.4)
@@ -446,3 +447,30 @@ def test_an_odd_case_is_refused_beside_fine_ones_whatever_input_is_odd():
             infinite_mass = name in ("mass", "yaw_inertia") and odd == math.inf
             assert (status[150] <= col.Status.ENERGY_GAIN) == infinite_mass, (name, odd)
             assert (np.delete(status, 150) == col.Status.OK).all()
+
+
+@pytest.mark.parametrize("cases", [50, 20000])
+def test_plain_zeros_answer_as_arrays_of_zeros_do(cases):
+    """Motion along the x axis: what is known to be 0 is not worked out, and every answer is the same to the bit."""
+    rng = np.random.default_rng(5)
+    speeds = rng.uniform(-5.0, 30.0, cases), rng.uniform(-5.0, 10.0, cases)
+    plain = [col.Vehicle(mass=1100.0, vx=vx) for vx in speeds]
+    spread = [col.Vehicle(mass=1100.0, vx=vx, vy=np.zeros(cases), yaw_rate=np.zeros(cases)) for vx in speeds]
+    one, other = (col.linear_central(*pair, 0.3, on_failure="nan") for pair in (plain, spread))
+    assert {*one.status.tolist()} == {col.Status.OK, col.Status.SEPARATING}
+    for name, wanted in zip(Answer._fields, other._answer, strict=True):
+        assert getattr(one._answer, name).tobytes() == wanted.tobytes(), name
+
+
+def test_an_answer_that_is_the_same_in_every_case_takes_no_memory_unless_some_are_refused():
+    """A linear impact has no tangential impulse and changes no yaw rate."""
+    speed = np.full(1000, 20.0)
+    for refused in ([], [7]):
+        speed[refused] = -1.0
+        impact = col.linear_central(striking(speed), B.replace(vy=0.0, yaw_rate=0.0), 0.2, on_failure="nan")
+        for value in (impact.tangential_impulse, impact.a.delta_yaw_rate, impact.a.after.yaw_rate):
+            assert value.shape == (1000,)
+            assert not value.flags.writeable
+            assert np.flatnonzero(np.isnan(value)).tolist() == refused
+            assert (value[np.isfinite(value)] == 0.0).all()
+            assert refused or value.strides == (0,)

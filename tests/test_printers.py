@@ -15,16 +15,6 @@ from test_tracing import numbers, programs
 KERNELS = Path(collisions.__file__).parent / "kernels"
 
 
-class Given:
-    """Inputs at the paths n0, n1, ..."""
-
-    a = b = None
-
-    def __init__(self, values):
-        for which, value in enumerate(values):
-            setattr(self, f"n{which}", value)
-
-
 @pytest.mark.parametrize(
     ("kernel", "settings", "count"),
     [
@@ -46,10 +36,10 @@ def test_javascript_and_python_give_the_bits_of_the_kernel(kernel, settings, cou
     np.testing.assert_array_equal(found, wanted)
     real = wanted == wanted
     np.testing.assert_array_equal(np.signbit(found[real]), np.signbit(wanted[real]))
-    alone = compile_for_floats(kernel, tuple(f"n{which}" for which in range(count)), settings)
+    alone = compile_for_floats(kernel, tuple(f"[{which}]" for which in range(count)), settings)
     answered = 0
     for case, row in zip(cases.tolist(), wanted, strict=True):
-        one = alone(Given(case))
+        one = alone(case)
         if one is not None:
             answered += 1
             assert row[0] == Status.OK

@@ -42,8 +42,8 @@ _STIFFNESS = "duration='100 ms', stiffness='800 kN/m', or crush_a=('60 kN/m', '7
 
 def read_contact_time(
     a: Any, b: Any, restitution: Any, normal: Any, point: Any, friction: Any, extra: dict[str, Any]
-) -> tuple[Inputs, bool]:
-    """The inputs of ``time_resolved``, whether all are plain floats; ``extra`` are those beyond an impulse, by name."""
+) -> Inputs:
+    """The inputs of ``time_resolved``; ``extra`` are those beyond an impulse, by name."""
     reader = ArgumentReader()
     if friction is None:
         text = (
@@ -64,11 +64,11 @@ def read_contact_time(
         found["steps"] = int(found["steps"])
     found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
     found = _SIZES | found
-    inputs, plain = read_inputs(
+    inputs = read_inputs(
         "time_resolved", a, b, restitution, normal, point, (friction, None, None), "brach", reader.problems, _numbers(found)
     )
     given = {**(inputs.given or {}), **reader.texts} or None
-    return replace(inputs, given=given, **found), plain and not any(isinstance(one, np.ndarray) for one in _numbers(found))
+    return replace(inputs, given=given, **found)
 
 
 def read_least_time(reader: ArgumentReader, duration: Any, drag: Any) -> dict[str, Any]:

@@ -31,6 +31,8 @@ from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
 
+_new = object.__new__
+
 
 class Impact(Frozen, Summarized):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
@@ -591,7 +593,7 @@ _TANGENTIAL = ("tangential impulse", "impulse ratio", "regime")
 
 def build(inputs: Inputs, raw: Any) -> Impact:
     """An Impact from its inputs and the kernel's answer."""
-    impact: Impact = object.__new__(Impact)
+    impact: Impact = _new(Impact)
     found = impact.__dict__
     found["inputs"] = inputs
     found["_answer"] = raw
@@ -605,16 +607,15 @@ def answer_of(impact: Impact) -> Any:
 
 def solved(
     inputs: Inputs,
-    plain: bool = False,
     on_failure: Any = None,
     threads: Any = 1,
     progress: Any = None,
     choice: ModelChoice | None = None,
 ) -> Impact:
-    """Solve the inputs; ``plain`` as for ``solve_inputs``, ``choice`` if the model was chosen before."""
+    """Solve the inputs; ``choice`` if the model was chosen before."""
     if inputs.model != "solve":
-        return build(inputs, solve_inputs(model_of(inputs), inputs, plain, on_failure, threads, progress))
-    answer, choice = solve_least(inputs, plain, on_failure, threads, progress, choice)
+        return build(inputs, solve_inputs(model_of(inputs), inputs, on_failure, threads, progress))
+    answer, choice = solve_least(inputs, on_failure, threads, progress, choice)
     impact = build(inputs, answer)
     vars(impact)["choice"] = where_answered(choice, answer.status > Status.ENERGY_GAIN)
     return impact

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cached_property
 from itertools import chain
 from typing import Any, Literal, TypeAlias
 
@@ -15,7 +16,7 @@ from .errors import InputError, MissingInputError, ShapeError
 from .kernels.contact_laws import FRICTION, LAWS, RULES
 from .kernels.elementwise import restitution_domain
 from .quantities import lock, same
-from .reading import OUTSIDE_UNITS, ArgumentReader, is_whole, largest
+from .reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown, texts_of
 from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
@@ -24,6 +25,7 @@ Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 
 _ALONG_X = (1.0, 0.0)
+_new = object.__new__
 # Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 _NO_IMPULSE = (0.0, 0.0, 0.0)
@@ -40,6 +42,7 @@ ARGUMENTS = {
 }
 # The models that need places, and the solvers that take pinned bodies.
 PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
+_TAKES = {name: ("law" in takes, name in PLACED, name in _PINNED) for name, takes in ARGUMENTS.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +104,11 @@ class Inputs:
     outside_a: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
     outside_b: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
 
+    @cached_property
+    def shape(self) -> tuple[int, ...] | None:
+        """That of the arrays among the numbers; None of a single case."""
+        return broadcast(named_numbers(self))
+
     @property
     def bare_normal(self) -> Any:
         """The normal's angle if it was a number without a unit beyond a full turn (degrees meant?); else None."""
@@ -153,7 +161,7 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
             who = f"{label} ({value.name})" if value.name else label
             raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
 
-    return Inputs(**{name: taken(name, value) for name, value in vars(inputs).items()})
+    return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 
 
 def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
@@ -190,6 +198,51 @@ def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
     return tuple(int(at) for at in place)
 
 
+def plain_inputs(
+    model: str, a: Any, b: Any, restitution: Any, normal: Any, point: Any, tangential: tuple[Any, ...], law: Any
+) -> Inputs | None:
+    """The inputs if all are plain floats in order, which need no reader; else None."""
+    lawful, placed, pinned = _TAKES[model]
+    friction = tangential[0]
+    if (
+        type(a) is type(b) is Vehicle
+        and a.given is b.given is None
+        and type(restitution) is type(friction) is type(normal) is float
+        and 0.0 <= restitution <= 1.0
+        and friction >= 0.0
+        and -6.0 < normal < 6.0
+        and tangential[1] is tangential[2] is None
+        and (not lawful or (type(law) is str and law in LAWS))
+        and not units_required.get()
+        and (pinned or a.pivot is b.pivot is None)
+        and (not placed or not missing_numbers(a, b, point))
+        and (
+            point is None
+            or (
+                type(point) is tuple
+                and len(point) == 2
+                and type(point[0]) is type(point[1]) is float
+                and math.isfinite(point[0] + point[1])
+            )
+        )
+    ):
+        # What ``Inputs(...)`` does, in a third of its time: a frozen dataclass sets a field through object.
+        inputs: Inputs = _new(Inputs)
+        found = inputs.__dict__
+        found["model"] = model
+        found["a"] = a
+        found["b"] = b
+        found["restitution"] = restitution
+        found["normal"] = _ALONG_X if normal == 0.0 else from_radians(normal)
+        found["rule"] = FRICTION
+        found["rule_value"] = friction
+        found["law"] = law if lawful else None
+        found["point"] = point
+        found["shape"] = None
+        return inputs
+    return None
+
+
 def read_inputs(
     model: str,
     a: Vehicle,
@@ -204,57 +257,17 @@ def read_inputs(
     incomplete: Any = False,
     outside_a: Any = None,
     outside_b: Any = None,
-) -> tuple[Inputs, bool]:
-    """Validate the arguments of a solver; gives its ``Inputs`` and whether all were plain floats, those of the vehicles too.
+) -> Inputs:
+    """Validate the arguments of a solver.
 
-    Missing inputs, and inputs that the model cannot represent, are refused.
-
-    ``tangential`` are the values of ``RULES``, of which one must be given; a solver that knows only the first of them gives
-    those. Plain floats in order need no reader; anything else goes through it, and one error names all that cannot be used,
-    with the ``problems`` that were found before. ``beside`` has the numbers that are not among these arguments, with which the
-    normal shares its precision.
+    Missing inputs, and inputs that the model cannot represent, are refused; one error names all that cannot be used, with the
+    ``problems`` that were found before. ``tangential`` are the values of ``RULES``, of which one must be given. ``beside`` has
+    the numbers that are not among these arguments, with which the normal shares its precision.
     """
-    friction = tangential[0]
-    law_used = law if "law" in ARGUMENTS[model] else None
-    if (
-        type(a) is type(b) is Vehicle
-        and a.given is b.given is None
-        and type(restitution) is type(friction) is type(normal) is float
-        and 0.0 <= restitution <= 1.0
-        and friction >= 0.0
-        and -6.0 < normal < 6.0
-        and tangential[1] is tangential[2] is None
-        and type(law) is str
-        and law in LAWS
-        and not units_required.get()
-        and not problems
-        and incomplete is False
-        and outside_a is outside_b is None
-        and (a.pivot is b.pivot is None or model in _PINNED)
-        and (model not in PLACED or not missing_numbers(a, b, point))
-        and (
-            point is None
-            or (
-                type(point) is tuple
-                and len(point) == 2
-                and type(point[0]) is type(point[1]) is float
-                and math.isfinite(point[0] + point[1])
-            )
-        )
-    ):
-        # What ``Inputs(...)`` does, in a third of its time: a frozen dataclass sets a field through object.
-        inputs: Inputs = object.__new__(Inputs)
-        found = inputs.__dict__
-        found["model"] = model
-        found["a"] = a
-        found["b"] = b
-        found["restitution"] = restitution
-        found["normal"] = _ALONG_X if normal == 0.0 else from_radians(normal)
-        found["rule"] = FRICTION
-        found["rule_value"] = friction
-        found["law"] = law_used
-        found["point"] = point
-        return inputs, True
+    if not problems and incomplete is False and outside_a is outside_b is None:
+        plain = plain_inputs(model, a, b, restitution, normal, point, tangential, law)
+        if plain is not None:
+            return plain
     reader = ArgumentReader()
     reader.problems.extend(problems)
     if model in PLACED:
@@ -274,18 +287,18 @@ def read_inputs(
         pushes = {name: _NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
     of_contact = e, value, *(contact or ()), *(pushes["outside_a"] or ()), *(pushes["outside_b"] or ())
     unit: Any = direction(reader, normal, "normal", chain(of_contact, vehicles, beside))
-    if not isinstance(law, str) or law not in LAWS:
+    lawful, _, _ = _TAKES[model]
+    if lawful and (not isinstance(law, str) or law not in LAWS):
         known = " or ".join(f"{name!r} ({known.no_slip})" for name, known in LAWS.items())
         reader.refuse(InputError(f"law must be {known}, got {shown(law)}", code="bad_law", argument="law"))
-    elif LAWS[law].energetic and rule != FRICTION:
+    elif lawful and LAWS[law].energetic and rule != FRICTION:
         text = f"law {law!r} works with friction= alone, got {rule}=: it finds the impulse ratio from the slip as it changes"
         reader.refuse(InputError(text, code="bad_combination", argument=rule))
     reader.close()
     # Only the direction of a vector counts.
     given = {name: text for name, text in reader.texts.items() if not name.startswith("normal[")} | _beyond_a_turn(normal)
-    plain = a.given is b.given is None and np.ndarray not in map(type, (*unit, *of_contact))
     more: dict[str, Any] = {"incomplete": incomplete, **pushes}
-    return Inputs(model, a, b, e, unit, rule, value, law_used, contact, given or None, **more), plain
+    return Inputs(model, a, b, e, unit, rule, value, law if lawful else None, contact, given or None, **more)
 
 
 def check_incomplete(reader: ArgumentReader, incomplete: Any) -> None:

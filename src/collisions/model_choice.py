@@ -135,11 +135,11 @@ class ModelChoice(Shown):
         yield prefix + "tolerance", self.tolerance, "m/s"
 
 
-def choose(inputs: Inputs, plain: bool, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
+def choose(inputs: Inputs, threads: int = 1, progress: Any = None) -> tuple[ModelChoice, Any]:
     """Choose a model; also gives where the eccentric one is required and lacks an input."""
     a, b = inputs.a, inputs.b
     tolerance: Any = inputs.tolerance
-    shape = None if plain else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
+    shape = inputs.shape if isinstance(tolerance, float) else broadcast({"tolerance": tolerance, **named_numbers(inputs)})
     missing = tuple(f"{label}.{name}" for label, name in lacking(a, b))
     missing += () if inputs.point is not None else ("point",)
     which, *predicted = _predicted(inputs, missing, shape, threads, progress)
@@ -235,7 +235,6 @@ def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
 
 def solve_least(
     inputs: Inputs,
-    plain: bool,
     on_failure: Any,
     threads: Any,
     progress: Any,
@@ -246,14 +245,14 @@ def solve_least(
     report = reporter(progress)
     if choice is None:
         predicting, report = halves(report)
-        choice, lacks = choose(inputs, plain, threads, predicting)
+        choice, lacks = choose(inputs, threads, predicting)
         if lacks is not False and np.any(lacks):
             refuse_incomplete(inputs, lacks)
     which = choice._which
     if not isinstance(which, np.ndarray):
         if which == _LAST:
-            return solve_inputs(TIME_RESOLVED, timed(inputs), False, on_failure, threads, report), choice
-        return solve_inputs(in_form(MODELS[which], inputs), inputs, plain, on_failure, threads, report, carrying=True), choice
+            return solve_inputs(TIME_RESOLVED, timed(inputs), on_failure, threads, report), choice
+        return solve_inputs(in_form(MODELS[which], inputs), inputs, on_failure, threads, report, carrying=True), choice
     shape = broadcast({"which": which, **named_numbers(inputs)}) or ()
     late, which = which == _LAST, np.minimum(which, ECCENTRIC)
     used = [model for at, model in enumerate(MODELS) if np.any(which == at)] or [MODELS[ECCENTRIC]]
@@ -267,7 +266,7 @@ def solve_least(
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
-        return solve_least(case, False, None, 1, None, part_of_choice(chosen, take))
+        return solve_least(case, None, 1, None, part_of_choice(chosen, take))
 
     chosen = choice
     say_of_cases(inputs, raw, on_failure, one)
@@ -280,7 +279,7 @@ def _in_time(inputs: Inputs, raw: Any, plastic: Any, linear: Any, late: Any, thr
     ``plastic`` are the answers without restitution under an energetic law, which are those at the end of compression.
     """
     some = part_of_inputs(timed(inputs), lambda value: np.broadcast_to(value, late.shape)[late])
-    passed = solve_inputs(TIME_RESOLVED, some, False, "nan", threads)
+    passed = solve_inputs(TIME_RESOLVED, some, "nan", threads)
     e, whole = inputs.restitution, 1.0 + inputs.restitution
     found: dict[str, Any] = {
         "separation_speed": e * raw.closing_speed,
@@ -314,7 +313,7 @@ def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, na
             if choice is None:
                 answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
             else:
-                answer, _ = solve_least(plastic, False, "nan", 1, None, choice)
+                answer, _ = solve_least(plastic, "nan", 1, None, choice)
         # The plastic one may answer where the restitution itself was refused.
         compressed = [select(refused, math.nan, getattr(answer, name)) for name in names]
     else:
@@ -324,7 +323,7 @@ def until_compressed(inputs: Inputs, answer: Any, choice: ModelChoice | None, na
 
 
 @lru_cache(maxsize=64)
-def _float_function(rule: str, law: str | None, pinned: tuple[bool, bool]) -> Callable[[Inputs], Any]:
+def _float_function(rule: str, law: str | None, pinned: tuple[bool, bool]) -> Callable[[dict[str, Any]], Any]:
     """``least_model`` compiled for plain floats of which none is missing."""
     known = Known(places=(True, True), inertias=(True, True), all=True, pinned=pinned)
     return compile_for_floats(least_model, (*MODELS[ECCENTRIC].takes, "tolerance"), (rule, law, known, EPS))
@@ -335,7 +334,7 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
     a, b, placed, tolerance = inputs.a, inputs.b, inputs.point is not None, inputs.tolerance
     pinned = a.pivot is not None, b.pivot is not None
     if shape is None and not missing and inputs.outside_a is None:
-        found = _float_function(inputs.rule, inputs.law, pinned)(inputs)
+        found = _float_function(inputs.rule, inputs.law, pinned)(vars(inputs))
         if found is not None:
             return found
     known = Known(

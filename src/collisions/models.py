@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -36,9 +36,8 @@ class Model:
         Its formulas.
     takes : tuple of str
         Paths into ``Inputs`` of the kernel's arguments, in their order, such as "restitution" or "a.mass".
-    settings : callable
-        The kernel's options (rule, law, flags), from the inputs and whether motion outside the model is carried through, as
-        ``solve`` does, or refused.
+    options : callable
+        The kernel's settings (rule, law, flags) from what ``kind_of`` gives.
     assumptions : str
         As a report says them.
     """
@@ -46,8 +45,12 @@ class Model:
     name: str
     kernel: Callable[..., Any]
     takes: tuple[str, ...]
-    settings: Callable[[Inputs, bool], tuple[Any, ...]]
+    options: Callable[..., tuple[Any, ...]]
     assumptions: str
+
+    def settings(self, inputs: Inputs, carrying: bool) -> tuple[Any, ...]:
+        """The kernel's settings; see ``kind_of``."""
+        return self.options(*kind_of(inputs, carrying))
 
     def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
         """The kernel's arguments; an unknown position or inertia is filled in so that it makes no torque."""
@@ -83,7 +86,7 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         "linear_central",
         linear_central,
         _takes(body=_POINT_MASS),
-        lambda inputs, carrying: (carrying,),
+        lambda rule, law, pinned_a, pinned_b, carrying: (carrying,),
         "Linear central: momentum along the normal (2) with restitution, which gives (5) and (6). The vehicles are point "
         "masses that move along one line; rotation and forces along the tangent are left out.",
     ),
@@ -91,7 +94,7 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         "oblique_central",
         oblique_central,
         _takes("rule_value", body=_POINT_MASS),
-        lambda inputs, carrying: (inputs.rule, inputs.law, carrying),
+        lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, carrying),
         "Oblique central: restitution along the normal (9), friction along the tangent. The vehicles are point masses; "
         "rotation is left out.",
     ),
@@ -99,7 +102,7 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         "eccentric",
         eccentric,
         _takes("rule_value", "point[0]", "point[1]", body=_BODY),
-        lambda inputs, carrying: (inputs.rule, inputs.law, inputs.a.pivot is not None, inputs.b.pivot is not None),
+        lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, pinned_a, pinned_b),
         "Eccentric: momentum and angular momentum (10) to (19), with restitution along the normal and friction along the "
         "tangent at one contact point; free, pinned and fixed bodies.",
     ),
@@ -108,7 +111,7 @@ TIME_RESOLVED = Model(
     "time_resolved",
     time_resolved,
     (),
-    lambda inputs, carrying: (),
+    lambda *kind: (),
     "Time-resolved: the contact is followed in small steps. A spring along the normal takes up the approach and gives back the "
     "share of its work that the restitution squared says; Coulomb friction acts along the tangent, tyres slide on the ground, "
     "and places and normal move with the vehicles.",
@@ -126,9 +129,19 @@ _FROM_CONTACT_VELOCITY = BY_NAME | {
 _WITH_OUTSIDE = replace(ECCENTRIC, kernel=with_outside, takes=(*_OUTSIDE, *ECCENTRIC.takes))
 
 
-@lru_cache(maxsize=64)
-def float_function(model: Model, settings: tuple[Any, ...]) -> Callable[[Inputs], Answer | None]:
-    """The kernel of a model compiled for plain floats; it returns None where the kernel itself has to decide."""
+def kind_of(inputs: Inputs, carrying: bool) -> tuple[str, str | None, bool, bool, bool]:
+    """Rule, law, whether A and B are pinned, and whether motion outside the model is carried through, as ``solve`` does."""
+    return inputs.rule, inputs.law, inputs.a.pivot is not None, inputs.b.pivot is not None, carrying
+
+
+@cache
+def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
+    """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel itself has to decide."""
+    return _compiled(model, model.options(*kind))
+
+
+@cache
+def _compiled(model: Model, settings: tuple[Any, ...]) -> Callable[[Mapping[str, Any]], Answer | None]:
     return compile_for_floats(model.kernel, model.takes, settings)
 
 
@@ -156,21 +169,20 @@ def read(
     duration: Any = None,
     drag: Any = None,
     **more: Any,
-) -> tuple[Inputs, bool]:
+) -> Inputs:
     """Read a solver's arguments, for ``solve`` with tolerance, duration and drag; see ``read_inputs``."""
     reader = ArgumentReader()
     times = {} if duration is None and drag is None else read_least_time(reader, duration, drag)
     if model == "solve" and not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
-    inputs, plain = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems, **more)
+    inputs = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems, **more)
     if model == "solve":
         # Nobody else has these inputs yet.
         vars(inputs)["tolerance"] = tolerance
         if times:
             texts = {name: text for name, text in reader.texts.items() if name in times}
-            vars(inputs).update(times, given={**(inputs.given or {}), **texts} or None)
-        plain = plain and all(isinstance(one, float) for one in (tolerance, *times.values()))
-    return inputs, plain
+            inputs = replace(inputs, given={**(inputs.given or {}), **texts} or None, **times)
+    return inputs
 
 
 def read_again(inputs: Inputs, found: bool = False) -> Inputs:
@@ -187,10 +199,10 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
-            again, _ = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
+            again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
             return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
         given: Any = tangential, BRACH if inputs.law is None else inputs.law, inputs.tolerance, *times
-        again, _ = read(inputs.model, inputs.a, inputs.b, *contact, *given, **more)
+        again = read(inputs.model, inputs.a, inputs.b, *contact, *given, **more)
     return replace(
         again,
         restitution=e if unknown else again.restitution,

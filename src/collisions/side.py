@@ -69,7 +69,8 @@ class Side(Frozen, Summarized):
     def after(self) -> Vehicle:
         """The vehicle just after separation: ready to be the start of a next impact."""
         before, (dvx, dvy, dw) = self.before, self._change()
-        return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
+        motion = _changed(before.vx, dvx), _changed(before.vy, dvy), _changed(before.yaw_rate, dw)
+        return moved(before, *motion, self._units())
 
     def _units(self) -> Texts | None:
         """Those of the inputs, in which the results are shown."""
@@ -404,6 +405,13 @@ def _of_state(vehicle: Vehicle, name: str, numbers: Cells) -> str:
     if isinstance(value, float) and math.isnan(value) and vehicle.speed == 0.0:
         return "at rest"
     return numbers.text(value, unit_of(Vehicle, name))
+
+
+def _changed(value: Value, change: Value) -> Value:
+    """The sum; where a change that is the same in all cases meets one number, it is that of all cases too."""
+    if isinstance(change, np.ndarray) and change.size and not any(change.strides) and not isinstance(value, np.ndarray):
+        return np.broadcast_to(value + change.flat[0], change.shape)
+    return value + change
 
 
 def _of_change(side: Side, name: str, numbers: Cells) -> str:

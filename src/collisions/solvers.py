@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .contact_time import Geometry, read_contact_time
 from .impact import Impact, build, solved
-from .inputs import Law, OnFailure, read_inputs
-from .kernels.contact_laws import BRACH
+from .inputs import Law, OnFailure, plain_inputs, read_inputs
+from .kernels.contact_laws import FRICTION
 from .model_choice import ModelChoice, choose
-from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, in_form, read
+from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read
 from .progress import Progress
 from .solving import solve_inputs
 from .units import Impulse, Input, Pair
 from .vehicle import Vehicle
+
+_FRICTIONLESS = 0.0, None, None
 
 
 def linear_central(
@@ -79,10 +83,7 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
-    inputs, plain = read_inputs(
-        "linear_central", a, b, restitution, normal, None, (0.0, None, None), BRACH, incomplete=incomplete
-    )
-    return build(inputs, solve_inputs(LINEAR, inputs, plain, on_failure, threads, progress))
+    return _solve(LINEAR, a, b, restitution, normal, None, _FRICTIONLESS, None, incomplete, on_failure, threads, progress)
 
 
 def oblique_central(
@@ -152,8 +153,7 @@ def oblique_central(
     (3.464, -3.0, 2.0)
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read_inputs("oblique_central", a, b, restitution, normal, None, tangential, law, incomplete=incomplete)
-    return build(inputs, solve_inputs(OBLIQUE, inputs, plain, on_failure, threads, progress))
+    return _solve(OBLIQUE, a, b, restitution, normal, None, tangential, law, incomplete, on_failure, threads, progress)
 
 
 def eccentric(
@@ -251,11 +251,10 @@ def eccentric(
     1.61 -827
     """
     tangential = friction, impulse_ratio, critical_fraction
-    inputs, plain = read_inputs(
-        "eccentric", a, b, restitution, normal, point, tangential, law, (), (), incomplete, outside_a, outside_b
+    outside = None if outside_a is outside_b is None else (outside_a, outside_b)
+    return _solve(
+        ECCENTRIC, a, b, restitution, normal, point, tangential, law, incomplete, on_failure, threads, progress, outside
     )
-    model = ECCENTRIC if outside_a is outside_b is None else in_form(ECCENTRIC, inputs)
-    return build(inputs, solve_inputs(model, inputs, plain, on_failure, threads, progress))
 
 
 def time_resolved(
@@ -370,8 +369,8 @@ def time_resolved(
         "geometry": geometry,
         "steps": steps,
     }
-    inputs, plain = read_contact_time(a, b, restitution, normal, point, friction, extra)
-    return build(inputs, solve_inputs(TIME_RESOLVED, inputs, plain, on_failure, threads, progress))
+    inputs = read_contact_time(a, b, restitution, normal, point, friction, extra)
+    return build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
 
 
 def required_model(
@@ -439,8 +438,8 @@ def required_model(
     """
     tangential = friction, impulse_ratio, critical_fraction
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
-    return choose(inputs, plain)[0]
+    inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
+    return choose(inputs)[0]
 
 
 def solve(
@@ -503,5 +502,32 @@ def solve(
     """
     tangential = friction, impulse_ratio, critical_fraction
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs, plain = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
-    return solved(inputs, plain, on_failure, threads, progress)
+    inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
+    return solved(inputs, on_failure, threads, progress)
+
+
+def _solve(
+    model: Model,
+    a: Any,
+    b: Any,
+    restitution: Any,
+    normal: Any,
+    point: Any,
+    tangential: tuple[Any, ...],
+    law: Any,
+    incomplete: Any,
+    on_failure: Any,
+    threads: Any,
+    progress: Any,
+    outside: tuple[Any, Any] | None = None,
+) -> Impact:
+    """Read the arguments and solve them, plain floats on the shortest way."""
+    if incomplete is False and outside is on_failure is progress is None and type(threads) is int and threads == 1:
+        inputs = plain_inputs(model.name, a, b, restitution, normal, point, tangential, law)
+        if inputs is not None:
+            answer = float_function(model, FRICTION, law, a.pivot is not None, b.pivot is not None, False)(inputs.__dict__)
+            if answer is not None:
+                return build(inputs, answer)
+    more = incomplete, *(outside or (None, None))
+    inputs = read_inputs(model.name, a, b, restitution, normal, point, tangential, law, (), (), *more)
+    return build(inputs, solve_inputs(in_form(model, inputs), inputs, on_failure, threads, progress))

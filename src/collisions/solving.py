@@ -26,9 +26,8 @@ from .kernels.elementwise import (
 )
 from .kernels.status import Answer, Status
 from .kernels.time_resolved import Passed
-from .models import TIME_RESOLVED, Model, float_function, model_of, read_again
+from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
 from .progress import reporter
-from .reading import broadcast
 from .units import shown
 from .vehicle import DOMAINS
 from .warning import warn_of_cases
@@ -39,7 +38,6 @@ _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._
 def solve_inputs(
     model: Model,
     inputs: Inputs,
-    plain: bool = False,
     on_failure: Any = None,
     threads: Any = 1,
     progress: Any = None,
@@ -47,31 +45,24 @@ def solve_inputs(
 ) -> Any:
     """Run a model on one case or a batch, with its warnings and errors.
 
-    ``plain`` says that the inputs are plain floats. With ``carrying``, motion that the model
-    cannot represent is passed on unchanged, not refused.
+    With ``carrying``, motion that the model cannot represent is passed on unchanged, not refused.
     """
+    if on_failure is not None or progress is not None or threads != 1 or type(threads) is not int:
+        check_options(on_failure, threads, progress)
     if model is TIME_RESOLVED:
         return _solve_in_time(inputs, on_failure, threads, progress)
-    if plain and on_failure is None and type(threads) is int and threads == 1 and progress is None:
-        raw = float_function(model, model.settings(inputs, carrying))(inputs)
-        if raw is not None:
-            return raw
-    check_options(on_failure, threads, progress)
-    if not plain:
-        shape = broadcast(named_numbers(inputs))
-        if shape is not None:
-            raw = solve_cases((model,), None, inputs, shape, threads, progress, carrying)
-            say_of_cases(inputs, raw, on_failure)
-            return raw
-    return _solve_case(inputs, model, carrying, on_failure)
+    if inputs.shape is None:
+        raw = float_function(model, *kind_of(inputs, carrying))(vars(inputs))
+        return _solve_case(inputs, model, carrying, on_failure) if raw is None else raw
+    raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
+    say_of_cases(inputs, raw, on_failure)
+    return raw
 
 
 def _solve_in_time(inputs: Inputs, on_failure: Any, threads: Any, progress: Any) -> Any:
     """Step through one case or a batch."""
-    check_options(on_failure, threads, progress)
-    shape = broadcast(named_numbers(inputs))
-    if shape is not None:
-        found = solve_cases_in_time(inputs, cases_of(inputs, shape, threads)[0], reporter(progress))
+    if inputs.shape is not None:
+        found = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
         say_of_cases(inputs, found, on_failure)
         return found
     found = solve_case_in_time(inputs)

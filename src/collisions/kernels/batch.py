@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import chain
 from typing import Any, NamedTuple, TypeAlias
 
@@ -28,6 +28,8 @@ _USES: dict[Any, int] = {}
 _MANY, _MOST_KNOWN = 64, 1024
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
+# Of one thread alone: a short formula gains by longer blocks, as each has its own calls of Python.
+_CACHE = 2**20
 # Outputs that most callers read of a large batch; and the rest, with the status, which marks the cases to set to NaN.
 FIRST = (
     "status",
@@ -140,7 +142,9 @@ def least_models(
                 error[wrong] = np.nan
 
     kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
-    outputs = _in_blocks([Work(least_model, settings, inputs)], None, kinds, cases, refuse, progress)
+    works = [Work(least_model, settings, inputs)]
+    outputs = [aligned(cases.size, kind) for kind in kinds]
+    _in_blocks(works, _programs(works, kinds, cases), None, outputs, cases, refuse, progress)
     which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
     return which, linear, oblique
 
@@ -185,17 +189,34 @@ def _solved(
     works: Sequence[Work], which: Any, cases: Cases, names: Sequence[str], progress: Progress | None = None
 ) -> dict[str, Any]:
     """The outputs of these names, the status always included; locked."""
-    dtype = np.dtype(cases.dtype)
-    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
-    kinds = tuple(types.get(name, dtype) if name in names else None for name in Answer._fields)
-    outputs = _in_blocks(works, which, kinds, cases, blank, progress)
+    dtype, size = np.dtype(cases.dtype), cases.size
+    kinds = _kinds(tuple(names), dtype)
+    programs = _programs(works, kinds, cases)
+    program = programs[0] if which is None and size > AS_IT_IS else None
+    same = {} if program is None else program.outputs
+    outputs: list[Any] = [None if kind is None or at in same else aligned(size, kind) for at, kind in enumerate(kinds)]
+    _in_blocks(works, programs, which, outputs, cases, blank, progress)
     if dtype == np.float32:
         _refuse_beyond(outputs)
+    if same:
+        # The same number in every case takes no memory, unless some cases are refused.
+        refused = outputs[0] > Status.ENERGY_GAIN
+        some = refused.any()
+        for at, value in same.items():
+            number, none = (np.array(one, kinds[at]) for one in (value, math.nan if kinds[at] == dtype else False))
+            outputs[at] = np.where(refused, none, number) if some else np.broadcast_to(number, size)
     named = zip(Answer._fields, outputs, strict=True)
     found = {name: output.reshape(cases.shape) for name, output in named if output is not None}
     for output in found.values():
         output.setflags(write=False)
     return found
+
+
+@cache
+def _kinds(names: tuple[str, ...], dtype: Any) -> tuple[Any, ...]:
+    """The type of each output, None for one that is not among these names."""
+    types = {"status": np.dtype(np.uint8), "sticks": np.dtype(np.bool_)}
+    return tuple(types.get(name, dtype) if name in names else None for name in Answer._fields)
 
 
 def _refuse_beyond(outputs: Sequence[Any]) -> None:
@@ -228,23 +249,24 @@ def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
 
 def _in_blocks(
     works: Sequence[Work],
+    programs: Sequence[Program | None],
     which: Any,
-    kinds: tuple[Any, ...],
+    outputs: Sequence[Any],
     cases: Cases,
     refuse: Callable[[Sequence[Any], Sequence[Any]], None],
     progress: Progress | None,
-) -> list[Any]:
-    """Run the kernels over all cases into arrays of these types; ``refuse`` gets the faults and outputs of each block."""
+) -> None:
+    """Run the kernels over all cases into these arrays; ``refuse`` gets the faults and outputs of each block."""
     checks, shape, dtype, threads = cases
     size = cases.size
-    outputs = [None if kind is None else aligned(size, kind) for kind in kinds]
     # By the id of a value, the flat view its blocks are cut from: an array that is read more than once is cut once.
     values = {id(value): value for value in chain(*(work.inputs for work in works), *(check.values for check in checks))}
-    columns = {key: value if isinstance(value, float) else flat(value, shape) for key, value in values.items()}
+    plain = {key: value for key, value in values.items() if isinstance(value, float)}
+    columns = {key: flat(value, shape) for key, value in values.items() if key not in plain}
+    taken = [list(map(id, work.inputs)) for work in works]
     numbers = None if which is None else flat(which, shape)
-    programs = [_program(work, kinds, np.dtype(dtype), size) for work in works]
     # Scratch per thread: that of every model, with several models one set of outputs, and the inputs of one block.
-    gathered = 0 if which is None else sum(not isinstance(column, float) for column in columns.values()) + len(works)
+    gathered = 0 if which is None else len(columns) + len(works)
     scratch = sum(program.scratch for program in programs if program is not None) + gathered * np.dtype(dtype).itemsize
     length = min(block_length(size, threads, scratch), size or 1)
     per_block = length * len(works)
@@ -264,8 +286,8 @@ def _in_blocks(
         if not hasattr(mine, "runs"):
             mine.runs = [run_of(work, program) for work, program in zip(works, programs, strict=True)]
             mine.room = None if which is None else aligned(min(per_block, size), np.float64)
-        cut = {key: _part(column, block, dtype) for key, column in columns.items()}
-        inputs = [[cut[id(value)] for value in work.inputs] for work in works]
+        cut = plain | {key: column[block].astype(dtype, copy=False) for key, column in columns.items()}
+        inputs = [[cut[key] for key in keys] for keys in taken]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
             if numbers is None:
@@ -284,7 +306,6 @@ def _in_blocks(
     finally:
         for replay in replays:
             replay.close()
-    return outputs
 
 
 def _judged(work: Work, program: Program | None) -> frozenset[int]:
@@ -335,6 +356,12 @@ def _gathered(column: Any, some: Any) -> Any:
     return column[some] if isinstance(some, slice) else column.take(some, mode="clip")
 
 
+def _programs(works: Sequence[Work], kinds: tuple[Any, ...], cases: Cases) -> list[Program | None]:
+    """What the kernels do with inputs and outputs of these kinds."""
+    size = cases.size
+    return [_program(work, kinds, np.dtype(cases.dtype), size) for work in works]
+
+
 def _program(work: Work, kinds: tuple[Any, ...], dtype: Any, size: int) -> Program | None:
     """The kernel recorded for inputs of these kinds; None for a small batch, until there were many of them."""
     wanted = work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds
@@ -365,7 +392,7 @@ def block_length(size: int, threads: int, scratch: int) -> int:
     call on a short block. All blocks then have about the same length, so that no thread ends late.
     """
     if threads == 1 or size <= BLOCK:
-        return BLOCK
+        return BLOCK * max(1, min(2, _CACHE // (BLOCK * max(1, scratch))))
     longest = max(BLOCK, min(_LONGEST, _SCRATCH // (threads * max(1, scratch))))
     even = math.ceil(size / (threads * math.ceil(size / (threads * longest))))
     return max(BLOCK, math.ceil(even / 64) * 64)
@@ -393,14 +420,6 @@ def _report(counts: Any, size: int, progress: Progress | None) -> None:
         done += count
         if progress is not None:
             progress(done, size)
-
-
-def _part(column: Any, block: slice, dtype: Any) -> Any:
-    """The slice of a value for a block, in the precision of the batch; a plain number is left as it is."""
-    if isinstance(column, float):
-        return column
-    part = column if len(column) == block.stop and type(column) is np.ndarray and not block.start else column[block]
-    return part if part.dtype == dtype else part.astype(dtype)
 
 
 def flat(value: Any, shape: tuple[int, ...]) -> Any:

@@ -21,7 +21,7 @@ class Program(NamedTuple):
 
     The arrays are inputs, outputs, constants, results that are one number for all cases, and buffers. The late calls only serve
     to compute the status, and are skipped for a block in which all cases are fine; ``judged`` has the inputs that are read to
-    find out whether they are.
+    find out whether they are. ``outputs`` has those that are the same number in all cases, whatever the inputs.
     """
 
     calls: tuple[Call, ...]
@@ -31,6 +31,7 @@ class Program(NamedTuple):
     constants: tuple[Any, ...]
     numbers: tuple[Any, ...]
     buffers: tuple[Any, ...]
+    outputs: dict[int, Any]
 
     @property
     def scratch(self) -> int:
@@ -54,7 +55,7 @@ class _Room(NamedTuple):
     place: int
 
 
-def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Program:
+def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same: dict[int, Any]) -> Program:
     """Drop unused steps and assign buffers by last use."""
     steps = tape.steps
     (status,) = (index for index, which in written.items() if which == 0)
@@ -107,6 +108,7 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int) -> Pr
         tuple(np.asarray(steps[index].sample) for index in constants),
         tuple(steps[index].sample.dtype for index in numbers),
         tuple(buffers),
+        same,
     )
 
 

@@ -4,7 +4,7 @@ from math import inf
 from typing import Any
 
 from .contact_laws import LAWS, RULES, dissipates, energetic_contact, energy_losses
-from .elementwise import first_status, more_digits, select
+from .elementwise import all_zero, first_status, more_digits, select
 from .status import EPS, Answer, Status
 
 
@@ -63,7 +63,7 @@ def linear_central(
     if carrying:
         slip = nx * uy - ny * ux
         total = total + slip
-    else:
+    elif not all_zero(ny, vy_a, vy_b, spin_a, spin_b):
         spins = (spin_a != 0.0) | (spin_b != 0.0)
         # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))

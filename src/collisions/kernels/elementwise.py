@@ -51,6 +51,11 @@ def first_status(*findings: tuple[Any, Status]) -> Any:
     return status
 
 
+def all_zero(*values: Any) -> bool:
+    """Whether all of these are the plain number 0, so that what depends on them alone need not be worked out."""
+    return all(type(value) is float and value == 0.0 for value in values)
+
+
 def more_digits(known: tuple[Any, Any], closing: Any, slip: Any, speeds: Any, eps: float) -> tuple[Any, Any]:
     """The ``known`` closing speed and slip where they equal the computed ones to the rounding of ``speeds``, else those."""
     exact_closing, exact_slip = known

@@ -12,7 +12,6 @@ from .elementwise import larger
 from .status import Answer, Status
 from .tracing import TextTape, statements
 
-_BODIES = "a.", "b."
 WRITTEN: dict[Any, str] = {
     np.add: "({} + {})",
     np.subtract: "({} - {})",
@@ -41,9 +40,9 @@ def compile_for_floats(
 ) -> Callable[[Any], Any]:
     """A kernel with these settings compiled to one plain function, which reads its numbers at the paths in ``takes``.
 
-    A path is such as "restitution", "a.mass", or "[3]" of a sequence. Of a kernel that gives an ``Answer`` it answers only
-    cases whose status is plainly OK. For any other case, and where Python raises, as in a division by 0, it returns None, and
-    the caller runs the kernel itself.
+    A path is such as "restitution", "a.mass" or "normal[0]" of a dict, or "[3]" of a sequence. Of a kernel that gives an
+    ``Answer`` it answers only cases whose status is plainly OK. For any other case, and where Python raises, as in a division
+    by 0, it returns None, and the caller runs the kernel itself.
     """
     tape = TextTape()
     with np.errstate(all="ignore"):
@@ -54,11 +53,12 @@ def compile_for_floats(
     if fine is None:
         raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
     wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
-    paths = [path if path.startswith(_BODIES) else f"inputs{path}" if path[0] == "[" else f"inputs.{path}" for path in takes]
+    paths = [f"inputs{path}" if path[0] == "[" else path for path in takes]
+    heads = dict.fromkeys(path.partition(".")[0].partition("[")[0] for path in takes)
     lines, (condition, *found) = statements(tape, wanted, paths, WRITTEN, _constant, kernel.__name__)
     returned = f"new(made, ({', '.join((['OK'] if isinstance(given, Answer) else []) + found)}))"
-    bodies = [f"{body} = inputs.{body}" for body in "ab" if any(path.startswith(f"{body}.") for path in takes)]
-    body = "\n        ".join([*bodies, *lines, f"if {condition}:"])
+    read = [f"{head} = inputs[{head!r}]" for head in heads if head]
+    body = "\n        ".join([*read, *lines, f"if {condition}:"])
     source = (
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
         f"    except (ArithmeticError, TypeError, ValueError):\n        pass\n    return None\n"

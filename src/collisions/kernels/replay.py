@@ -40,16 +40,19 @@ def record(
         for at, kind in enumerate(inputs)
     ]
     written: dict[int, int] = {}
+    constants: dict[int, Any] = {}
     with np.errstate(all="ignore"):
         for which, (answer, wanted) in enumerate(zip(kernel(*operands, *settings), outputs, strict=True)):
-            if wanted is not None:
+            if wanted is not None and which and not isinstance(answer, Traced):
+                constants[which] = answer
+            elif wanted is not None:
                 value = tape.operand(answer, None if isinstance(answer, Traced) else wanted)
                 step, index = tape.steps[value.index], value.index
                 if step.function is None or index in written or step.sample.dtype != wanted or not step.sample.ndim:
                     index = len(tape.steps)
                     tape.steps.append(Step(cast, (value.index,), np.zeros(1, wanted)))
                 written[index] = which
-    return placed(tape, written, len(inputs), len(outputs))
+    return placed(tape, written, len(inputs), len(outputs), constants)
 
 
 class Replay:
@@ -79,13 +82,16 @@ class Replay:
             _SPARE.append(self.memory)
 
     def __call__(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
-        """Run one block: the inputs, with arrays cut to the block, and slices of the outputs to write to.
+        """Run one block: the inputs, with arrays cut to the block, and slices of the wanted outputs to write to.
 
         Gives whether all its cases are fine.
         """
         length = len(outputs[0])
         buffers = self.buffers if length == self.length else [buffer[:length] for buffer in self.buffers]
         arrays = [*map(np.asarray, inputs), *outputs, *self.program.constants, *self.numbers, *buffers]
+        for which, value in self.program.outputs.items():
+            if outputs[which] is not None:
+                outputs[which].fill(value)
         for function, chosen in self.program.calls:
             function(*chosen(arrays))
         if self.program.fine is not None and arrays[self.program.fine].all():

@@ -78,7 +78,11 @@ class Tape:
         return self.add(None, (), number, ("number", type(number), array.dtype, array.tobytes()))
 
     def call(self, function: Callable[..., Any], *values: Any) -> Traced:
-        """The step for an operator or a ufunc."""
+        """The step for an operator or a ufunc; none where a truth that is known leaves the other as it is."""
+        if function in (np.bitwise_and, np.bitwise_or):
+            known = function is np.bitwise_and
+            if known in (one if type(one) is bool else None for one in values):
+                return self.operand(values[0] if values[1] is known else values[1])
         kinds = {value.sample.dtype for value in values if isinstance(value, Traced) and value.sample.ndim}
         beside = kinds.pop() if len(kinds) == 1 else None
         if beside is None or beside.kind != "f":

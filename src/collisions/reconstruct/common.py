@@ -224,7 +224,7 @@ def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconst
     """The forward impact from the reconstructed state; where it is refused, the reconstructed values are NaN."""
     found = np.equal(status, Status.OK)
     inputs = replace(inputs_of(found), contact_velocity=origin.contact_velocity)
-    impact = solved(inputs, plain=not isinstance(status, np.ndarray), on_failure=on_failure)
+    impact = solved(inputs, on_failure=on_failure)
     if np.any(found & impact.refused):
         velocity = origin_where_answered(origin, impact.status).contact_velocity
         inputs = replace(inputs_of(found & np.logical_not(impact.refused)), contact_velocity=velocity)

@@ -139,7 +139,7 @@ def planar(
                 argument="regime",
             )
         )
-    inputs, _ = read_inputs(
+    inputs = read_inputs(
         "eccentric",
         a_after,
         b_after,

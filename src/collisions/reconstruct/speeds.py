@@ -181,7 +181,7 @@ def speeds(
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), measured)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
     }
-    inputs, _ = read_inputs(
+    inputs = read_inputs(
         "eccentric",
         a,
         b,

@@ -82,22 +82,33 @@ def quasi_random(dimensions: int, seed: int, length: int) -> Design:
     that are not periodic: F. J. Hickernell, "Obtaining O(N^-2+eps) convergence for lattice quadrature rules" (2002).
     """
     generator = np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(2,)))
-    shift = (generator.random_raw(dimensions * REPLICATES) >> np.uint64(64 - _BITS)).reshape(dimensions, 1, REPLICATES)
-    vector = np.array(_VECTOR[:dimensions], dtype=np.uint64).reshape(dimensions, 1, 1)
+    shift = (generator.random_raw(dimensions * REPLICATES) >> np.uint64(64 - _BITS)).reshape(dimensions, REPLICATES)
+    vector, whole = np.array(_VECTOR[:dimensions], dtype=np.uint64), np.uint64(2**_BITS - 1)
 
     def points(start: int, stop: int) -> Any:
-        place = _reversed_bits(np.arange(start, stop, dtype=np.uint64)).reshape(1, -1, 1)
-        # Whole numbers wrap as the lattice does, so nothing is rounded.
-        at = (place * vector + shift) & np.uint64(2**_BITS - 1)
-        folded = np.minimum(at, at ^ np.uint64(2**_BITS - 1)) << np.uint64(1)
-        return _between(folded | (at >> np.uint64(_BITS - 1)))
+        place = _reversed_bits(np.arange(start, stop, dtype=np.uint64)).reshape(-1, 1)
+        found = np.empty((dimensions, stop - start, REPLICATES))
+        # Row by row in memory that stays in use: new pages take longer than the numbers.
+        for row, factor, by in zip(found, vector, shift, strict=True):
+            # Whole numbers wrap as the lattice does, so nothing is rounded.
+            at = place * factor + by
+            at &= whole
+            folded = np.minimum(at, at ^ whole)
+            folded <<= np.uint64(1)
+            at >>= np.uint64(_BITS - 1)
+            folded |= at
+            row[...] = _between(folded)
+        return found
 
     return points
 
 
 def _between(whole: Any) -> Any:
     """Whole numbers below 2**52 as numbers strictly between 0 and 1."""
-    return (whole.astype(np.float64) + 0.5) * 2.0**-_BITS
+    found = whole.astype(np.float64)
+    found += 0.5
+    found *= 2.0**-_BITS
+    return found
 
 
 def _reversed_bits(index: Any) -> Any:

@@ -251,14 +251,10 @@ def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], 
     """
     places = -(-samples // REPLICATES)
     points = design(2 * joint.dimensions)(0, places).reshape(2 * joint.dimensions, -1)
-    one, other = points[: joint.dimensions], points[joint.dimensions :]
-    draws = [one, other]
-    for rows in joint.rows.values():
-        mixed = one.copy()
-        mixed[rows] = other[rows]
-        draws.append(mixed)
     with np.errstate(all="ignore"):
-        answers = [model(joint.values(drawn), drawn.shape[1]) for drawn in draws]
+        one, other = joint.values(points[: joint.dimensions]), joint.values(points[joint.dimensions :])
+        draws = [one, other, *(one | {name: other[name] for name in group} for group in joint.rows)]
+        answers = [model(drawn, points.shape[1]) for drawn in draws]
     found: dict[str, Shares] = {}
     for name, unit in model.units.items():
         values = np.array([answer[name] for answer in answers])
@@ -273,8 +269,8 @@ def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
     """First-order and total share, and their standard errors, over the cases where all three have an answer."""
     answered = ~(np.isnan(one) | np.isnan(other) | np.isnan(mixed))
 
-    def figures(chosen: Any) -> tuple[float, float]:
-        a, b, c = one[chosen], other[chosen], mixed[chosen]
+    def figures(cases: slice) -> tuple[float, float]:
+        a, b, c = (values[cases][answered[cases]] for values in (one, other, mixed))
         if len(a) < 2:
             return math.nan, math.nan
         both = np.concatenate((a, b))
@@ -289,9 +285,8 @@ def _shares(one: Any, other: Any, mixed: Any) -> tuple[float, ...]:
         total = 0.5 * float(np.mean((a - c) ** 2))
         return (first / variance, total / variance) if variance > 0.0 else (math.nan, math.nan)
 
-    sequence = np.arange(one.size) % REPLICATES
     with np.errstate(all="ignore"):
-        first, total = figures(answered)
-        apart = np.array([figures(answered & (sequence == which)) for which in range(REPLICATES)])
+        first, total = figures(slice(None))
+        apart = np.array([figures(slice(which, None, REPLICATES)) for which in range(REPLICATES)])
         errors = np.std(apart, axis=0, ddof=1) / math.sqrt(REPLICATES)
     return first, total, float(errors[0]), float(errors[1])
