@@ -10,7 +10,9 @@ import collisions as col
 from collisions import progress
 from collisions.kernels.batch import BLOCK
 
-V = np.full(3 * BLOCK, 20.0)
+# Cases in a block of a formula as short as that of a linear impact.
+STEP = 2 * BLOCK
+V = np.full(3 * STEP, 20.0)
 
 
 def solve(shown):
@@ -45,7 +47,7 @@ def test_a_line_where_tqdm_is_not_installed(capsys, monkeypatch):
     solve(True)
     out, err = capsys.readouterr()
     assert out == ""
-    assert err == "".join(f"\r{(i + 1) * BLOCK} of {V.size} cases" for i in range(3)) + "\n"
+    assert err == "".join(f"\r{(i + 1) * STEP} of {V.size} cases" for i in range(3)) + "\n"
 
 
 @pytest.mark.usefixtures("impatient")
@@ -67,7 +69,7 @@ def test_a_bar_where_tqdm_is_installed(monkeypatch):
 
     monkeypatch.setitem(sys.modules, "tqdm.auto", types.SimpleNamespace(tqdm=Bar))
     solve(True)
-    assert seen == [V.size, BLOCK, 2 * BLOCK, 3 * BLOCK, "closed"]
+    assert seen == [V.size, STEP, 2 * STEP, 3 * STEP, "closed"]
 
 
 @pytest.mark.parametrize("threads", [1, 2])
