@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
-from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
+from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, POSITIVE_FINITE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import units_required
 from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
 from .warning import warn
@@ -315,10 +315,12 @@ def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
 
 def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputError | None:
     """InputError for a scalar outside its domain, else None."""
-    if math.isnan(value) and (domain is POSITIVE or domain is FINITE):
+    if math.isnan(value) and domain in (POSITIVE, FINITE, POSITIVE_FINITE):
         return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
     if domain is POSITIVE and not value > 0.0:
         return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
+    if domain is POSITIVE_FINITE and not value > 0.0:
+        return InputError(f"{argument} must be > 0, got {shown(given)}", code="not_positive", argument=argument)
     if (domain is UNIT_INTERVAL or domain is RESTITUTION) and not 0.0 <= value <= 1.0:
         code = domain.faults[0][1].label
         text = f"{argument} must be from 0 to 1, got {shown(given)}"
@@ -336,7 +338,7 @@ def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputEr
             code="bad_friction",
             argument=argument,
         )
-    if domain is FINITE and math.isinf(value):
+    if domain in (FINITE, POSITIVE_FINITE) and math.isinf(value):
         return InputError(
             f"{argument} must be finite, got {shown(given)}; only mass, yaw_inertia and friction may be inf",
             code="not_finite",

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
-from ..reading import ArgumentReader
+from ..kernels.elementwise import POSITIVE_FINITE
+from ..reading import ArgumentReader, at_least_zero
 from ..units import Input, Value, shown
 from .published import Fit, Outside, Published, check_outside, settle
 
@@ -269,16 +270,8 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     7.2
     """
     reader = ArgumentReader()
-    speed: Any = reader.number(closing_speed, "m/s", "closing_speed")
+    speed: Any = reader.number(closing_speed, "m/s", "closing_speed", POSITIVE_FINITE)
     check_outside(reader, outside)
-    if isinstance(speed, float) and speed <= 0.0:
-        reader.refuse(
-            InputError(
-                f"closing_speed must be > 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
-                code="not_positive",
-                argument="closing_speed",
-            )
-        )
     reader.close()
     if isinstance(speed, float):
         e = _fitted(math.log10(speed))
@@ -327,29 +320,17 @@ def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     """
     reader = ArgumentReader()
     speed: Any = reader.number(closing_speed, "m/s", "closing_speed")
-    if isinstance(speed, float) and speed < 0.0:
-        reader.refuse(
-            InputError(
-                f"closing_speed must be >= 0, got {shown(closing_speed)}; it is the speed of approach along the normal",
-                code="negative_speed",
-                argument="closing_speed",
-            )
-        )
+    speed = at_least_zero(reader, speed, closing_speed, "closing_speed", "negative_speed", "it is the speed of approach")
     reader.close()
     slowest, fastest, _ = RESTITUTION_FIT.ranges["closing_speed"]
-    if isinstance(speed, float):
-        fitted: Any = 1.0 if speed < slowest else -1.0 if speed > fastest else _fitted(math.log10(speed)) + _SCATTER
-        ends: tuple[Any, Any] = 0.0, max(_HIGHEST, fitted)
-        return ends
     with np.errstate(all="ignore"):
         fitted = np.where(speed < slowest, 1.0, np.where(speed > fastest, -1.0, _fitted(np.log10(speed)) + _SCATTER))
-        highest: Any = np.maximum(fitted, _HIGHEST)
-        usable = (speed >= 0.0) & (speed < math.inf)
-        highest = np.where(usable, highest, math.nan)
-        lowest: Any = np.where(usable, 0.0, math.nan)
-    for array in (lowest, highest):
-        array.setflags(write=False)
-    return lowest, highest
+        usable = np.isfinite(speed) & np.greater_equal(speed, 0.0)
+        ends: list[Any] = [np.where(usable, end, math.nan) for end in (0.0, np.maximum(fitted, _HIGHEST))]
+    for end in ends:
+        end.setflags(write=False)
+    found: tuple[Any, Any] = (float(ends[0]), float(ends[1])) if isinstance(speed, float) else (ends[0], ends[1])
+    return found
 
 
 def _fitted(x: Any) -> Any:

@@ -12,7 +12,7 @@ import numpy as np
 from ..drag import one_value
 from ..errors import InputError, NoSolutionError, ShapeError
 from ..kernels.batch import precision
-from ..kernels.elementwise import UNIT_INTERVAL
+from ..kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
 from ..quantities import Shown, hypot, in_units_of
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
@@ -177,7 +177,7 @@ def simulate(
     locks = [one_value(reader, value, "", name if listed else "lock", UNIT_INTERVAL) for name, value in braked.items()]
     numbers = dict(zip(braked, locks, strict=True)) | {"steer": one_value(reader, steer, "rad", "steer")}
     sizes = {"wheelbase": (wheelbase, "m"), "track": (track, "m"), "cornering": (cornering, ""), "limit": (limit, "s")}
-    positive = {name: _positive(reader, value, unit, name) for name, (value, unit) in sizes.items()}
+    positive = {name: one_value(reader, value, unit, name, POSITIVE_FINITE) for name, (value, unit) in sizes.items()}
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
         text = f"moments must be a whole number from 2 to {_MOST_MOMENTS}, got {shown(moments)}"
         reader.refuse(InputError(text, code="bad_option", argument="moments"))
@@ -285,15 +285,6 @@ def _refuse_one(time: float, speed: float, limit: float) -> None:
             code="never_stops" if time >= limit else "no_convergence",
             speed=speed,
         )
-
-
-def _positive(reader: ArgumentReader, value: Any, unit: str, name: str) -> Any:
-    """A finite number above 0; of an array the elements are checked later."""
-    count = len(reader.problems)
-    read = one_value(reader, value, unit, name)
-    if len(reader.problems) == count and isinstance(read, float) and not read > 0.0:
-        return reader.refuse(InputError(f"{name} must be > 0, got {shown(value)}", code="not_positive", argument=name))
-    return read
 
 
 def _read_surfaces(reader: ArgumentReader, surfaces: Any) -> list[tuple[Any, Any]]:
