@@ -43,8 +43,8 @@ def posterior(
     """How probable each value of the unknowns of a scene is, given what was known before and everything observed.
 
     Bayes' theorem by sampling: whatever the priors, however the model turns, and with as many answers as there are. Tempered
-    sequential Monte Carlo takes the samples from the priors to the posterior, in eight islands that know nothing of each other
-    and whose differences give the errors of sampling. All figures are given the model, the priors and the stated errors of the
+    sequential Monte Carlo takes the samples from the priors to the posterior, in eight islands, each resampled by itself, whose
+    differences give the errors of sampling. All figures are given the model, the priors and the stated errors of the
     observations, which are taken as normal and independent. In this field: G. A. Davis, "Bayesian reconstruction of traffic
     accidents", Law, Probability and Risk 2 (2003) 69-89.
 
