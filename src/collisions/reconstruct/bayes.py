@@ -106,7 +106,7 @@ def posterior(
     (21.3, 21.3)
     >>> probability, error = found.probability(lambda at: at["speed"] > 20.0)
     >>> f"{probability:.3f} +- {error:.3f}"
-    '0.976 +- 0.001'
+    '0.977 +- 0.002'
     """
     check_options("monte_carlo", samples, None, seed, threads, progress)
     if samples < _LEAST_SAMPLES:
