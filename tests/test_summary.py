@@ -342,3 +342,14 @@ def test_a_plain_table_is_at_most_88_wide():
     found = col.diagnose(crash(), limits=dict.fromkeys(("normal", "tyre_impulse", "normal_yaw"), 1e-3))
     assert len(found) > 2
     assert max(map(len, str(found).splitlines())) <= 88
+
+
+def test_planar_momentum_says_what_a_degree_of_each_course_does():
+    known = {"course_a_after": "30 deg", "course_b_after": "40 deg", "speed_a_after": "20 mph", "speed_b_after": "25 mph"}
+    solution = reconstruct.momentum("3400 lb", "2900 lb", course_a=0.0, course_b="90 deg", **known)
+    off = reconstruct.momentum("3400 lb", "2900 lb", course_a=0.0, course_b="90 deg", **known | {"course_b_after": "41 deg"})
+    shown = lines(solution.summary())["Change per degree of", "course of B after"]
+    changes = [(getattr(off, name) - getattr(solution, name)) / MPH for name in ("speed_a", "speed_b")]
+    assert [float(cell.removesuffix(" mph")) for cell in shown] == pytest.approx(
+        changes, abs=0.05 + 0.01
+    )  # rounded, and a slope

@@ -167,9 +167,8 @@ def _compare_yaw(case: ImpactCase, answers: list[tuple[str, Impact]]) -> Iterato
         how, label, who, old, new = worst
         was, now = old.delta_yaw_rate, new.delta_yaw_rate
         other_way = ", the other way" if min(abs(was), abs(now)) > _YAW_RATE_SEEN and was * now < 0.0 else ""
-        sentence = (
-            f"{how}, the impact turns {who} by {case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
-        )
+        turned = f"{case.text(now, 'yaw rate')} instead of {case.number(was, 'yaw rate')}{other_way}"
+        sentence = f"{how}, the impact turns {who} by {turned}"
         yield Measured(_yaw_change(old, new), sentence, label)
 
 

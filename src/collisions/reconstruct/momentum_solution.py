@@ -11,6 +11,7 @@ from ..errors import MissingInputError
 from ..kernels.status import Status
 from ..quantities import Shown, derived, same
 from ..quantity_names import MomentumSolutionQuantities
+from ..summary import Cells, Part, Summary
 from ..units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
@@ -91,6 +92,14 @@ class MomentumSolution(Shown):
             f"{name} needs a {kind}, which was not given; write {argument}='30 deg'", code=f"missing_{kind}", argument=argument
         )
 
+    def _summary(self, numbers: Cells) -> Summary:
+        whole = Shown._summary(self, numbers)
+        degree, speeds = math.pi / 180.0, self.sensitivity
+        courses = [name for name in next(iter(speeds.values()), ()) if name.startswith("course")]
+        rows = [(_of_vehicle(name), *(numbers.text(degree * row[name], "m/s") for row in speeds.values())) for name in courses]
+        changes = Part(rows, "Change per degree of", tuple(map(_of_vehicle, speeds)))
+        return Summary(whole.title, [*whole.parts[:-1], changes, whole.parts[-1]])
+
     def _texts(self) -> Iterable[Any]:
         return (self.given or {}).values()
 
@@ -98,3 +107,9 @@ class MomentumSolution(Shown):
     def ok(self) -> Any:
         """Whether the case has a solution without a gain of energy."""
         return self.status == Status.OK
+
+
+def _of_vehicle(name: str) -> str:
+    """A name in words: "course_a_after" is "course of A after"."""
+    quantity, vehicle, *rest = name.split("_")
+    return " ".join((quantity, "of", vehicle.upper(), *rest))
