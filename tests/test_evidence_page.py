@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 from itertools import pairwise
@@ -33,13 +34,17 @@ def scripts():
 
 
 def test_every_route_holds_the_truth_as_often_as_it_states(committed, scripts):
-    """Of 300 crashes or more, 93 to 97 % of the intervals that nothing was warned of."""
+    """Of 300 answered crashes or more, 93 to 97 % of the intervals that nothing was warned of."""
     assert set(committed["routes"]) == set(scripts[0].ROUTES)
     for name, row in committed["routes"].items():
-        assert row["crashes"] >= 300, name
-        assert row["refused"] <= 0.02 * row["crashes"], name
+        answered = row["crashes"] - row["refused"]
+        assert answered >= 300, name
+        assert row["plain"]["intervals"] + row["warned"]["intervals"] == 2 * answered, name
         assert 0.93 <= row["plain"]["held"] / row["plain"]["intervals"] <= 0.97, name
-        assert row["plain"]["intervals"] >= row["crashes"], name
+        # A recorder with its own speed knows more than there are unknowns: near the edge of sliding its readings contradict it.
+        assert row["refused"] == 0 or name == "components and speed of one recorder", name
+    momentum, everything = (committed["routes"][name]["half_width"][1] for name in list(scripts[0].ROUTES)[2:])
+    assert everything < 0.6 * momentum
 
 
 def test_a_denser_survey_is_never_worse(committed):
@@ -74,8 +79,46 @@ def test_what_path_leaves_out_is_what_the_page_says(scripts):
     assert found["BEND"] == pytest.approx(evidence.BEND, rel=0.5)
     assert found["YAWING_LEFT"] < 2.0 * evidence.YAWING_LEFT
     page = (ROOT / "docs" / "evidence.md").read_text("utf-8")
-    for number in (evidence.YAWING, evidence.YAWING_LEFT, evidence.BEND):
+    assert found["SPIN"] == pytest.approx(evidence.SPIN, rel=0.5)
+    for number in (evidence.YAWING, evidence.YAWING_LEFT, evidence.BEND, evidence.SPIN):
         assert f"{number:g}" in page
+        assert f"{number:g}" in (ROOT / "docs" / "intersection_case.md").read_text("utf-8")
+    for speed, degrees in ((60 / 3.6, 3.0), (25 / 3.6, 18.0)):
+        assert math.degrees(evidence.SPIN / speed**2) == pytest.approx(degrees, abs=0.5)
     for speed, degrees in ((60 / 3.6, 0.5), (25 / 3.6, 3.0)):
         off = evidence.BEND * evidence.WINDOW**2 * evidence.GROUND.given_mean * 9.80665 / speed**2
         assert math.degrees(off) == pytest.approx(degrees, abs=0.35)
+
+
+def cells_of(page):
+    """The code of a page, cell by cell."""
+    text = (ROOT / "docs" / f"{page}.md").read_text("utf-8")
+    return re.findall(r"```\{code-cell\} ipython3\n(?::tags: \[[^\n]*\n)?(.*?)```", text, re.DOTALL)
+
+
+def test_where_the_information_is_lost_each_way_back_refuses_or_warns(capsys):
+    """The cases of the page, in their order."""
+    names = {}
+    for cell in cells_of("evidence")[1:-1]:
+        exec(cell, names)
+    said = re.findall(r"^(?:refused|warned) \((\w+)\)", capsys.readouterr().out, re.MULTILINE)
+    along = ["nearly_collinear", "parallel_headings", "nearly_collinear", "undetermined"]
+    cut, fold, spin = ["pulse_cut", "pulse_cut"], ["fold", "failed_cases"], ["wide_segment", "fast_yaw"]
+    assert said == [*along, *cut, *fold, *spin, "contradictory", "undetermined"]
+
+
+def test_the_worked_case_says_what_came_out():
+    """Its cells, run: every range of the table holds the truth, and the numbers that its text names are still so."""
+    cells = cells_of("intersection_case")
+    pytest.importorskip("matplotlib").use("agg")
+    names = {"display": lambda *shown: None, "Markdown": str}
+    for cell in cells:
+        exec(cell.replace("from IPython.display import Markdown, display", ""), names)
+    assert len(names["held"]) == 18
+    assert all(names["held"])
+    assert names["truth"].regime == "sticking"
+    a = names["runs"]["a"].course - names["truth"].a.after.course
+    assert abs(a) > 2.0 * names["course_error"]["a"]
+    assert 100 < 1 / sum(names["weights"] ** 2) < 400
+    residuals = {name: abs(one.over_sigma) for name, one in names["found"].residuals.items()}
+    assert max(residuals, key=residuals.__getitem__) == "course of A"
