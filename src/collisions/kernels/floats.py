@@ -13,26 +13,12 @@ from .status import Answer, Status
 from .tracing import TextTape, statements
 
 WRITTEN: dict[Any, str] = {
-    np.add: "({} + {})",
-    np.subtract: "({} - {})",
-    np.multiply: "({} * {})",
-    np.true_divide: "({} / {})",
-    np.negative: "(-{})",
-    np.absolute: "abs({})",
-    np.fmax: "larger({}, {})",
-    np.sqrt: "({} ** 0.5)",
-    np.greater: "({} > {})",
-    np.greater_equal: "({} >= {})",
-    np.less: "({} < {})",
-    np.less_equal: "({} <= {})",
-    np.equal: "({} == {})",
-    np.not_equal: "({} != {})",
-    np.logical_not: "(not {})",
-    np.bitwise_and: "({} and {})",
-    np.bitwise_or: "({} or {})",
-    np.bitwise_xor: "({} != {})",
-    np.where: "({1} if {0} else {2})",
-}
+    np.add: "({} + {})", np.subtract: "({} - {})", np.multiply: "({} * {})", np.true_divide: "({} / {})",
+    np.negative: "(-{})", np.absolute: "abs({})", np.fmax: "larger({}, {})", np.sqrt: "({} ** 0.5)",
+    np.greater: "({} > {})", np.greater_equal: "({} >= {})", np.less: "({} < {})", np.less_equal: "({} <= {})",
+    np.equal: "({} == {})", np.not_equal: "({} != {})", np.logical_not: "(not {})", np.bitwise_and: "({} and {})",
+    np.bitwise_or: "({} or {})", np.bitwise_xor: "({} != {})", np.where: "({1} if {0} else {2})",
+}  # fmt: skip
 
 
 def compile_for_floats(
@@ -77,9 +63,8 @@ def compile_loop(
     """
     tape, kinds = TextTape(), (*fixed, *moving)
     fields = [field for kind in kinds for field in kind._fields]
-    numbers = iter(
-        [tape.input(at, np.bool_ if field in ("sticks", "active") else np.float64) for at, field in enumerate(fields)]
-    )
+    truths = ("sticks", "active")
+    numbers = iter([tape.input(at, np.bool_ if field in truths else np.float64) for at, field in enumerate(fields)])
     with np.errstate(all="ignore"):
         given = [kind(*(next(numbers) for _ in kind._fields)) for kind in kinds]
         wanted = [tape.operand(value).index for part in step(*given, *settings) for value in part]
