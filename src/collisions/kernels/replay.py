@@ -12,7 +12,7 @@ import numpy as np
 from .buffers import PAGE, Program, aligned, placed
 from .tracing import CODE, Step, Tape, Traced, cast
 
-# Memory of runs that have ended, for the next ones.
+# Memory of runs that have ended, for the next ones: new pages would cost as much as some of the calls.
 _SPARE: list[Any] = []
 _MOST_SPARE, _LARGEST_SPARE = 4, 4 * 2**20
 
@@ -56,10 +56,7 @@ def record(
 
 
 class Replay:
-    """A program with its own buffers for blocks of one length: one per thread.
-
-    Its memory, of which new pages would cost as much as some of the calls, comes from ``_SPARE`` and goes back by ``close``.
-    """
+    """A program with its own buffers for blocks of one length: one per thread. ``close`` gives their memory back."""
 
     def __init__(self, program: Program, length: int) -> None:
         self.program = program
