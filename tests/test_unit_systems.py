@@ -9,7 +9,7 @@ from collisions.derivation import explain
 from collisions.derivation.expressions import System
 from collisions.diagnostics import diagnose
 from collisions.diagnostics.case import MomentumCase
-from collisions.formatting import KIND_OF, SI_UNITS, SYSTEMS, scale_of, unit_of, with_decimals
+from collisions.formatting import KIND_OF, SI_UNITS, SYSTEMS, rounded, scale_of, unit_of
 from collisions.plot.canvas import Units
 from collisions.reporting import report
 
@@ -73,4 +73,4 @@ def test_units_are_checked_in_one_way(units):
 )
 def test_numbers_beyond_what_a_float_holds_are_short(value, decimals, text):
     """A float has at most 17 digits, so an impulse of 1e150 N s is not printed with 150."""
-    assert with_decimals(value, decimals) == text
+    assert rounded(value, decimals) == text

@@ -31,12 +31,15 @@ def places(value: float, figures: int) -> int:
 
 def with_decimals(value: float, decimals: int, thousands: str = "") -> str:
     """A number with so many decimals, or rounded to a power of ten, and never -0."""
-    if abs(value) >= 1e15:
-        # A float does not hold the last digits before the point.
-        return f"{value:.6g}"
-    rounded = value if decimals >= 0 else round(value, decimals)
+    # Above 1e300 a digit before the point can round beyond the range of floats.
+    rounded = value if decimals >= 0 or abs(value) > 1e300 else round(value, decimals)
     text = f"{rounded:,.{max(decimals, 0)}f}".replace(",", thousands)
     return text if text.strip("-0.") else text.lstrip("-")
+
+
+def rounded(value: float, decimals: int) -> str:
+    """A number of a result with so many decimals; from 1e15, where a float does not hold them, with six figures."""
+    return f"{value:.6g}" if abs(value) >= 1e15 else with_decimals(value, decimals)
 
 
 def typeset(text: str) -> str:
@@ -101,9 +104,9 @@ class Numbers:
         if deviation is not None and math.isfinite(deviation) and deviation > _NO_SPREAD * abs(value):
             spread = self.converted(deviation, kind)
             decimals = places(spread, 2)
-            return f"{with_decimals(number, decimals)} ± {with_decimals(spread, decimals)}{unit}"
+            return f"{rounded(number, decimals)} ± {rounded(spread, decimals)}{unit}"
         known = decimals_of(kind, self.name)
-        return with_decimals(number, places(number, _FIGURES) if known is None else known) + unit
+        return rounded(number, places(number, _FIGURES) if known is None else known) + unit
 
 
 # The unit systems of explanations, reports, findings and figures.

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact_effects import LeftOut
 from ..directions import from_degrees
-from ..formatting import decimals_of, in_words, places, scale_of, unit_of, with_decimals
+from ..formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
 from ..formatting import percent as in_percent
 from ..impact import Impact, solve_changed
 from ..inputs import OUTSIDE
@@ -65,7 +65,7 @@ class _Case:
         scaled = value * scale
         if not math.isfinite(scaled):
             return in_words(scaled)
-        return with_decimals(scaled, places(scaled, _ENERGY_FIGURES) if decimals is None else decimals)
+        return rounded(scaled, places(scaled, _ENERGY_FIGURES) if decimals is None else decimals)
 
     def text(self, value: float, kind: str) -> str:
         """The number with its unit."""
