@@ -87,10 +87,3 @@ def test_functions_and_constants():
 def test_each_printer_is_short(name):
     """Under a hundred lines: what is common is on the tape."""
     assert sum(map(bool, (KERNELS / f"{name}.py").read_text(encoding="utf-8").splitlines())) < 100
-
-
-def test_each_printer_is_short():
-    """What a printer adds to the one tape is less than 100 lines."""
-    kernels = Path(collisions.__file__).parent / "kernels"
-    for name in ("replay", "floats", "javascript"):
-        assert len((kernels / f"{name}.py").read_text(encoding="utf-8").splitlines()) < 100, name
