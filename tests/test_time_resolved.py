@@ -1003,3 +1003,12 @@ def test_units_may_be_required():
         for changes in ({"duration": 0.1}, {"duration": "0.1 s", "wheelbase": 2.7}, {"crush_a": (6e4, "7e5 N/m**2", "1.5 m")}):
             with pytest.raises(col.UnitsError, match="has no unit"):
                 col.time_resolved(a, b, 0.1, **contact, **changes)
+
+
+def test_a_wall_at_rest_gains_nothing():
+    """Also beside a body of infinite yaw inertia that turns, whose own energy is not known: it has what the wall has not."""
+    b = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, yaw_rate=0.5, vx=-12.0, x=2.0, y=0.3)
+    wall = col.Vehicle.barrier(x=-1.0, y=0.0)
+    impact = col.time_resolved(wall, b, 0.3, normal=0.0, point=(0.0, 0.0), friction=0.4, duration=0.1)
+    assert impact.a.kinetic_energy_change == 0.0
+    assert impact.b.kinetic_energy_change == -impact.energy_loss

@@ -289,8 +289,10 @@ class Side(Frozen, Summarized):
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         moving = before.mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy))
         turning = inertia * dw * (spin + 0.5 * dw)
+        # An infinite mass at rest, and an infinite inertia that does not turn, gain nothing.
+        stands = numeric(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
         rests = numeric(inertia).isinf(inertia) & (spin == 0.0)
-        return moving + select(rests, 0.0, turning) + getattr(answer, f"tyre_loss_{label}")
+        return select(stands, 0.0, moving) + select(rests, 0.0, turning) + getattr(answer, f"tyre_loss_{label}")
 
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._answer.impulse_x, self._answer.impulse_y

@@ -113,15 +113,15 @@ class Posterior(Summarized):
     interrupted: bool
 
     def __getitem__(self, name: str) -> PosteriorOutput:
-        try:
-            return (self.predicted | self.unknowns)[name]
-        except (KeyError, TypeError):
+        outputs = self.predicted | self.unknowns
+        if not isinstance(name, str) or name not in outputs:
             raise InputError(
                 f"{shown(name)} is none of the unknowns, which are {', '.join(self.unknowns)}, nor of the outputs of the "
                 f"model, which are {', '.join(self.predicted)}",
                 code="unknown_name",
                 argument="name",
-            ) from None
+            )
+        return outputs[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.unknowns)

@@ -412,14 +412,13 @@ class Propagation(Summarized):
             output.texts = tuple(self._texts())
 
     def __getitem__(self, name: str) -> Output:
-        try:
-            return self.outputs[name]
-        except (KeyError, TypeError):
+        if not isinstance(name, str) or name not in self.outputs:
             raise InputError(
                 f"there is no output {shown(name)}; the model returned {', '.join(self.outputs)}",
                 code="no_output",
                 argument="name",
-            ) from None
+            )
+        return self.outputs[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.outputs)
