@@ -206,7 +206,7 @@ def plain_inputs(
     friction = tangential[0]
     if (
         type(a) is type(b) is Vehicle
-        and a.given is b.given is None
+        and (a.given is b.given is None or np.ndarray not in map(type, chain(numbers_of(a), numbers_of(b))))
         and type(restitution) is type(friction) is type(normal) is float
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
