@@ -308,7 +308,7 @@ def test_central_goes_back_from_any_three(e):
 
 
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
-@pytest.mark.filterwarnings("ignore:a speed came out:collisions.OutOfRangeWarning")
+@pytest.mark.filterwarnings("ignore:the speed of . came out:collisions.OutOfRangeWarning")
 def test_planar_and_speeds_go_back(law):
     contact = {"law": law, "incomplete": True, **PLACE}
     for e, (rule, value) in itertools.product(
