@@ -74,7 +74,10 @@ class Side(Frozen, Summarized):
 
     def _units(self) -> Texts | None:
         """Those of the inputs, in which the results are shown."""
-        texts = self._inputs.texts
+        inputs = self._inputs
+        if inputs.a.given is inputs.b.given is inputs.given is None:
+            return None
+        texts = inputs.texts
         return Texts(units=texts) if texts else None
 
     @derived()

@@ -171,13 +171,13 @@ class Vehicle(_AsGiven):
             cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle))
             (magnitude,) = widened((magnitude,), numbers_of(vehicle))
             with np.errstate(all="ignore"):
-                _SETTERS["vx"](vehicle, lock(magnitude * cx + 0.0))
-                _SETTERS["vy"](vehicle, lock(magnitude * cy + 0.0))
+                _set_vx(vehicle, lock(magnitude * cx + 0.0))
+                _set_vy(vehicle, lock(magnitude * cy + 0.0))
         if reader.texts or reader.texts.units:
             # Both, so that a record can hold them in place of vx and vy.
             bare: Any = (("speed", speed, "m/s"), ("course", course, "rad"))
             texts = {name: f"{float(value)!r} {unit}" for name, value, unit in bare if isinstance(value, (int, float))}
-            _SETTERS["given"](vehicle, Texts(vehicle.given, texts if reader.texts else None, reader.texts))
+            _set_given(vehicle, Texts(vehicle.given, texts if reader.texts else None, reader.texts))
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
@@ -201,7 +201,7 @@ class Vehicle(_AsGiven):
         if self.given is not None:
             gone = {*changes, *(("speed", "course") if {"vx", "vy"} & changes.keys() else ())}
             texts = {name: text for name, text in self.given.items() if name not in gone}
-            _SETTERS["given"](vehicle, Texts(texts, vehicle.given, units=self.given.units))
+            _set_given(vehicle, Texts(texts, vehicle.given, units=self.given.units))
         return vehicle
 
     @property
@@ -373,12 +373,27 @@ UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
 _QUIET = frozenset({"vx", "vy", "yaw_rate", "name"})
 # Slot descriptors set a field of a frozen object at a third of the cost of object.__setattr__.
-_SETTERS = {name: getattr(Vehicle, name).__set__ for name in (*NAMES, "given")}
+_SETTERS = [getattr(Vehicle, name).__set__ for name in (*NAMES, "given")]
+
+
+_set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _set_heading, *_set_rest = _SETTERS
+_set_pivot, _set_name, _set_given = _set_rest
 
 
 def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
-    for setter, value in zip(_SETTERS.values(), values, strict=True):
-        setter(vehicle, value)
+    """Set every field; written out, as this is most of what a Vehicle costs."""
+    mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name, given = values
+    _set_mass(vehicle, mass)
+    _set_vx(vehicle, vx)
+    _set_vy(vehicle, vy)
+    _set_yaw_rate(vehicle, yaw_rate)
+    _set_yaw_inertia(vehicle, yaw_inertia)
+    _set_x(vehicle, x)
+    _set_y(vehicle, y)
+    _set_heading(vehicle, heading)
+    _set_pivot(vehicle, pivot)
+    _set_name(vehicle, name)
+    _set_given(vehicle, given)
 
 
 def vehicle_of(
@@ -390,7 +405,7 @@ def vehicle_of(
     trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
     _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
     if given is not None:
-        _SETTERS["given"](vehicle, Texts(given))
+        _set_given(vehicle, Texts(given))
     return vehicle
 
 
@@ -398,8 +413,11 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str,
     """The same body in another motion, without validation: used for results."""
     if vehicle.pivot is not None:
         vx, vy = turning_velocity(yaw_rate, vehicle.x, vehicle.y, vehicle.pivot[0], vehicle.pivot[1])
-    texts = None if given is None and not isinstance(vx, np.ndarray) else Texts(given)
-    lock((vx, vy, yaw_rate))
+    if isinstance(vx, np.ndarray):
+        lock((vx, vy, yaw_rate))
+        texts: Texts | None = Texts(given)
+    else:
+        texts = None if given is None else Texts(given)
     other: Vehicle = object.__new__(Vehicle)
     place = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
     _fill(other, (vehicle.mass, vx, vy, yaw_rate, vehicle.yaw_inertia, *place, vehicle.name, texts))
