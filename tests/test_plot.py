@@ -1406,7 +1406,7 @@ def test_the_way_to_rest_is_drawn_where_it_was(units):
     for artist in axes.get_children():
         drawn.setdefault(artist.get_gid(), []).append(artist)
     for letter, way, (length, width) in zip("ab", ways, ((4.4, 1.8), (4.1, 1.7)), strict=True):
-        (line,) = drawn[f"{letter}.way"]
+        (line,) = drawn[f"{letter}.path"]
         np.testing.assert_allclose(line.get_xydata(), metre * np.column_stack([way.x, way.y]), rtol=ROUNDING, atol=ROUNDING)
         marked = [mark for mark in way.marks if np.isfinite(mark[0]).any()]
         assert marked

@@ -1,4 +1,4 @@
-"""The ways from an impact to rest: the vehicles of ``travel.simulate`` along them, and the marks of their tyres."""
+"""The paths from an impact to rest: the vehicles of ``travel.simulate`` along them, and the marks of their tyres."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ def path(
     axes: Axes | None = None,
     units: UnitSystem | None = None,
 ) -> Axes:
-    """The way of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
+    """The path of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
 
-    Each stands at separation, three times on its way and, filled, at rest; the heavy edge is its front. The line is that of the
-    centre of mass, the dark ones are the tracks of tyres that slide. Points of a survey can be drawn on the same Axes.
+    Each stands at separation, three times on its path and, filled, at rest; the heavy edge is its front. The line is that of
+    the centre of mass, the dark ones are the tracks of tyres that slide. Points of a survey can be drawn on the same Axes.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def path(
     Returns
     -------
     matplotlib.axes.Axes
-        By gid: "a.way", "b.way"; "a.mark", "b.mark" for each tyre that left one; "a.separation", "b.separation"; and at rest
+        By gid: "a.path", "b.path"; "a.mark", "b.mark" for each tyre that left one; "a.separation", "b.separation"; and at rest
         "a.centre", "b.centre", "a.outline", "b.outline".
 
     Raises
@@ -89,7 +89,7 @@ def path(
         picture.drawing.include(*line, *(beside(line[-1], (side, side), room) for side in (-1.0, 1.0)))
         for one, other in zip(line[::10], line[10::10], strict=False):
             picture.drawing.avoid(one, other)
-        axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.way")
+        axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.path")
         for x, y in way.marks:
             slid = np.isfinite(x)
             if slid.any():
