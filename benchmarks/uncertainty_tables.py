@@ -18,12 +18,12 @@ DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated" / "uncerta
 DEFAULT = 8192  # cases that ``propagate`` draws if nothing is said
 FIGURE_NAMES = ("mean", "standard deviation", "lower end", "upper end")
 METHOD_NAMES = {
-    "first_order": "`first_order`",
-    "second_order": "`second_order`",
-    "quasi_random": "`quasi_random`",
-    "latin_hypercube": "`latin_hypercube`",
-    "monte_carlo": "`monte_carlo`",
-    "interval": "`interval`",
+    "first_order": "first order",
+    "second_order": "second order",
+    "quasi_random": "quasi-random",
+    "latin_hypercube": "Latin hypercube",
+    "monte_carlo": "Monte Carlo",
+    "interval": "interval",
 }
 FITTED = {"speed_a": "speed of A", "speed_b": "speed of B", "restitution": "restitution"}
 
@@ -34,8 +34,8 @@ def load() -> dict[str, Any]:
 
 
 def count(value: float) -> str:
-    """A whole number, its thousands apart."""
-    return f"{value:,.0f}".replace(",", " ")
+    """A whole number, its thousands apart by spaces at which no line is broken."""
+    return f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}")
 
 
 def names(found: dict[str, Any]) -> dict[str, str]:
@@ -94,7 +94,7 @@ def choices(found: dict[str, Any]) -> str:
                     name,
                     METHOD_NAMES[row["method"]] + (", warned" if row.get("warned") else ""),
                     count(row["samples"]),
-                    *(percent(error) for error in error_sizes(found, row)),
+                    *(percent(error).replace(" ", "\N{NO-BREAK SPACE}") for error in error_sizes(found, row)),
                     count(float(f"{row['cost']:.2g}")),
                 ]
             )
@@ -179,7 +179,7 @@ def agreement(found: dict[str, Any]) -> str:
     return (
         f"From {count(min(row['samples'] for row in large))} cases on, the means over seeds differ from the reference by "
         f"{max(offsets):.1f} standard errors of the comparison at most, and by more than 2 in {percent(beyond)} of "
-        f"{len(offsets)} comparisons. The reference is itself as far off as it is in all of them."
+        f"{len(offsets)} comparisons. The reference has an error of its own, the same in all of them."
     )
 
 
@@ -191,11 +191,11 @@ def local(found: dict[str, Any]) -> str:
             [
                 names(found)[row["scene"]],
                 METHOD_NAMES[row["method"]],
-                *(f"{100.0 * error:+.1f} %" for error in row["error"]),
+                *(f"{100.0 * error:+z.1f} %" for error in row["error"]),
                 "warned" if row["warned"] else "silent",
             ]
         )
-    text = table(["scene", "method", *FIGURE_NAMES, ""], lines)
+    text = table(["scene", "method", *FIGURE_NAMES, "it was"], lines)
     return text.replace("| --- | ---: |", "| --- | --- |", 1)
 
 
@@ -229,11 +229,13 @@ def silence(found: dict[str, Any]) -> str:
     if silent:
         where, method, error, _ = silent[0]
         text += f", and was silent in {len(silent)}: at worst it errs by {error:.2g} ({METHOD_NAMES[method]}, {where})"
-    most = max((place[2] for place in places if not place[3]), default=0.0)
-    return text + (
-        f". The largest error without a warning is {most:.2g} standard deviations. It warned in {len(needless)} places where "
-        f"the error is smaller than that limit. In {refused(found)} more places it refused: the model has a kink at the mean."
-    )
+    else:
+        most = max((place[2] for place in places if not place[3]), default=0.0)
+        text += f". The largest error without a warning is {most:.2g} standard deviations"
+    text += f". It warned in {len(needless)} places where the error is smaller than that limit."
+    if refused(found):
+        text += f" In {refused(found)} more places it refused: the model has a kink at the mean."
+    return text
 
 
 def coverage(found: dict[str, Any]) -> str:

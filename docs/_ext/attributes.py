@@ -43,12 +43,11 @@ def attribute_table(kind, prefix=""):
 
 
 def names_table(module):
-    """Every public name of a module, with the first sentence of what it says of itself; constants share a row."""
+    """Every public name of a module, with the first sentence of what it says of itself; constants share a line below."""
     constants = [name for name in module.__all__ if name.isupper()]
     listed = [(f"`{name}`", escaped(sentence(getattr(module, name)))) for name in module.__all__ if name not in constants]
-    if constants:
-        listed.append((", ".join(f"`{name}`" for name in constants), "published values, limits and constants"))
-    return f"**`from {module.__name__} import ...`**\n\n" + rows(("name", "what it is"), listed)
+    below = "\n\nConstants: " + ", ".join(f"`{name}`" for name in constants) + "." if constants else ""
+    return f"**`from {module.__name__} import ...`**\n\n" + rows(("name", "what it is"), listed) + below
 
 
 def add_unit(app, what, name, obj, options, lines):
