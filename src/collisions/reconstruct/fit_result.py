@@ -306,7 +306,7 @@ class Fit(Shown):
         parts = [
             Part(found, "Unknown", ("estimate", "standard error", "95 percent interval")),
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
-            Part([("chi-squared", f"{self.chi_squared:.4g} with {self.degrees_of_freedom} degrees of freedom")]),
+            Part([("chi-squared", _chi_squared(self))]),
             all_numbers(self._rows()),
         ]
         return Summary(self._title, parts, (*(f"{text[0].upper()}{text[1:]}." for text in self.statements), _GIVEN_ERRORS))
@@ -333,7 +333,7 @@ class Fit(Shown):
         for name, one in self.residuals.items():
             numbers = f"observed {show(one.observed, one.unit)}, computed {show(one.computed, one.unit)}"
             yield prefix + name, f"{numbers}, residual over sigma {one.over_sigma:+.2f}"
-        yield prefix + "chi-squared", f"{self.chi_squared:.4g} with {self.degrees_of_freedom} degrees of freedom"
+        yield prefix + "chi-squared", _chi_squared(self)
         for number, sentence in enumerate(self.statements, 1):
             yield f"{prefix}note {number}", sentence
 
@@ -366,12 +366,18 @@ class Note(NamedTuple):
     code: str = ""
 
 
+def _chi_squared(found: Fit) -> str:
+    """Chi-squared with its degrees of freedom, in words."""
+    degrees = found.degrees_of_freedom
+    return f"{found.chi_squared:.4g} with {degrees} degree{'' if degrees == 1 else 's'} of freedom"
+
+
 def notes_of(found: Fit) -> Iterator[Note]:
     """The notes on a fit in the order of importance: first whether the evidence agrees."""
     if found.consistent is None:
         yield Note(None, "there is no more evidence than unknowns, so that nothing checks it")
     else:
-        by = f" (chi-squared {found.chi_squared:.4g} with {found.degrees_of_freedom} degrees of freedom)"
+        by = f" (chi-squared {_chi_squared(found)})"
         yield agreement(found.p_value, found.residuals, by)
     for direction in found.undetermined:
         advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that determines it"
