@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -44,11 +45,16 @@ def table(head: list[str], rows: list[list[str]]) -> str:
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
 
 
+def symbols(text: str) -> str:
+    """Subscripts as a reader expects them: S_P becomes a formula, ranges of two numbers get their word."""
+    return re.sub(r"\b(S|loss)_(\w)\b", lambda hit: f"{hit[1]}<sub>{hit[2]}</sub>", text).replace("..", " to ")
+
+
 def promises(found: dict[str, Any]) -> str:
     """Every promise, and the worst error seen."""
     return table(
         ["output", "promise, in eps", "of this scale", "worst seen, in eps"],
-        [[row["output"], str(row["eps"]), row["scale"], number(row["seen"])] for row in found["promises"]],
+        [[row["output"], str(row["eps"]), symbols(row["scale"]), number(row["seen"])] for row in found["promises"]],
     )
 
 
@@ -68,7 +74,7 @@ def in_time(found: dict[str, Any]) -> str:
     of_steps = found["in_time"]
     names = list(of_steps["promises"])
     rows = [["promise", *(str(eps) for eps in of_steps["promises"].values())]]
-    rows += [[row["family"], *(number(row["seen"][name]) for name in names)] for row in of_steps["rows"]]
+    rows += [[symbols(row["family"]), *(number(row["seen"][name]) for name in names)] for row in of_steps["rows"]]
     return table(["worst seen, in eps", *names], rows)
 
 
@@ -120,9 +126,9 @@ def grid(found: dict[str, Any]) -> str:
         [
             ["step of the grid of positions", f"{number(entry['ulp'])} m"],
             ["the same, in eps of a lever of 1 m", number(entry["ulp_in_eps_of_1_m"])],
-            ["exact impulse moves when positions are put on the grid, in eps of κ S_P", number(entry["exact_change"])],
+            ["exact impulse moves when positions are put on the grid, in eps of κ S<sub>P</sub>", number(entry["exact_change"])],
             ["the same, relative to the impulse", number(entry["exact_change_relative"])],
-            ["the library adds, in eps of κ S_P", number(entry["library"])],
+            ["the library adds, in eps of κ S<sub>P</sub>", number(entry["library"])],
             ["step of the grid in float32", f"{number(entry['ulp_float32'])} m"],
         ],
     )

@@ -37,14 +37,14 @@ def collide(kind, restitution, friction):
 # of the table the contact does not slip at separation. A real contact is between the two: `friction=0.5`, say.
 
 # %%
-print(f"{'':<20}{'closing':>9}{'slip':>7}   {'frictionless: delta-V':<27}{'no slip: delta-V':<24}")
-print(f"{'':<20}{'km/h':>9}{'km/h':>7}{'A':>8}{'B':>8}{'course B':>11}{'A':>11}{'B':>8}{'course B':>11}")
+print(f"{'':<16}{'closing':>8}{'slip':>7}    {'frictionless: delta-V':<27}{'no slip: delta-V':<24}")
+print(f"{'':<16}{'km/h':>8}{'km/h':>7}{'A':>8}{'B':>7}{'course B':>10}{'A':>10}{'B':>7}{'course B':>10}")
 for kind in COURSES:
     cases = [collide(kind, 0.1, friction) for friction in (0.0, math.inf)]
-    cells = "   ".join(
-        f"{case.a.delta_v * 3.6:>8.1f}{case.b.delta_v * 3.6:>8.1f}{math.degrees(case.b.after.course):>11.0f}" for case in cases
+    cells = "  ".join(
+        f"{case.a.delta_v * 3.6:>8.1f}{case.b.delta_v * 3.6:>7.1f}{math.degrees(case.b.after.course):>10.0f}" for case in cases
     )
-    print(f"{kind:<20}{cases[0].closing_speed * 3.6:>9.1f}{abs(cases[0].slip_before) * 3.6:>7.1f}{cells}")
+    print(f"{kind:<16}{cases[0].closing_speed * 3.6:>8.1f}{abs(cases[0].slip_before) * 3.6:>7.1f}{cells}")
 
 # %% [markdown]
 # The same 50 and 40 km/h are a light touch when merging and a violent collision when turning left. Delta-V follows the closing

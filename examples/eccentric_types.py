@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Types of eccentric collision
 #
-# The front of A strikes the front reader of B, its rear wing, half of its back or half of its front, types of the paper's
+# The front of A strikes the front door of B, its rear wing, half of its back or half of its front, types of the paper's
 # figure 12: the impulse passes beside a centre of mass, and the cars turn. One sees which way each turns, that friction can
 # reverse it, and by how much a model without rotation is off.
 #

@@ -3,8 +3,8 @@
 #
 # "Application of Impulse Momentum Theory to Vehicle Collisions", Example 2: A (1100 kg) at 80 km/h runs into the back of B
 # (950 kg), which stands and afterwards moves at 60 km/h. The paper asks for the velocity of A afterwards and for the
-# restitution. That is one of the twenty ways in which three of va, vb, va_after, vb_after, restitution and energy_loss are
-# known. `reconstruct.central` solves all of them; here each is asked of the same impact.
+# restitution. That is one of the twenty ways in which three of `va`, `vb`, `va_after`, `vb_after`, `restitution` and
+# `energy_loss` are known. `reconstruct.central` solves all of them; here each is asked of the same impact.
 
 # %%
 import itertools

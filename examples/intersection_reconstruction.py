@@ -4,7 +4,7 @@
 # **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as from a plan with the tyre marks.
 #
 # Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from the south, course 90 degrees. The front of A struck
-# the left side of B at the driver's reader. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
+# the left side of B at the driver's door. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
 # damage. B spun to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
 #
 # Four steps: the run-out gives the motion at separation, the impact solved backwards the speeds before, the forward solver
@@ -145,9 +145,10 @@ print(
 # sensitivities say which course matters:
 
 # %%
+COURSE_NAMES = ("course_a", "course_b", "course_a_after", "course_b_after")
+print(f"{'km/h per degree of':<20}" + "".join(f"{name:>16}" for name in COURSE_NAMES))
 for answer, row in momentum.sensitivity.q.items():
-    slopes = ", ".join(f"{value.m_as('km/h/deg'):+.2f} for {name}" for name, value in row.items() if name.startswith("course"))
-    print(f"{answer}: km/h per degree {slopes}")
+    print(f"{answer:<20}" + "".join(f"{row[name].m_as('km/h/deg'):>z16.2f}" for name in COURSE_NAMES))
 
 # %% [markdown]
 # ## Step 3: forward again
@@ -247,7 +248,7 @@ for name in result:
     low, high = result[name].interval(0.95)
     print(
         f"{name:<14}{kmh(result[name].mean):>7.1f} km/h, 95 percent from {kmh(low):.1f} to {kmh(high):.1f}, "
-        f"standard error of the mean {kmh(result[name].mean_standard_error):.1g}"
+        f"standard error {kmh(result[name].mean_standard_error):.4f}"
     )
 
 # %% [markdown]
@@ -267,7 +268,7 @@ for chart, answer in zip(charts, answers, strict=True):
     chart.spines[["top", "right"]].set_visible(False)
 for answer in answers:
     first, second, *_, last = result[answer].contributions.items()
-    print(f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}, ..., {last[0]} {max(last[1], 0.0):.1%}")
+    print(f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}\n{'':>10}least: {last[0]} {max(last[1], 0.0):.0%}")
 
 # %% [markdown]
 # ## Checks

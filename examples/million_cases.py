@@ -82,7 +82,7 @@ print(f"here a case took {1e9 * batch_time:.0f} ns in the batch, {1e6 * single_t
 
 # %%
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):
-    print(f"{count:>8}  {count / COUNT:7.2%}  {col.Status(code).label}: {col.Status(code).sentence}")
+    print(f"{count:>8}  {count / COUNT:7.2%}  {col.Status(code).label}\n{'':>8}{col.Status(code).sentence}")
 answered = delta_v[batch.ok]
 low, middle, high = np.quantile(answered, (0.025, 0.5, 0.975)) / KMH
 print(f"delta-V of B: median {middle:.1f} km/h, 95 percent from {low:.1f} to {high:.1f} km/h")
@@ -107,7 +107,7 @@ known = {
 
 
 def answers(**inputs):
-    return {"delta_v": crash(**inputs, on_failure="nan").b.q.delta_v}
+    return {"delta-V of B": crash(**inputs, on_failure="nan").b.q.delta_v}
 
 
 with warnings.catch_warnings(record=True) as caught:
@@ -115,7 +115,7 @@ with warnings.catch_warnings(record=True) as caught:
     started = time.perf_counter()
     result = propagate(answers, known, method="quasi_random", seed=8)
     print(f"{result.samples} cases in {time.perf_counter() - started:.2f} s, and {caught[0].message}")
-found = result["delta_v"]
+found = result["delta-V of B"]
 ends = " to ".join(f"{end.m_as('km/h'):.1f}" for end in found.q.interval(0.95))
 print(f"delta-V of B: median {found.q.quantile(0.5).m_as('km/h'):.1f} km/h, 95 percent from {ends} km/h")
 

@@ -19,7 +19,9 @@ CHECKS = []
 def row(label, paper, ours, unit="", note=""):
     """One line of a table: the figure as the paper prints it, ours, and a remark."""
     number = f"{ours:.6g}" if isinstance(ours, float) else ours
-    print(f"{label:<44}{paper:>14}{number:>14}  {unit:<7}{note}".rstrip())
+    print(f"{label:<40}{paper:>14}{number:>15}  {unit}".rstrip())
+    if note:
+        print(f"    {note}")
 
 
 def heading(title):

@@ -18,6 +18,7 @@
 import inspect
 import math
 import sys
+import textwrap
 from pathlib import Path
 
 # Above this file or, as a notebook, above the folder it runs in.
@@ -58,8 +59,9 @@ print(inspect.getsource(solutions.oblique_impact))
 # the law is part of the answer and belongs beside it.
 
 # %%
-print(f"{'test':<6}{'vehicle':<29}{'delta-V, mph':^31}{'change of yaw rate, deg/s':^36}")
-print(f"{'':<35}{'published':>10}{'brach':>7}{'kudlich-slibar':>16}{'published':>13}{'brach':>7}{'kudlich-slibar':>16}")
+print(f"{'test':<5}{'vehicle':<29}{'delta-V, mph':>19}{'change of yaw rate, deg/s':>32}")
+print(f"{'':<34}{'printed':>8}{'brach':>7}{'kudlich-':>10}{'printed':>11}{'brach':>7}{'kudlich-':>10}")
+print(f"{'':<34}{'':>8}{'':>7}{'slibar':>10}{'':>11}{'':>7}{'slibar':>10}")
 for case, test in solutions.TESTS.items():
     rows = solutions.oblique_rows(case)
     impact = solutions.oblique_impact(*rows)
@@ -68,8 +70,8 @@ for case, test in solutions.TESTS.items():
         delta_v, turn = figures[f"dV{i}"], figures[f"d_omega{i}"]
         printed_v, printed_turn = row["published_delta_v_mph"], row["published_delta_yaw_rate_deg_s"]
         print(
-            f"{test:<6}{row['vehicle']:<29}{printed_v:>10}{delta_v['brach']:>7.2f}{delta_v['kudlich-slibar']:>16.2f}"
-            f"{printed_turn:>13}{turn['brach']:>7.1f}{turn['kudlich-slibar']:>16.1f}"
+            f"{test:<5}{row['vehicle']:<29}{printed_v:>8}{delta_v['brach']:>7.2f}{delta_v['kudlich-slibar']:>10.2f}"
+            f"{printed_turn:>11}{turn['brach']:>7.1f}{turn['kudlich-slibar']:>10.1f}"
         )
         sign = -1 if "sign misprint" in row["note"] else 1
         check(f"{test} {row['vehicle']}, delta-V", delta_v["brach"], float(printed_v), 0.2, "mph")
@@ -77,8 +79,8 @@ for case, test in solutions.TESTS.items():
     ratio, printed_ratio = impact.critical_impulse_ratio, rows[0]["published_critical_impulse_ratio"]
     closing, relative = impact.q.closing_speed.m_as("mph"), impact.q.relative_speed.m_as("mph")
     print(
-        f"{'':<6}critical impulse ratio {printed_ratio} published, {ratio:.3f} ours; "
-        f"closing speed at the contact {closing:.1f} mph, relative speed of the centres {relative:.1f} mph"
+        f"{'':<5}critical impulse ratio {printed_ratio} printed, {ratio:.3f} ours\n"
+        f"{'':<5}closing speed at the contact {closing:.1f} mph, relative speed of the centres {relative:.1f} mph"
     )
     check(f"{test}, critical ratio", ratio, float(printed_ratio), 0.005, "")
 
@@ -112,8 +114,8 @@ for label, name, column, unit in (
         check(f"CF11016, {label}", ours * to_mph, float(row[column]) * to_mph, 0.2, "mph")
 print(
     f"the car turns {'counter-clockwise' if impact.a.delta_yaw_rate > 0 else 'clockwise'} and is pushed to its "
-    f"{'left' if impact.a.delta_v_left > 0 else 'right'}; force from {math.degrees(impact.a.pdof):.1f} deg "
-    "(0 ahead, positive from the right)"
+    f"{'left' if impact.a.delta_v_left > 0 else 'right'};\n"
+    f"force from {math.degrees(impact.a.pdof):.1f} deg (0 ahead, positive from the right)"
 )
 
 # %% [markdown]
@@ -127,7 +129,8 @@ for case, record in published_cases.CASES.items():
     found = list(published_cases.comparisons(case))
     wrong = sum(comparison.wrong for comparison in found)
     misprints = f", {wrong} of them misprints" if wrong else ""
-    print(f"{case}  {record['source']['title'][:60]:<62}{len(found):>3} comparisons{misprints}")
+    title = textwrap.shorten(record["source"]["title"], 44, placeholder=" ...")
+    print(f"{case}  {title:<45}{len(found):>3} comparisons{misprints}")
     for comparison in found:
         CHECKS.append((f"{case}, {comparison.what}", comparison.ours, float(comparison.printed), "", comparison.good))
 

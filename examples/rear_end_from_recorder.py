@@ -74,7 +74,7 @@ print(f"{'measured':<24}{'':>6}{5.5:>13.2f}{3.1:>18.2f}")
 #
 # ## An offset
 #
-# Nothing in line about it any more: the Fiesta 0.6 m to the left, which the short form does not see.
+# The Fiesta 0.6 m to the left of the line, which `inline_closing_speed` has no place for.
 
 # %%
 offset = FIESTA.replace(y=0.6)

@@ -61,8 +61,10 @@ for tangential in contacts:
     print(
         f"{f'{name}={value:g}':<20}{impact.impulse_ratio:>7.2f}{impact.regime:>10}{side.delta_v.m_as('km/h'):>11.1f}"
         f"{side.delta_yaw_rate.m_as('deg/s'):>12.0f}{impact.q.slip_after.m_as('km/h'):>12.1f}"
-        f"{impact.q.energy_loss.m_as('kJ'):>13.0f}  {''.join(warning.message.code for warning in caught)}"
+        f"{impact.q.energy_loss.m_as('kJ'):>13.0f}"
     )
+    for warning in caught:
+        print(f"    warning: {warning.message.code}")
 
 # %%
 sizes = np.linspace(0.0, abs(critical), 200)

@@ -2,7 +2,7 @@
 # # Rows of a table, and back
 #
 # Cases in a pandas table become one batch, and the answers a table with the same rows. The unit of a column stands in its name
-# and is handed to the reader as a pint Quantity. A missing cell is NaN, its row is refused with a status that says so, and the
+# and is handed over as a pint Quantity. A missing cell is NaN, its row is refused with a status that says so, and the
 # other rows are untouched. pandas is needed only here: the library takes arrays and gives lists.
 
 # %%

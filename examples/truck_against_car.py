@@ -2,9 +2,10 @@
 # # A truck against a car
 #
 # A truck of 12 t and a car of 1.3 t meet head-on, half the width of the car against the truck, and both turn. The impulse is
-# the same for both and the delta-V is not: it goes by the ratio of the masses, and for the car its bound is a wall that moves.
+# the same for both and the delta-V is not: it goes by the ratio of the masses, and that of the car stays below what a moving
+# wall would give it.
 #
-# What the model does not hold: it lies in the road plane. A car that goes under the truck is not described by it.
+# The model is in the plane of the road: a car that goes under the truck is not described by it.
 
 # %%
 import math
@@ -66,7 +67,7 @@ right.legend()
 # - Momentum: the delta-Vs are opposite, and in the inverse ratio of the masses.
 # - Angular momentum about the contact: the impulse has no lever there, so each body keeps its own.
 # - Kinetic energy before less after is the energy lost.
-# - A truck without end is a wall: the car has 1.3e-12 of the mass of the last truck, so 1e-11 leaves room.
+# - A truck heavy without limit is a wall: the car has 1.3e-12 of the mass of the last truck, so 1e-11 leaves room.
 # - Centre against centre and plastic, as in any textbook: the delta-V of the car is m_truck/(m_truck + m_car) of the closing
 #   speed.
 #

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Two accounts of one crash
 #
-# At a crossing A, going east, strikes B in its side. "I did 50 or 60", says the driver of A. "That car came with 80", says the
-# driver of B. Marks, a place of rest and half a recorder are left. What are they worth, and for whom? The scene is invented.
+# At a crossing A, going east, strikes B in its side. "I was doing 50 or 60", says the driver of A. "That car was doing 80",
+# says the driver of B. Marks, a place of rest and half a recording are left. What are they worth, and for whom? The scene is
+# invented.
 #
 # What was found is given to both accounts alike. They differ in what they state before: in the prior of one speed.
 
@@ -74,16 +75,16 @@ print(found.summary())
 # it.
 
 # %%
-versions_a = {"55 +- 2": Normal("55 km/h", "2 km/h"), "55 +- 4": said_by_a, "55 +- 8": Normal("55 km/h", "8 km/h")}
+versions_a = {"55 ± 2": Normal("55 km/h", "2 km/h"), "55 ± 4": said_by_a, "55 ± 8": Normal("55 km/h", "8 km/h")}
 versions_b = {
-    "80 +- 5": Normal("80 km/h", "5 km/h"),
+    "80 ± 5": Normal("80 km/h", "5 km/h"),
     "75 to 95": said_by_b,
     "60 to 100": Uniform("60 km/h", "100 km/h"),
     "61 to 150": Uniform("61 km/h", "150 km/h"),
 }
 logs_a = {name: account(prior).log_evidence for name, prior in versions_a.items()}
 logs_b = {name: account(prior, seed=2).log_evidence for name, prior in versions_b.items()}
-print("times more probable by the driver of B than by the driver of A")
+print("The evidence is so many times more probable on the account of B than on that of A:")
 print(f"{'B: km/h':<12}" + "".join(f"{'A: ' + name:>14}" for name in versions_a))
 for name, log in logs_b.items():
     print(f"{name:<12}" + "".join(f"{math.exp(log - of_a):>14.2g}" for of_a in logs_a.values()))
@@ -99,7 +100,7 @@ open_minded = account(Uniform("20 km/h", "130 km/h"), seed=3)
 low, high = (3.6 * end for end in open_minded["speed_a"].interval(0.95))
 over, error = open_minded.probability(lambda at: at["speed_a"] > 60 / 3.6)
 print(f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, 95 percent from {low:.0f} to {high:.0f} km/h")
-print(f"A was over 60 km/h with a probability of {over:.3f} +- {error:.3f}")
+print(f"A was over 60 km/h with a probability of {over:.3f} ± {error:.3f}")
 print(open_minded.statements[0])
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(13, 4.6), layout="constrained")

@@ -59,8 +59,10 @@ text = col.explain(impact, units="us", form="text")
 print(text[text.index("Closing speed:") : text.index("Slip, of B")])
 
 page = col.report(impact, units="us", form="markdown", title="NHTSA 4474")
-lines = [line for line in page.splitlines() if "yaw inertia" in line or "| delta-V |" in line or "energy lost" in line]
-print("\n".join(lines))
+rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
+for who, what, value in (row for row in rows if len(row) == 3):
+    if what in ("yaw inertia about the centre of mass", "delta-V", "energy lost"):
+        print(f"{who}: {what.removesuffix(' about the centre of mass')} {value}")
 
 # %% [markdown]
 # `form="html"`, which is the default, makes one file with the figures.

@@ -47,7 +47,7 @@ def off(value: float | None, measure: str) -> str:
     digits = 3 if abs(value) < 0.1 else 2 if abs(value) < 10 else 1
     text = f"{value:+.{digits}f}"
     text = minus(text if float(text) else text[1:])
-    return text + (f" {UNITS[measure]}" if measure == "%" else UNITS[measure])
+    return text + (f"\u00a0{UNITS[measure]}" if measure == "%" else UNITS[measure])
 
 
 def size(value: float | None, measure: str) -> str:
@@ -63,29 +63,30 @@ def mark(figure: dict[str, Any], word: str) -> str:
 
 
 def agreement(found: dict[str, Any]) -> str:
-    """Table 1, figure by figure."""
-    rows = []
+    """Table 1, figure by figure, and under it why those beyond print differ."""
+    rows, reasons = [], []
     for case in found["agreement"]["cases"]:
         for figure in case["figures"]:
             other = NONE
             if "by_law" in figure:
                 law = next(law for law in figure["by_law"] if law != case["law"])
                 other = like(figure["by_law"][law]["computed"], figure["printed"])
+            name = f"{case['key']} `{figure['name']}`"
             rows.append(
                 [
-                    case["key"],
-                    f"`{figure['name']}`",
+                    name,
                     figure["unit"],
                     minus(figure["printed"]),
                     like(figure["computed"], figure["printed"]),
                     off(figure["difference"], figure["measure"]),
-                    "yes" if figure["within_print"] else "no",
+                    "misprint" if figure["wrong"] else "yes" if figure["within_print"] else "no",
                     other,
-                    mark(figure, "misprint"),
                 ]
             )
-    head = ["case", "figure", "unit", "printed", "computed", "difference", "within print", "the other law", "remark"]
-    return table(head, rows, left=3).replace("---: |\n", "--- |\n", 1)
+            if figure["remark"] and not figure["wrong"]:
+                reasons.append(f"- {name}: {figure['remark']}.")
+    head = ["case and figure", "unit", "printed", "computed", "difference", "within print", "the other law"]
+    return "\n\n".join([table(head, rows, left=2), "Where it is not within print:", "\n".join(reasons)])
 
 
 def measured(cases: dict[str, Any]) -> str:
@@ -117,7 +118,7 @@ def predictions(found: dict[str, Any]) -> str:
     rows = []
     for case in found["predictions"]["cases"]:
         for figure in case["figures"]:
-            used = "nothing" if "other car" in figure["quantity"] else case["inputs"]
+            used = "nothing" if "other car" in figure["quantity"] else case["inputs"].partition(" (")[0]
             ours = like(figure["computed"], figure["printed"])
             rows.append([
                 case["key"], figure["name"], figure["unit"], used, minus(figure["printed"]), ours,
@@ -128,18 +129,17 @@ def predictions(found: dict[str, Any]) -> str:
 
 
 def statistics(cases: dict[str, Any], aside: str = "") -> str:
-    """Bias, median and worst of every quantity; where figures were set aside, with them too."""
-    rows = []
-    for entry in cases["statistics"]:
-        measure = entry["measure"]
-        row = [entry["quantity"], *_summary(entry["sound"], measure)]
-        if aside:
-            row += [str(entry["set_aside"]), *(_summary(entry["all"], measure)[1:] if entry["set_aside"] else [NONE] * 4)]
-        rows.append(row)
+    """Bias, median and worst of every quantity; where figures were set aside, with them in a second table."""
     head = ["quantity", "figures", "bias", "median", "worst", "worst of"]
-    if aside:
-        head += [f"{aside}, left out", *(f"{name} with them" for name in head[2:])]
-    return table(head, rows)
+    rows = [[entry["quantity"], *_summary(entry["sound"], entry["measure"])] for entry in cases["statistics"]]
+    if not aside:
+        return table(head, rows)
+    rows = [[*row, str(entry["set_aside"])] for row, entry in zip(rows, cases["statistics"], strict=True)]
+    every = [
+        [entry["quantity"], *_summary(entry["all"], entry["measure"])] for entry in cases["statistics"] if entry["set_aside"]
+    ]
+    tables = [table([*head, f"{aside}, left out"], rows), "With what is left out there:", table(head, every)]
+    return "\n\n".join(tables)
 
 
 def _summary(entry: dict[str, Any], measure: str) -> list[str]:
@@ -192,7 +192,7 @@ def refitted(found: dict[str, Any]) -> str:
     rows = [
         [
             row["key"],
-            f"{row['restitution']:.2f}",
+            minus(f"{row['restitution']:.2f}"),
             f"{row['percent']:.0f} %",
             f"{row['misfit_at_0']:.2f}",
             f"{row['misfit']:.2f}",
@@ -206,9 +206,8 @@ def nothing_published(found: dict[str, Any]) -> str:
     """Cases without a published answer."""
     rows = [
         [
-            case["key"],
+            f"{case['key']} `{figure['name']}`",
             case["why"],
-            f"`{figure['name']}`",
             figure["unit"],
             figure["apart"],
             like(figure["computed"], figure["apart"], 0),
@@ -217,7 +216,7 @@ def nothing_published(found: dict[str, Any]) -> str:
         for case in found["nothing_published"]
         for figure in case["figures"]
     ]
-    return table(["case", "", "figure", "unit", "worked out apart", "computed", "difference"], rows, left=4)
+    return table(["case and figure", "what it is", "unit", "worked out apart", "computed", "difference"], rows, left=3)
 
 
 def inputs_only(found: dict[str, Any]) -> str:
@@ -237,7 +236,10 @@ def not_computed(found: dict[str, Any]) -> str:
     names = ("record", "what", "given", "why")
     return table(
         ["record", "figure", "given", "why it is in no table"],
-        [[entry[name] if name == "record" else minus(entry[name]) for name in names] for entry in found["not_computed"]],
+        [
+            [re.sub(r"^([\w.]+):", r"`\1`:", entry["record"]), *(minus(entry[name]) for name in names[1:])]
+            for entry in found["not_computed"]
+        ],
         left=4,
     )
 
@@ -246,8 +248,7 @@ def misprints(found: dict[str, Any]) -> str:
     """Every printed figure that is wrong, with what is wrong and what the library computes."""
     rows = [
         [
-            case["key"],
-            f"`{figure['name']}`",
+            f"{case['key']} `{figure['name']}`",
             minus(figure["printed"]),
             like(figure["computed"], figure["printed"]),
             figure["unit"],
@@ -257,8 +258,8 @@ def misprints(found: dict[str, Any]) -> str:
         for figure in case["figures"]
         if figure["wrong"]
     ]
-    rows = [[*row[:2], row[4], *row[2:4], row[5]] for row in rows]
-    return table(["case", "figure", "unit", "printed", "computed", "what is wrong"], rows, left=3).replace(
+    rows = [[row[0], row[3], *row[1:3], row[4]] for row in rows]
+    return table(["case and figure", "unit", "printed", "computed", "what is wrong"], rows, left=2).replace(
         "---: |\n", "--- |\n", 1
     )
 
@@ -315,7 +316,7 @@ def headlines(found: dict[str, Any]) -> str:
     lines = [
         f"1. **Agreement with other people's solutions**: {one['cases']} cases, {one['figures']} figures. {one['within']} "
         f"agree to half a unit of their last printed digit, {one['sound'] - one['within']} differ by more for a reason "
-        f"that stands beside each, and {one['aside']} are misprints. {both_of(found['agreement'])}",
+        f"that is given there, and {one['aside']} are misprints. {both_of(found['agreement'])}",
         f"2. **Fits to measured tests**: {two['cases']} tests, {two['figures']} figures. Barrier tests: "
         f"{both_of(found['fits'])} With the tuned inputs of the other nine tests instead of its own, a test is missed by much "
         f"more. {both_of(found['fits']['held_out'])}",
