@@ -203,13 +203,14 @@ def drawn(found: dict[str, Any]) -> str:
             row = spread[key]
             least, low, *_, high, most = row["quantiles"]
             ranges.append(
-                f"of {name}, for {row['vehicles']} vehicles: {low:.2f} to {high:.2f} of the change in time in 9 of 10, "
-                f"{least:.2f} to {most:.2f} in all, and outside a factor of 1.5 in {100.0 * row['outside_1.5']:.1f} %"
+                f"For {name} ({row['vehicles']} vehicles) it was {low:.2f} to {high:.2f} times that change in 9 of 10, "
+                f"{least:.2f} to {most:.2f} times in all, and off by more than a factor of 1.5 in "
+                f"{100.0 * row['outside_1.5']:.1f} %."
             )
         sentences.append(
             f"Over {spread['impacts']} random impacts of two cars without spin before, with a friction of {frictions[0]:g} to "
-            f"{frictions[-1]:g} and a restitution of 0 to 0.4, where the change is more than {100.0 * spread['matters']:.0f} % "
-            f"of delta-V, the estimate was, {'; '.join(ranges)}."
+            f"{frictions[-1]:g} and a restitution of 0 to 0.4, the estimate was compared with the change followed in time "
+            f"wherever that is more than {100.0 * spread['matters']:.0f} % of delta-V. {' '.join(ranges)}"
         )
     return "\n\n".join(sentences)
 
@@ -246,7 +247,8 @@ def choices(found: dict[str, Any]) -> str:
         error = errors[choice.error]
         cells = []
         for group, key in (("single", choice.single), ("batch", choice.batch)):
-            cells.append("–" if key is None else number(cost(known[group], choice, key)))
+            at_all = None if key is None else cost(known[group], choice, key)
+            cells.append("–" if key is None else NOT_MEASURED if at_all is None else number(at_all))
         shown = [NOT_MEASURED] * 2 if error is None else [percent(error["mean"]), percent(error["p95"])]
         lines.append([f"{at}. {choice.name}", *cells, *shown])
     return table(["choice", "cost of one case", "cost in a batch", "mean error", "19 of 20 err by less"], lines)
@@ -303,10 +305,8 @@ def prediction(found: dict[str, Any]) -> str:
         for pair in zip(curve["predicted"], curve["error"], strict=True)
     ]
     worst = max(abs(said - made) for said, made in pairs)
-    return (
-        f"Over the {len(pairs)} points of the curves, prediction and error made differ by {number(worst)} m/s at most, in the "
-        "three digits that are kept."
-    )
+    apart = f"differ by {number(worst)} m/s at most" if worst else "agree"
+    return f"Over the {len(pairs)} points of the curves, prediction and error made {apart}, in the three digits that are kept."
 
 
 def contacts(found: dict[str, Any]) -> str:
@@ -394,7 +394,7 @@ def rivals(found: dict[str, Any]) -> str:
     ):
         version, row = found["rivals"][name], known[group].get(key)
         if row is None:
-            lines.append([f"{name}, {key}", *[NOT_MEASURED] * 4])
+            lines.append([f"{name}, two threads" if key.endswith("threads") else name, *[NOT_MEASURED] * 4])
             continue
         mine = known[group][ours]
         against = number(row["median"] / mine["median"])

@@ -126,7 +126,10 @@ def grid(found: dict[str, Any]) -> str:
         [
             ["step of the grid of positions", f"{number(entry['ulp'])} m"],
             ["the same, in eps of a lever of 1 m", number(entry["ulp_in_eps_of_1_m"])],
-            ["exact impulse moves when positions are put on the grid, in eps of κ S<sub>P</sub>", number(entry["exact_change"])],
+            [
+                "exact impulse moves when positions are put on the grid, in eps of κ S<sub>P</sub>",
+                number(entry["exact_change"]),
+            ],
             ["the same, relative to the impulse", number(entry["exact_change_relative"])],
             ["the library adds, in eps of κ S<sub>P</sub>", number(entry["library"])],
             ["step of the grid in float32", f"{number(entry['ulp_float32'])} m"],
