@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..document import Document
+from ..formatting import typeset
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
@@ -52,6 +53,7 @@ class Page:
         """Write a table: subject, quantity, value."""
         body = list(rows)
         if self.latex:
+            body = [(subject, quantity, typeset(value)) for subject, quantity, value in body]
             lines = [f"| {' | '.join(line)} |" for line in (HEAD, ("---", "---", "---"), *body)]
         else:
             widths = [max(map(len, column)) for column in zip(HEAD, *body, strict=True)]
