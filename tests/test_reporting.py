@@ -899,6 +899,24 @@ def test_an_interval_has_a_range_and_no_deviation():
     )
 
 
+@pytest.mark.parametrize(("away", "centred"), [(0.09, True), (0.11, False), (-0.11, False)])
+def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centred):
+    """A tenth of the deviation off, ± would name another middle than the propagation has: its range is given."""
+    impact = crash()
+    mean = impact.closing_speed + 0.5 * away
+    drawn = {"speed": uncertainty.Normal(mean, 0.5)}
+    known = uncertainty.propagate(lambda speed: {"closing_speed": speed}, drawn, method="first_order")
+    low, high = mean - 0.98, mean + 0.98  # 1.96 deviations
+    number = f"{impact.closing_speed:.2f}"
+    stated = f"{number} ± 0.50 m/s" if centred else f"{number} m/s ({low:.2f} to {high:.2f} m/s)"
+    page = report(impact, form="markdown", units="si", uncertainty=known)
+    assert ("contact", "closing speed", stated) in rows(section(page, "Results"))
+    steps = explain(impact, uncertainty=known)
+    assert ("A range in brackets holds 95 percent of the propagation" in page) is not centred
+    assert ("A range in brackets holds 95 percent of the propagation" in steps) is not centred
+    assert stated in steps
+
+
 def test_intervals_alone_have_no_mean():
     inputs = {"speed": uncertainty.Interval("50 km/h", "58 km/h"), "restitution": uncertainty.Interval(0.05, 0.15)}
     known = uncertainty.propagate(lambda **given: {"b.delta_v": crash(golf(vx=given["speed"]), e=given["restitution"]).b.q.delta_v},

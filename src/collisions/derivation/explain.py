@@ -17,7 +17,8 @@ from ..reading import ArgumentReader, at_least_zero, need_one_case
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import computing
 from ..solving import error_of
-from ..uncertainty.result import Propagation
+from ..uncertainty.distributions import Interval
+from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..units import shown
 from .contact import motions
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
@@ -28,6 +29,8 @@ from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
+# Of a standard deviation: what an answer may differ from the mean of its propagation.
+_OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
 NOT_EXPLAINED = (
     ". A number of crush_energy or travel, or a RunOut, does not hold what it was worked out from: its formula is in "
@@ -168,7 +171,7 @@ def explain(
     need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of)
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
-    deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, kinds_of_answers(impact))
+    deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, impact)
     page = Page(System(units), form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):
         page.title("Fit to evidence, step by step")
@@ -317,26 +320,48 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
         ]
         lines.append("x and y are axes of the road plane; angles and yaw are positive counter-clockwise, seen from above.")
     if page.ranges:
-        held = "every value" if uncertainty.method == "interval" else "95 percent, wherever in the interval the truth lies"
-        lines.append(
-            "A range in brackets is no ±: an interval is among the inputs, and of its values none is said to be likelier than "
-            f"another. The range holds {held}."
-        )
+        lines.append(about_ranges(uncertainty))
     if page.conversions:
         conversions = "; ".join(f"1 {one} = {number} {other}" for (one, other), number in page.conversions.items())
         lines.append(f"Numbers that convert units: {conversions.replace('**', '^')}.")
     page.listed(lines if not page.latex else [line.replace("*", r"\*") for line in lines])
 
 
-def _spread(uncertainty: Any, kinds: Mapping[str, str]) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
-    """Standard deviations in SI by result; or ranges, where intervals leave no distribution."""
+def about_ranges(uncertainty: Propagation) -> str:
+    """What a range in brackets behind an answer means."""
+    if not any(isinstance(stated, Interval) for stated in uncertainty.inputs.values()):
+        return (
+            "A range in brackets holds 95 percent of the propagation. The number before it is the answer for the inputs used "
+            "here, and not the mean of the propagation, which is too far from it for a ±."
+        )
+    held = "every value" if uncertainty.method == "interval" else "95 percent, wherever in the interval the truth lies"
+    return (
+        "A range in brackets is no ±: an interval is among the inputs, and of its values none is said to be likelier than "
+        f"another. The range holds {held}."
+    )
+
+
+def is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
+    """Whether an answer is the mean of its propagation, but for a tenth of the deviation: only then is it the middle of a ±."""
+    mean, std = ends_of(output.mean), ends_of(output.std)
+    value = attrgetter(name)(result)
+    if len(std) > 1 or value is None:
+        return False
+    off = abs(value - mean[0])
+    off = min(off, abs(off - math.tau)) if kind == "angle" else off
+    return not off > _OFF_CENTRE * std[0] or not varies(output, kind)
+
+
+def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
+    """Standard deviations in SI by result; or ranges, where the result is not the middle of a distribution."""
+    kinds = kinds_of_answers(result)
     known = {name.replace(".", "_"): name for name in kinds} | {name: name for name in kinds}
     if isinstance(uncertainty, Propagation):
         outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}
         if not outputs:
             raise _unknown(", ".join(uncertainty), kinds)
         # With an interval among the inputs there are two deviations, and neither includes the width of the interval.
-        deviations = {name: float(output.std) for name, output in outputs.items() if not isinstance(output.std, tuple)}
+        deviations = {name: float(output.std) for name, output in outputs.items() if is_mean(result, name, kinds[name], output)}
         return deviations, {name: output.interval() for name, output in outputs.items() if name not in deviations}
     if not isinstance(uncertainty, Mapping):
         raise InputError(

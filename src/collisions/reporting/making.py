@@ -16,7 +16,7 @@ import numpy as np
 from .. import plot
 from ..contact_effects import left_out
 from ..derivation.evidence import fit, momentum_inputs
-from ..derivation.explain import NOT_EXPLAINED, explain, impact_inputs, no_uncertainty
+from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_inputs, no_uncertainty
 from ..diagnostics import diagnose
 from ..document import Document
 from ..errors import InputError, ShapeError
@@ -169,6 +169,8 @@ def report(
     else:
         sections.posterior(sheet, impact)
     if uncertainty is not None:
+        if spread.ranges:
+            sheet.say(about_ranges(uncertainty))
         spread.write(sheet, uncertainty)
     if findings is not None:
         sections.findings(sheet, findings)

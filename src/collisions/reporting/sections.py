@@ -397,8 +397,6 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
     sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
-    if sheet.ranges:
-        sheet.say("A range in brackets comes from an interval among the inputs: no value in it is said to be likelier.")
 
 
 def _own_axes(sheet: Sheet, impact: Impact, of: str) -> Iterator[tuple[str, str, str]]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..derivation.explain import kinds_of_answers
+from ..derivation.explain import is_mean, kinds_of_answers
 from ..errors import InputError
 from ..formatting import SI_UNITS, with_decimals
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
-from ..uncertainty.result import NO_SPREAD, NOTHING, ends_of, figures, varies
+from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
 
 
@@ -30,14 +30,19 @@ class Spread:
 
     @property
     def deviations(self) -> dict[str, float]:
-        """Standard deviations by result; an output that depends on an interval has none, only a range."""
-        found = {name: ends_of(output.std) for name, output in self.outputs.items() if varies(output, self.kinds[name])}
-        return {name: std[0] for name, std in found.items() if len(std) == 1 and math.isfinite(std[0])}
+        """Standard deviations by result, of results that are the mean of their propagation."""
+        centred = {name: output for name, output in self.outputs.items() if name not in self.ranges}
+        found = {name: float(output.std) for name, output in centred.items() if varies(output, self.kinds[name])}
+        return {name: std for name, std in found.items() if math.isfinite(std)}
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
-        """The ranges of the outputs that depend on an interval."""
-        return {name: output.interval() for name, output in self.outputs.items() if len(ends_of(output.std)) > 1}
+        """The ranges of the other results, and of those that depend on an interval."""
+        return {
+            name: output.interval()
+            for name, output in self.outputs.items()
+            if not is_mean(self.impact, name, self.kinds[name], output)
+        }
 
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
