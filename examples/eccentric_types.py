@@ -59,7 +59,7 @@ for kind in TYPES:
 # away.
 
 # %%
-figure, axes = plt.subplots(2, 2, figsize=(13, 10), layout="constrained")
+figure, axes = plt.subplots(2, 2, figsize=(14, 12), layout="constrained")
 for kind, ax in zip(TYPES, axes.flat, strict=True):
     plot.scene(collide(kind, 0.5), outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
     ax.set_title(f"{kind}, friction 0.5")
@@ -70,9 +70,9 @@ for kind, ax in zip(TYPES, axes.flat, strict=True):
 # - Momentum, and angular momentum about a place far from the scene: what one body gives the other takes.
 # - Kinetic energy before less after is the energy lost.
 # - The contact points part with e times the speed at which they met (eq 16 of the paper).
-# - Without friction the contact feels the mass 1/(1/m_A + 1/m_B + r_A²/I_A + r_B²/I_B), as in textbooks of dynamics.
+# - Without friction the contact feels the mass $1/(1/m_A + 1/m_B + r_A^2/I_A + r_B^2/I_B)$, as in textbooks of dynamics.
 # - Two equal cars at equal speeds, half of the front, without friction: by symmetry each meets a wall, so the impulse is
-#   (1 + e) v/(1/m + r²/I), and both turn alike.
+#   $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
 #
 # Each side of a comparison is a sum of a few products; 1e-12 of the whole is a thousand times their rounding.
 

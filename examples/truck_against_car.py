@@ -68,8 +68,8 @@ right.legend()
 # - Angular momentum about the contact: the impulse has no lever there, so each body keeps its own.
 # - Kinetic energy before less after is the energy lost.
 # - A truck heavy without limit is a wall: the car has 1.3e-12 of the mass of the last truck, so 1e-11 leaves room.
-# - Centre against centre and plastic, as in any textbook: the delta-V of the car is m_truck/(m_truck + m_car) of the closing
-#   speed.
+# - Centre against centre and plastic, as in any textbook: the delta-V of the car is the closing speed times the mass of
+#   the truck over that of both.
 #
 # The first three to 1e-13 of what they are made of: a few products of floats.
 
