@@ -231,7 +231,7 @@ def ends(stated: Any) -> tuple[str, str]:
     low, high = (stated.low, stated.high) if isinstance(stated, uncertainty.Interval) else stated.support
     if math.isinf(high - low):
         low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
-    return f"{low!r} {stated.unit}", f"{high!r} {stated.unit}"
+    return f"{low!r} {stated.unit}".rstrip(), f"{high!r} {stated.unit}".rstrip()
 
 
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
