@@ -98,7 +98,7 @@ for case, test in solutions.TESTS.items():
 print(inspect.getsource(solutions.barrier_impact))
 row = solutions.barrier_rows()["CF11016"]
 impact, other = (solutions.barrier_impact(row, law) for law in ("brach", "kudlich-slibar"))
-print(f"{'CF11016, ' + row['vehicle']:<32}{'published':>10}{'brach':>9}   {'':<7}{'kudlich-slibar':>14}")
+print(f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   {'':<7}{'kudlich-slibar':>14}")
 for label, name, column, unit in (
     ("delta-V x, rearward", "delta_vx", "measured_delta_vx_ft_s_rearward", "ft/s"),
     ("delta-V y, size", "delta_vy", "measured_delta_vy_ft_s", "ft/s"),

@@ -168,7 +168,8 @@ def sources(cases: dict[str, Any]) -> str:
     lines = []
     for case in cases["cases"]:
         said = " ".join([f"Inputs: {case['inputs']}.", *case["notes"]] if case["inputs"] else case["notes"])
-        lines.append(f"- **{case['key']}**: {case['title']}. {said} Source: `{case['source']}`".replace("..", "."))
+        title = re.sub(r"^(\d{4} (?:BMW|[A-Z][a-z]+))(?=[A-Z\d])", r"\1 ", case["title"])  # "FordFusion" in the sheet
+        lines.append(f"- **{case['key']}**: {title}. {said} Source: `{case['source']}`".replace("..", "."))
     return "\n".join(lines)
 
 
