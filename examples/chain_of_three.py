@@ -2,8 +2,8 @@
 # # A chain of three cars, front to back
 #
 # The rear car runs up to the middle one and that up to the front one, which stands; the car after one impact is the car before
-# the next, until no car catches up with another. Two scenes differ in nothing but the gaps: these decide the order of the impacts,
-# and the order decides who is struck from which side, and how hard.
+# the next, until no car catches up with another. Two scenes differ in nothing but the gaps: these decide the order of the
+# impacts, and the order decides who is struck from which side, and how hard.
 
 # %%
 import itertools
