@@ -532,6 +532,7 @@ GOOD = ({"x": Normal(1.0, 0.5)}, {"x": (1.0, 0.1)})
         (identity, GOOD[0], {"x": Normal(1, 1, truncate=(0, None))}, {}, col.InputError, "bad_observation", "bounds belong to unknowns"),
         (identity, GOOD[0], {"x": Censored(low="3 deg", error="1 deg")}, {}, col.InputError, "bad_observation", "one bound; give both"),
         (identity, *GOOD, {"samples": 500}, col.InputError, "bad_option", "from 512"),
+        (identity, *GOOD, {"samples": None}, col.InputError, "bad_option", "from 512"),
         (identity, *GOOD, {"samples": 1.5}, col.InputError, "bad_option", "samples must be a whole number"),
         (identity, *GOOD, {"seed": -1}, col.InputError, "bad_option", "seed must be"),
         (identity, *GOOD, {"threads": 0}, col.InputError, "bad_option", "threads must be"),

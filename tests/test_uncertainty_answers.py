@@ -608,6 +608,7 @@ def test_quantiles(chained):
     assert type(found.quantile(0.3)) is float
     assert found.quantile(0.3) == np.quantile(found.values, 0.3)
     assert found.quantile(np.array([[0.1, 0.2]])).shape == (1, 2)
+    assert found.quantile(np.array([[[0.1, 0.2]]])).shape == (1, 1, 2)
     assert found.quantile_standard_error(np.array([[0.1, 0.2]])).shape == (1, 2)
     assert (found.quantile(0), found.quantile(1)) == (found.values.min(), found.values.max())
     with pytest.raises(ValueError, match="read-only"):

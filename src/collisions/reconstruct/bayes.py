@@ -109,7 +109,7 @@ def posterior(
     '0.977 +- 0.002'
     """
     check_options("monte_carlo", samples, None, seed, threads, progress)
-    if samples < _LEAST_SAMPLES:
+    if samples is None or samples < _LEAST_SAMPLES:
         raise InputError(
             f"samples must be a whole number from {_LEAST_SAMPLES}, got {shown(samples)}", code="bad_option", argument="samples"
         )

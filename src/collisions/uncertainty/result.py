@@ -330,7 +330,8 @@ class Sampled(Output):
 
     def _quantile(self, p: Any) -> Any:
         with np.errstate(all="ignore"):
-            found = np.quantile(self._answered, p)
+            # Raveled: numpy takes two dimensions at most.
+            found = np.quantile(self._answered, np.ravel(p)).reshape(np.shape(p))
         return found if found.ndim else float(found)
 
     def _shares(self) -> Shares:
