@@ -458,3 +458,12 @@ def test_a_case_in_us_units_is_answered_in_them(tmp_path, capsys):
     (tmp_path / "case.toml").write_text(text)
     assert main([str(tmp_path / "case.toml")]) == 0
     assert "30.0 mph" in capsys.readouterr().out
+
+
+def test_sliders_of_what_is_uncertain_stay_where_the_solver_can_go():
+    """Three deviations of a normal restitution reach below 0, where no slider may be."""
+    text = ECCENTRIC.replace("restitution = 0.1", 'restitution = "0.1 +/- 0.15"')
+    page = answers(read_text(text.encode())).what_if()
+    low, high = re.search('id="restitution" min="(.*?)" max="(.*?)"', page).groups()
+    assert float(low) == 0.0
+    assert float(high) == pytest.approx(0.55)

@@ -285,3 +285,19 @@ def test_a_refused_case_says_why_in_the_browser():
     assert col.Status.SEPARATING.sentence in page
     (row,) = answers(script(page), [[180.0]])
     assert row[0] == col.Status.SEPARATING
+
+
+def test_an_incomplete_impact_has_its_restitution_moved_below_zero():
+    """Where the solver takes it with ``incomplete=True``, the slider does; elsewhere it is refused as there."""
+    ranges = {"restitution": (-0.6, 0.3)}
+    scene = {"friction": 0.5, **SCENE}
+    page = what_if(col.eccentric(A, B, -0.2, incomplete=True, **scene), ranges)
+    names = list(results(IMPACT, {}))
+    for e, row in zip((-0.5, 0.25), answers(script(page), [[-0.5], [0.25]]), strict=True):
+        wanted = col.eccentric(A, B, e, incomplete=True, **scene)
+        at = dict(zip(names, row, strict=True))
+        assert at["status"] == wanted.status
+        assert at["energy_loss"] == pytest.approx(wanted.energy_loss, rel=1e-13)
+        assert at["a.delta_v"] == pytest.approx(wanted.a.delta_v, rel=1e-14)
+    with pytest.raises(col.InputError, match="restitution must be from 0 to 1"):
+        what_if(IMPACT, ranges)

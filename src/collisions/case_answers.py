@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -51,12 +52,12 @@ class Answers:
         """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
         one, found = self._one(), self.case.ranges
         if not isinstance(one, Impact):
-            text = "is of an impact with numbers; ask for it in a file with a solver of one, and the values found"
+            text = "moves the inputs of an impact, and this file has none; ask for it in a file with [eccentric] or the like"
             raise CaseError(("what_if", text))
         if not found:
             known = starts(one)
             named = ((_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items())
-            found = {name: ends(stated) for name, stated in named if name in known}
+            found = {name: ends(stated, *_limits(name)) for name, stated in named if name in known}
             if not found:
                 text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
                 raise CaseError(("what_if.ranges", text))
@@ -123,6 +124,12 @@ def _shares(output: Any) -> str:
         listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
         return f"Variance of {output.name}: {listed}"
     return ""
+
+
+def _limits(name: str) -> tuple[float, float]:
+    """Beyond these a slider would be refused, though a normal distribution reaches there."""
+    least = 0.0 if name in ("restitution", "friction", "critical_fraction", "speed_a", "speed_b") else -math.inf
+    return least, 1.0 if name in ("restitution", "critical_fraction") else math.inf
 
 
 def _slider(key: str) -> str:

@@ -226,11 +226,15 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     return uncertainty.Normal.between(low, high, coverage)
 
 
-def ends(stated: Any) -> tuple[str, str]:
-    """The range of an uncertain number as texts: its bounds, or three standard deviations to either side within them."""
+def ends(stated: Any, least: float, most: float) -> tuple[str, str]:
+    """The range of an uncertain number as texts: its bounds, or three standard deviations to either side within them.
+
+    Never below ``least`` nor above ``most``.
+    """
     low, high = (stated.low, stated.high) if isinstance(stated, uncertainty.Interval) else stated.support
     if math.isinf(high - low):
         low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
+    low, high = max(low, least), min(high, most)
     return f"{low!r} {stated.unit}".rstrip(), f"{high!r} {stated.unit}".rstrip()
 
 

@@ -18,7 +18,7 @@ from .errors import InputError, Status
 from .formatting import SI_UNITS, UnitSystem, decimals_of, number_with_unit, scale_of, typeset, unit_of
 from .impact import Impact, build
 from .kernels.contact_laws import RULES
-from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, RESTITUTION
+from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
 from .kernels.javascript import javascript
 from .models import BY_NAME, MODELS, model_of
 from .plot.canvas import who
@@ -38,7 +38,7 @@ _BODY = {
     "yaw_inertia": "inertia", "x": "length", "y": "length", "heading": "angle",
 }  # fmt: skip
 _DOMAINS = {
-    "restitution": RESTITUTION, "speed": NOT_NEGATIVE, "mass": POSITIVE, "yaw_inertia": POSITIVE,
+    "speed": NOT_NEGATIVE, "mass": POSITIVE, "yaw_inertia": POSITIVE,
     **{name: rule.domain for name, rule in RULES.items()},
 }  # fmt: skip
 _WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
@@ -192,7 +192,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             refuse(f"{shown(name)} is no input of this {impact.model} that could be moved; take some of {', '.join(known)}")
             continue
         count = len(reader.problems)
-        numbers = [_end(reader, name, end) for end in ends] if isinstance(ends, (tuple, list)) else []
+        numbers = [_end(reader, name, end, impact) for end in ends] if isinstance(ends, (tuple, list)) else []
         if len(reader.problems) > count:
             continue
         if len(numbers) != 2 or not all(isinstance(end, float) and math.isfinite(end) for end in numbers):
@@ -222,13 +222,14 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
     return found
 
 
-def _end(reader: ArgumentReader, name: str, given: Any) -> Any:
+def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
     """One end of a range, in degrees or SI."""
     kind = _kind(name)
     if kind == "angle":
         value, in_degrees = reader.angle(given, name)
         return value if in_degrees else _TO_DEGREES * value
-    domain = _DOMAINS.get(name if name in _CONTACT else name[:-2], FINITE)
+    domains = _DOMAINS | {"restitution": restitution_domain(impact.inputs.incomplete)}
+    domain = domains.get(name if name in _CONTACT else name[:-2], FINITE)
     return reader.number(given, SI_UNITS[kind], name, domain)
 
 
