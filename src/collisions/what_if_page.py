@@ -216,7 +216,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             )
             refuse(text, code="speed_twice")
         if moving == ["speed"] and math.isnan(known.get(f"course_{label}", 0.0)):
-            text = f"{label} stands, and its course is not known; give course_{label} a range too"
+            text = f"{label} is at rest, so its course is not known; give course_{label} a range too"
             refuse(text, f"course_{label}", "missing_course")
     reader.close()
     return found
