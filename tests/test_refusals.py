@@ -333,7 +333,7 @@ def nested(depth):
     return found
 
 
-@pytest.mark.parametrize("given", [Unshowable(), nested(5000)], ids=["unshowable", "nested"])
+@pytest.mark.parametrize("given", [Unshowable(), nested(5000), np.array(["x", "y"])], ids=["unshowable", "nested", "array"])
 @pytest.mark.parametrize(
     "call",
     [
@@ -352,6 +352,6 @@ def nested(depth):
     ],
 )
 def test_a_message_survives_what_cannot_be_shown(call, given):
-    """The refusal is the library's own, whatever the object does when it is printed."""
+    """The refusal is the library's own, whatever the object does when it is printed or compared."""
     with pytest.raises(col.InputError):
         call(given)

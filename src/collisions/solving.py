@@ -47,7 +47,7 @@ def solve_inputs(
 
     With ``carrying``, motion that the model cannot represent is passed on unchanged, not refused.
     """
-    if on_failure is not None or progress is not None or threads != 1 or type(threads) is not int:
+    if on_failure is not None or progress is not None or type(threads) is not int or threads != 1:
         check_options(on_failure, threads, progress)
     if model is TIME_RESOLVED:
         return _solve_in_time(inputs, on_failure, threads, progress)
