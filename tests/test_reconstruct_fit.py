@@ -896,7 +896,7 @@ def test_a_few_cases_are_called_again_alone(monkeypatch):
         (lambda x: {"x": math.sqrt(x)}, *GOOD, col.InputError, "bad_model", "numpy in place of math"),
         (lambda x: {"x": x - x.mean() + 5.0}, {"x": Interval(0, 10)}, {"x": (5, 1)}, col.InputError, "bad_model", "model mixes cases: among 192 cases"),
         (lambda x: {"x": x - x.mean() + 5.0}, {"x": 4.0}, {"x": (5, 1)}, col.InputError, "bad_model", "In place of what is taken over all"),
-        (lambda x: {"x": x * x.max()}, {"x": Normal(2, 1)}, {"x": (5, 1)}, col.InputError, "bad_model", "for that case alone"),
+        (lambda x: {"x": x * x.max()}, {"x": Normal(2, 1)}, {"x": (5, 1)}, col.InputError, "bad_model", "for that case among 4 of them"),
         (lambda x: {"x": x + RANDOM.normal(size=x.shape)}, *GOOD, col.InputError, "bad_model", "Random numbers drawn in the model"),
         (lambda x: {"x": np.gradient(x)}, *GOOD, col.InputError, "bad_model", "among others, but not alone"),
         (lambda x: {"x": 1.0 if x > 0 else 2.0}, *GOOD, col.InputError, "bad_model", r"arrays of 2 cases for x.*numpy.where in place of if"),

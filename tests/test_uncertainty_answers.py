@@ -153,7 +153,7 @@ def test_an_interrupt_returns_what_is_done(monkeypatch, method, threads, where):
         return SCENES["rear_end"][0](**inputs)
 
     def model(**inputs):
-        if len(inputs["speed"]) == 1:  # asked again alone
+        if len(inputs["speed"]) < 10:  # asked again
             return SCENES["rear_end"][0](**inputs)
         with lock:
             call = next(calls)
@@ -213,7 +213,7 @@ def test_an_interrupt_from_the_keyboard(monkeypatch):
     calls = []
 
     def model(x):
-        if len(x) > 1:  # not where it is asked again alone
+        if len(x) > 10:  # not where a few are asked again
             calls.append(None)
         if len(calls) == 3:
             signal.raise_signal(signal.SIGINT)
@@ -233,7 +233,7 @@ def test_a_model_that_fails_on_a_thread():
     """Its own error, not a hang nor a partial answer."""
 
     def model(x):
-        if len(x) > 1 and x[0] != first:
+        if len(x) > 10 and x[0] != first:
             raise ZeroDivisionError("mine")
         return {"y": x}
 

@@ -194,7 +194,7 @@ def probability(given: Any, argument: str = "p") -> Any:
     """A probability or an array of them, as float64; texts and Quantities are refused."""
     reader = ArgumentReader()
     found = _plain_number(reader, given, argument)
-    if reader.problems or not np.all((found >= 0.0) & (found <= 1.0)):
+    if reader.problems or not (np.min(found, initial=0.0) >= 0.0 and np.max(found, initial=1.0) <= 1.0):
         raise InputError(
             f"{argument} must be a probability from 0 to 1, got {shown(given)}", code="bad_fraction", argument=argument
         )
@@ -208,7 +208,7 @@ def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
             InputError(f"{argument} must be a plain number, got {shown(given)}", code="not_a_number", argument=argument)
         )
     found = reader.number(given, "", argument, UNCHECKED)
-    return found.astype(np.float64) if isinstance(found, np.ndarray) else found
+    return found.astype(np.float64, copy=False) if isinstance(found, np.ndarray) else found
 
 
 def show(value: Any, unit: str) -> str:

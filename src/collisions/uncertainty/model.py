@@ -19,7 +19,7 @@ from .distributions import pair_hints
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
-_COMPARED_CASES = 5  # cases solved again: a call costs as much as some hundred cases, so more would be felt in a run of 8192
+_LOW_CASES = 4  # asked again together: as alone, a threshold of those few divides them
 # Of the width of the middle half of the answers: an iteration that goes on until every case has converged ends a little
 # differently for one case. A smaller difference, whatever its cause, changes no digit that anyone reads.
 _UNNOTICED = 1e-6
@@ -48,12 +48,12 @@ class Model:
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
         """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
-        The first time, a few cases are asked again one by one. ``check=False`` leaves that to another call: of calls from
+        The first time, a few cases are asked again by themselves. ``check=False`` leaves that to another call: of calls from
         several threads always the same one is to do it.
         """
         found = self._answers(values, count)
         if check and not self._checked:
-            self._checked = check_elementwise(lambda case: self._answers(case, 1), values, found)
+            self._checked = check_elementwise(self._answers, values, found)
         return found
 
     def _answers(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
@@ -125,56 +125,101 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
 
 
 def check_elementwise(
-    answer: Callable[[Mapping[str, Any]], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
+    answer: Callable[[Mapping[str, Any], int], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
 ) -> bool:
-    """Raise if the model treats a case differently alone than among others; False if these cases cannot show it.
+    """Raise if the model treats cases differently by themselves than among others; False if these cases cannot show it.
 
-    ``answer`` takes a case as arrays of one. Cases that are all the same show nothing, those without an answer little, and
+    ``answer`` takes some cases and their number. Cases that are all the same show nothing, those without an answer little, and
     those in rising order no sort.
     """
     if not any(np.any(column != column[0]) for column in values.values()):
         return False
+    total = len(next(iter(answers.values())))
     compared = False
-    for i in _revealing_cases(answers):
-        case = {name: column[i : i + 1].copy() for name, column in values.items()}
-        listed = ", ".join(f"{name} = {float(value[0]):.9g}" for name, value in case.items())
-        answered = any(not math.isnan(column[i]) for column in answers.values())
+    for places in _revealing_cases(answers):
+        cases = _cases(values, places)
+        answered = not all(np.isnan(column[places]).all() for column in answers.values())
+        company = "alone" if len(places) == 1 else f"among {len(places)} of them"
         try:
-            found = answer(case)
+            found = answer(cases, len(places))
         except Exception as error:
             if not answered:
                 continue
             raise _bad_model(
-                f"model answers a case ({listed}) among others, but not alone, as arrays of one number: "
-                f"{described(error.__cause__ or error)}. Every case must be worked out by itself, however many there are"
+                f"model answers a case ({_numbers_of(cases)}) among others, but not {company}, as arrays of "
+                f"{'one number' if len(places) == 1 else f'{len(places)} numbers'}: {described(error.__cause__ or error)}. "
+                f"Every case must be worked out by itself, however many there are"
             ) from error
         compared |= answered
         for name, column in answers.items():
-            batched, single = float(column[i]), float(found[name][0])
-            if not _agree(batched, single, column):
-                batched_text, single_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (batched, single))
+            for place, few in zip(places, found[name].tolist(), strict=True):
+                many, case = float(column[place]), _cases(values, [place])
+                if _agree(many, few, column) or _jumps(answer, values, place, name, (many, few), column):
+                    continue
+                batched_text, single_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (many, few))
                 raise _bad_model(
-                    f"model mixes cases: among {len(column)} cases it answers {name!r} with {batched_text} for {listed}, and "
-                    f"with {single_text} for that case alone. Every case must be worked out by itself. In place of what is "
-                    f"taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the whole "
-                    f"array, write a number into the model, or numpy.where. Random numbers drawn in the model do this too: "
-                    f"give what is random as an argument of its own, with its distribution",
+                    f"model mixes cases: among {total} cases it answers {name!r} with {batched_text} for {_numbers_of(case)}, "
+                    f"and with {single_text} for that case {company}. Every case must be worked out by itself. In place of "
+                    f"what is taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the "
+                    f"whole array, write a number into the model, or numpy.where. Random numbers drawn in the model do this "
+                    f"too: give what is random as an argument of its own, with its distribution",
                     output=name,
                 )
     return compared and any(np.any(column[1:] < column[:-1]) for column in values.values())
 
 
-def _revealing_cases(answers: Mapping[str, Any]) -> list[int]:
-    """Cases likely to reveal mixing: the last, those of the greatest and least outputs, two without, and the middle."""
-    count = len(next(iter(answers.values())))
-    found = [count - 1]
+def _revealing_cases(answers: Mapping[str, Any]) -> list[list[int]]:
+    """Cases to ask again, those of each list in one call: the greatest output, a few of the least, and two without, alone.
+
+    The ends differ most from all cases together, each in its own way: alone, a case is its own mean and its own extreme; among
+    the least, there is none of the great ones. A call costs as much as some hundred cases, so there are few.
+    """
+    found: list[list[int]] = []
     refused: list[int] = []
     for column in answers.values():
         missing = np.flatnonzero(np.isnan(column))
         refused += missing[[0, -1]].tolist() if missing.size else []
-        if missing.size < column.size:
-            found += [int(np.nanargmax(column)), int(np.nanargmin(column))]
-    return list(dict.fromkeys([*found[:3], *refused[:2], count // 2]))[:_COMPARED_CASES]
+        if not found and missing.size < column.size:
+            few = max(1, min(_LOW_CASES, (column.size - missing.size) // 2))
+            # Backwards, so that what goes on from case to case begins elsewhere.
+            least = np.sort(np.argpartition(column, few - 1)[:few])[::-1]
+            found = [[int(np.nanargmax(column))], least.tolist()]
+    return found + [[place] for place in dict.fromkeys(refused[:2])]
+
+
+def _jumps(
+    answer: Callable[[Mapping[str, Any], int], Mapping[str, Any]],
+    values: Mapping[str, Any],
+    place: int,
+    name: str,
+    answers: tuple[float, float],
+    column: Any,
+) -> bool:
+    """Whether the model jumps at a case: alone, and a few roundings away, it has both answers, and the same when asked again.
+
+    For many cases numpy may take another path than for few, whose last bits differ; at a jump they decide.
+    """
+    many, few = answers
+    case = _cases(values, [place])
+
+    def alone(**moved: Any) -> float:
+        return float(answer({**{key: value.copy() for key, value in case.items()}, **moved}, 1)[name][0])
+
+    try:
+        if not all(_agree(few, alone(), column) for _ in range(2)):
+            return False
+        moves = {key: _ROUNDINGS * float(np.max(np.abs(value))) for key, value in values.items()}
+        return any(_agree(many, alone(**{key: case[key] + by}), column) for key in moves for by in (moves[key], -moves[key]))
+    except Exception:
+        return False
+
+
+def _cases(values: Mapping[str, Any], places: list[int]) -> dict[str, Any]:
+    return {name: column[places] for name, column in values.items()}
+
+
+def _numbers_of(cases: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name} = {float(value[0]):.9g}" for name, value in cases.items())
 
 
 def _agree(batched: float, single: float, answers: Any) -> bool:

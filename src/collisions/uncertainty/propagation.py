@@ -75,10 +75,10 @@ def propagate(
     ----------
     model : function
         ``model(**inputs)`` returns a dict of named outputs: arrays of one number a case, or Quantities. Each case is worked out
-        by itself: a few are asked again alone, and a model that then answers otherwise is refused. Refused cases are NaN,
-        which solvers give with ``on_failure="nan"``. Booleans count as 0 and 1, so that a mean is a probability. Angles with
-        their unit that all lie from -pi to pi are directions, counted round the circle about their mean, see ``Output``;
-        return a rotation as a plain number.
+        by itself: a few are asked again without the others, and a model that then answers otherwise is refused. Refused cases
+        are NaN, which solvers give with ``on_failure="nan"``. Booleans count as 0 and 1, so that a mean is a probability.
+        Angles with their unit that all lie from -pi to pi are directions, counted round the circle about their mean, see
+        ``Output``; return a rotation as a plain number.
     inputs : dict
         By name ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval``, or a fixed value. Numbers
         reach the model in SI, without their unit.
