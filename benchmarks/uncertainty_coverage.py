@@ -116,7 +116,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
     restitutions = drawn({"restitution": PRIOR}, generator, count)["restitution"]
     held = dict.fromkeys(unknowns, 0)
     errors: dict[str, list[float]] = {name: [] for name in unknowns}
-    answered = nonlinear = contradicted = 0
+    answered = rough = contradicted = 0
     for turn in range(count):
         truth = {name: float(generator.uniform(*ends)) for name, ends in FITTED.items()}
         truth["restitution"] = float(restitutions[turn])
@@ -131,7 +131,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
                 continue
         answered += 1
         contradicted += "contradictory" in codes
-        nonlinear += "not_linear" in codes
+        rough += not {"not_linear", "told_by_bounds"}.isdisjoint(codes)
         for name, true in truth.items():
             low, high = found[name].interval(0.95)
             held[name] += low <= true <= high
@@ -140,7 +140,7 @@ def fitted(fit: Callable[..., Any], case: str, count: int) -> dict[str, Any]:
         "key": case,
         "scenes": count,
         "answered": answered,
-        "not_linear": nonlinear,
+        "rough": rough,
         "contradictory": contradicted,
         "held": held,
         "standard_error": {name: rounded(float(np.median(each))) for name, each in errors.items()},

@@ -297,10 +297,10 @@ def fit(found: dict[str, Any]) -> str:
                     f"{row['answered']} of {row['scenes']}",
                     f"{100.0 * held / row['answered']:.1f} % ({100.0 * low:.1f} to {100.0 * high:.1f})",
                     f"{row['standard_error'][unknown]:.2g}",
-                    f"{100.0 * row['not_linear'] / row['answered']:.0f} %",
+                    f"{100.0 * row['rough'] / row['answered']:.0f} %",
                 ]
             )
-    head = ["evidence", "unknown", "answered", "held the truth", "median standard error", "warned that it is not linear"]
+    head = ["evidence", "unknown", "answered", "held the truth", "median standard error", "warned that its errors are rough"]
     return table(head, lines).replace("| --- | ---: |", "| --- | --- |", 1)
 
 

@@ -307,7 +307,9 @@ def fits():
     yield reconstruct.fit(line, {"start": "0 m", "speed": "1 m/s"}, observed)
     yield reconstruct.fit(line, {"start": uncertainty.Normal("1.5 m", "0.2 m"), "speed": "1 m/s"}, observed)
     ends = {"start": uncertainty.Interval("-3 m", "1.05 m"), "speed": uncertainty.Interval("0 m/s", "9 m/s")}
-    yield reconstruct.fit(line, ends, observed)
+    with pytest.warns(col.IllConditionedWarning, match="start ended on its high bound"):
+        found = reconstruct.fit(line, ends, observed)
+    yield found
     courses = {NAME: ("179 deg", "2 deg"), "mark": ("-178 deg", "2 deg"), "impulse": (25e3, 2e3)}
     yield reconstruct.fit(
         lambda course, p: {NAME: course, "mark": course, "impulse": p}, {"course": "-179 deg", "p": 24e3}, courses

@@ -208,8 +208,8 @@ def test_intervals_of_a_fit_hold_at_their_rate(committed):
     assert known["answered"] == known["scenes"] >= 500
     for held in known["held"].values():
         assert abs(held / known["answered"] - 0.95) < RARE * math.sqrt(0.95 * 0.05 / known["answered"])
-    assert known["not_linear"] < 0.1 * known["answered"]
-    assert open_["not_linear"] > 0.5 * open_["answered"]
+    assert known["rough"] < 0.1 * known["answered"]
+    assert open_["rough"] > 0.5 * open_["answered"]
     assert all(open_["standard_error"][name] > 2.0 * known["standard_error"][name] for name in ("speed_a", "restitution"))
 
 

@@ -216,11 +216,6 @@ def fit(page: Page, found: Fit) -> None:
     ratios = [_residual(page, found, number, name) for number, name in enumerate(found.residuals, 1)]
     chi_squared = Symbol(r"\chi^2", found.chi_squared, "number")
     page.equation("Chi-squared, which the answer makes least", chi_squared, total(*(ratio.squared() for ratio in ratios)))
-    searches = found.searches
-    page.say(
-        f"Searches that ended here: {searches['here']} of {searches['starts']}; at another minimum: "
-        f"{searches['elsewhere']}; where the model refuses: {searches['refused']}; at no minimum: {searches['without_end']}."
-    )
     page.listed([page.name(sentence) + "." for sentence in found.statements])
     page.heading("Answers")
     page.table([row for name in found.names for row in _unknown(page, found, name)])

@@ -4,44 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, NoSolutionError, SuspectUnitsWarning
+from ..errors import AmbiguousSolutionError, NoSolutionError
 from ..quantities import lock
 from ..settings import in_si
-from ..warning import warn
-from .fit_candidate import SAME_CHI_SQUARED, Candidate, ended_at, examined
 from .fit_problem import FitInputs, read_fit_inputs
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
-from .least_squares import (
-    AT_REFUSAL,
-    CONVERGED,
-    REFUSED,
-    SEARCHING,
-    STALLED,
-    Ends,
-    Problem,
-    chi_squared_tail,
-    minimise,
-    spread,
-)
+from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise
 from .observations import listed, refused_everywhere
 
 _STARTS = 64
 _FEW = 2  # searches that ended at the best, among more: there may be a better one
-_OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
+_SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
-_APART = 1.0  # standard errors
-_AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
-
-_WHY_NO_MINIMUM = {
-    STALLED: "there the model has a jump or a bend (a contact that begins to stick, an angle without unit that goes round), so "
-    "that no error can be given",
-    AT_REFUSAL: "beyond it the model refuses (the bodies no longer meet, for one)",
-    SEARCHING: "the search was still going down",
-}
+_AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
+_TWO_ERRORS = 2.0
+_OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
+_LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
+_FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
+_STEP_ROUNDS = 4
+_MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
@@ -50,9 +37,9 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the observations and over what was known
     before, is made least within the bounds (Levenberg-Marquardt from 64 starts spread over what was known). The covariance is
     that of the slopes of the model at the answer and of the errors as stated; it is not scaled by the misfit. It holds where
-    the errors of the observations are normal and independent and the model bends little within two standard errors, which
-    is tried and warned of. Where one answer with such errors does not describe what the evidence says, this refuses or warns:
-    ``posterior`` answers then, whatever the priors and however the model bends.
+    the errors of the observations are normal and independent, the model bends little within two standard errors and no bound
+    is near. Where one value with such an error does not describe what the evidence says, this refuses or warns: ``posterior``
+    answers then, whatever the priors and however the model bends.
 
     Parameters
     ----------
@@ -85,14 +72,13 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         are in ``solutions``. So it is with a friction that slides, or sticks whatever its value.
     NoSolutionError
         The model refuses at every start (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point
-        of the model, such as no restitution where only its square matters: no error can be given there; or at most two of the
-        searches ended there, so that a better answer may have been missed (code "no_convergence").
+        of the model, where no error can be given, or where at most two of the searches ended (code "no_convergence").
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown, or less than its bounds do; or the model bends, or refuses, within two standard errors of
-        the answer.
+        Nothing determines an unknown; it ended on a bound, or its bounds say more than the evidence; or the model bends, or
+        refuses, within two standard errors of the answer.
     SuspectUnitsWarning
         A bare observation that differs by more than half a turn from what is computed, both within it: perhaps an angle.
     CollisionsWarning
@@ -120,14 +106,13 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     with np.errstate(all="ignore"):
         inputs = read_fit_inputs(model, unknowns, observed)
         problem = inputs.problem()
-        starts = spread(_STARTS, *inputs.box)
-        starts[0] = inputs.numbers_of("start")
-        ends = minimise(problem, starts)
-        if np.all(ends.state == REFUSED):
+        ends = minimise(problem, inputs.starts(_STARTS))
+        if np.all(np.isinf(ends.chi_squared)):
             raise _refused_everywhere(inputs)
-        best = examined(inputs, problem, ends, _lowest(ends))
+        # The least misfit, or one that is as good where a search converged.
+        best = _examined(inputs, problem, ends, int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)))
         _check_minimum(best, ends)
-        fits = [_answer(candidate, ends) for candidate in _rivals(problem, ends, best)]
+        fits = [_answer(one) for one in _rivals(best, ends)]
         if len(fits) > 1:
             raise _ambiguous(fits)
         found = fits[0]
@@ -135,8 +120,125 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
             # For the warnings that the model itself gives there.
             with in_si():
                 inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
-    _warn_of(found)
+    warn_of(notes_of(found))
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Candidate:
+    """The point where a search ended, with step sizes that suit it."""
+
+    inputs: FitInputs
+    problem: Problem
+    point: Any
+    outputs: Any
+    slopes: Any
+    chi_squared: float
+    converged: bool
+
+    @cached_property
+    def determination(self) -> Determination:
+        """The covariance of the unknowns by the slopes."""
+        return self.determination_of(np.ones(len(self.point), dtype=bool))
+
+    def determination_of(self, chosen: Any) -> Determination:
+        """The determination of the chosen unknowns by the slopes, with the others fixed."""
+        scale = np.where(self.only_a_start, np.maximum(self.problem.scale, abs(self.point)), self.problem.scale)[chosen]
+        is_prior, steps = np.array([row.is_prior for row in self.inputs.rows]), self.problem.steps(self.point)[chosen]
+        return determination(self.slopes[:, chosen], is_prior, scale, self.outputs, steps)
+
+    @property
+    def only_a_start(self) -> Any:
+        """For each unknown, whether its scale is only a guide for where to start."""
+        return np.isinf(self.problem.low) & np.isinf(self.problem.high) & ~self.inputs.numbers_of("prior")
+
+    @property
+    def errors(self) -> Any:
+        """Standard errors; infinite for unknowns that are not identified."""
+        return np.sqrt(np.diagonal(self.determination.covariance))
+
+    @property
+    def free(self) -> Any:
+        """For each unknown, whether it is off its bounds; one that is not identified counts as off."""
+        at_bound = (self.point <= self.problem.low) | (self.point >= self.problem.high)
+        return ~(np.isfinite(self.errors) & at_bound)
+
+    @cached_property
+    def moves(self) -> tuple[Any, Any]:
+        """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit rises there, in sigma.
+
+        The others move along within theirs as the slopes say, those here and then those there.
+        """
+        covariance = self.determination_of(self.free).covariance
+        known = np.isfinite(np.diagonal(covariance))
+        which, covariance = np.flatnonzero(self.free)[known], covariance[np.ix_(known, known)]
+        if not which.size:
+            return np.zeros((2, 0)), np.zeros((2, 0))
+        errors = np.sqrt(np.diagonal(covariance))
+        ways = np.zeros((len(which), len(self.point)))
+        ways[:, which] = covariance / errors[:, np.newaxis]
+        room = np.stack([self.problem.high[which] - self.point[which], self.point[which] - self.problem.low[which]])
+        far = np.minimum(room / errors, _TWO_ERRORS)
+        points = (self.point + (far * np.array([[1.0], [-1.0]]))[..., np.newaxis] * ways).reshape(-1, len(self.point))
+        within = np.clip(points, self.problem.low, self.problem.high)
+        outputs, slopes = self.problem.with_slopes(within)
+        fixed = ~self.free | (within != points) | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
+        slopes = np.where(fixed[:, np.newaxis] | np.isnan(slopes), 0.0, slopes * self.problem.scale)
+        misfit = self.problem.misfit(outputs)[..., np.newaxis]
+        misfit = misfit - slopes @ (np.linalg.pinv(slopes, _FLAT_SHARE) @ misfit)
+        rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
+        return far, np.sqrt(np.maximum(rise, 0.0)).reshape(2, -1)
+
+    @property
+    def nonlinearity(self) -> float:
+        """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses within two errors.
+
+        Of a straight model the misfit rises by as many sigma as an unknown is moved in standard errors.
+        """
+        far, risen = self.moves
+        compared = ~(np.fmax(far, risen) <= _LEAST_MOVE)
+        return float(np.max(abs(far / risen - 1.0)[compared], initial=0.0))
+
+    def turns_round(self, ends: Ends) -> bool:
+        """Whether the searches agree in an unknown of which slopes tell nothing: its misfit turns there."""
+        here = ends.points[_ended_at(ends, self.chi_squared)]
+        return len(here) > 0 and bool(np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale)))
+
+    def overstates_errors(self) -> bool:
+        """Whether an error is far too large wherever its unknown has room: its slope vanishes nearby."""
+        far, risen = self.moves
+        over = (risen > _TWO_ERRORS) & (risen > _OVERSTATED * far)
+        return bool(np.any(np.all(over | (far < _LEAST_MOVE), axis=0) & np.any(over, axis=0)))
+
+    def is_apart(self, point: Any) -> bool:
+        """Whether a point is more than a standard error away in what the evidence determines here."""
+        way = point - self.point
+        turning = np.array([unknown.unit == "rad" for unknown in self.inputs.unknowns.values()])
+        known, way = np.isfinite(self.errors), np.where(turning, (way + np.pi) % (2.0 * np.pi) - np.pi, way)
+        size = self.errors[known]
+        precision = np.linalg.pinv(self.determination.covariance[np.ix_(known, known)] / np.outer(size, size), hermitian=True)
+        return bool((way[known] / size) @ precision @ (way[known] / size) > 1.0)
+
+
+def _examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> _Candidate:
+    """The candidate where search k ended, refined with difference steps that suit it rather than the bounds or the start."""
+    found = _Candidate(inputs, problem, *(part[k] for part in ends))
+    most = np.where(found.only_a_start, math.inf, 10.0 * problem.scale)
+    for _ in range(_STEP_ROUNDS):
+        size = np.clip(abs(found.point), np.minimum(0.1 * problem.scale, _MOST_STEPS * found.errors), most)
+        if np.all(abs(np.log2(size / found.problem.sizes(found.point))) < 1.0):
+            break
+        finer = problem._replace(size=size)
+        again = minimise(finer, found.point[np.newaxis])
+        if not again.chi_squared[0] <= found.chi_squared + _SAME_CHI_SQUARED:
+            break
+        found = _Candidate(inputs, finer, *(part[0] for part in again))
+    return found
+
+
+def _ended_at(ends: Ends, chi_squared: float) -> Any:
+    """Which searches ended at a minimum of this misfit."""
+    return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
 
 
 def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
@@ -152,78 +254,50 @@ def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
     )
 
 
-def _lowest(ends: Ends) -> int:
-    """The search with the least misfit, or a converged one that is as good."""
-    lowest = int(np.argmin(ends.chi_squared))
-    best = int(np.argmin(np.where(ends.state == CONVERGED, ends.chi_squared, np.inf)))
-    as_good = ends.chi_squared[best] <= ends.chi_squared[lowest] + SAME_CHI_SQUARED
-    return best if ends.state[best] == CONVERGED and as_good else lowest
+def _check_minimum(best: _Candidate, ends: Ends) -> None:
+    """Raise if one value and its error do not describe the least misfit that was found."""
+    if not best.converged or best.problem.has_kink(best.point) or best.turns_round(ends) or best.overstates_errors():
+        why = "where the model jumps, bends, turns round or refuses, so that its slopes give no error"
+    elif np.count_nonzero(_ended_at(ends, best.chi_squared)) <= _FEW < np.count_nonzero(np.isfinite(ends.chi_squared)):
+        why = f"where few of the {_STARTS} searches ended, so that a better answer may lie between them"
+    else:
+        return
+    at = dict(zip(best.inputs.unknowns, best.point.tolist(), strict=True))
+    raise NoSolutionError(
+        f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. reconstruct.posterior answers "
+        f"there too, with a range; or narrow the bounds to one side of it, or give a prior (a Normal)",
+        code="no_convergence",
+        chi_squared=float(best.chi_squared),
+        at=at,
+    )
 
 
-def _check_minimum(best: Candidate, ends: Ends) -> None:
-    """Raise if the misfit is least at a point that is not a minimum of a smooth model."""
-    why, here = _WHY_NO_MINIMUM.get(best.state), ended_at(ends, best.chi_squared)
-    if why is None and best.problem.has_kink(best.point):
-        why = _WHY_NO_MINIMUM[STALLED]
-    if why is None and (best.turns_round(ends) or best.overstates_errors(_OVERSTATED)):
-        why = "there the model turns round, so that its slopes give no error"
-    if why is None and np.count_nonzero(here) <= _FEW < np.count_nonzero(ends.state != REFUSED):
-        why = f"few of the {_STARTS} searches ended there, so that a better answer may lie between them"
-    if why is not None:
-        at = dict(zip(best.inputs.names, best.point.tolist(), strict=True))
-        raise NoSolutionError(
-            f"no search ended at a minimum that can be relied on: the least misfit found is chi-squared "
-            f"{best.chi_squared:.6g} at {listed(at)}, and "
-            f"{why}. reconstruct.posterior answers there too, with a range; or narrow the bounds to one side of it, or give a "
-            f"prior of it (a Normal), or fewer unknowns",
-            code="no_convergence",
-            chi_squared=float(best.chi_squared),
-            at=at,
-        )
-
-
-def _rivals(problem: Problem, ends: Ends, best: Candidate) -> list[Candidate]:
-    """The best solution, and others that the evidence does not exclude although the errors of the best do.
-
-    Apart are those beyond one standard error in what the better one determines; what it does not is not in the other either.
-    """
-    near = np.flatnonzero((ends.state == CONVERGED) & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
-    turning = np.array([unknown.unit == "rad" for unknown in best.inputs.unknowns.values()])
-    found = [(best, _precision(best.determination.covariance))]
+def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
+    """The best candidate, and others apart from it that the evidence does not exclude although the errors of the best do."""
+    found = [best]
+    near = np.flatnonzero(ends.converged & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
-        for one, precision in found:
-            way = ends.points[k] - one.point
-            way = np.where(turning, (way + np.pi) % (2.0 * np.pi) - np.pi, way)
-            if way @ precision @ way <= _APART**2:
-                break
-        else:
-            rival = examined(best.inputs, problem, ends, k)
-            if _is_minimum(rival):
-                found.append((rival, _precision(rival.determination.covariance)))
-    return [one for one, _ in found]
+        if all(one.is_apart(ends.points[k]) for one in found):
+            rival = _examined(best.inputs, best.problem._replace(size=None), ends, k)
+            found += [] if rival.turns_round(ends) else [rival]
+    return found
 
 
-def _is_minimum(found: Candidate) -> bool:
-    """Whether searches started around the point do not leave it; they do leave a ridge that one search met exactly."""
-    away = np.minimum(_NUDGE * found.problem.scale, found.errors)
-    again = minimise(found.problem, found.point + spread(_AROUND, -away, away))
-    return bool(np.min(again.chi_squared) >= found.chi_squared - SAME_CHI_SQUARED)
+def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
+    answers = "; ".join(f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits)
+    return AmbiguousSolutionError(
+        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; reconstruct.posterior says how "
+        f"probable each is; or narrow the bounds of an unknown to one, or add an observation that tells them apart",
+        code="ambiguous",
+        solutions=tuple(fits),
+    )
 
 
-def _precision(covariance: Any) -> Any:
-    """The inverse of the covariance of the identified unknowns, 0 for the others."""
-    known = np.isfinite(np.diagonal(covariance))
-    size = np.where(known, np.sqrt(np.diagonal(covariance)), np.inf)
-    correlation = np.where(np.outer(known, known), covariance, 0.0) / np.outer(size, size)
-    return np.linalg.pinv(correlation, hermitian=True) / np.outer(size, size)
-
-
-def _answer(found: Candidate, ends: Ends) -> Fit:
+def _answer(found: _Candidate) -> Fit:
     """The ``Fit`` of a candidate."""
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
-    names = inputs.names
+    names, identified = tuple(inputs.unknowns), np.isfinite(found.errors).tolist()
     units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
-    identified = np.isfinite(found.errors).tolist()
     over_sigma = -problem.misfit(found.outputs)
     computed = inputs.computed(point[np.newaxis])[0]
     residuals = {
@@ -235,10 +309,9 @@ def _answer(found: Candidate, ends: Ends) -> Fit:
     sides = np.where(point <= problem.low, "low", np.where(point >= problem.high, "high", "")).tolist()
     degrees_of_freedom = len(inputs.rows) - found.determination_of(found.free).rank
     chi_squared = float(over_sigma @ over_sigma)
-    values = np.where(identified, point, math.nan).tolist()
     shares = [dict(zip(residuals, row, strict=True)) for row in determined.shares.tolist()]
     return Fit(
-        values=Values(dict(zip(names, values, strict=True)), units),
+        values=Values(dict(zip(names, np.where(identified, point, math.nan).tolist(), strict=True)), units),
         names=names,
         units=units,
         bounds={name: (unknown.low, unknown.high) for name, unknown in inputs.unknowns.items()},
@@ -255,38 +328,4 @@ def _answer(found: Candidate, ends: Ends) -> Fit:
         ),
         at_bounds={name: side for name, side, known in zip(names, sides, identified, strict=True) if side and known},
         nonlinearity=found.nonlinearity,
-        searches=_counted(ends, found.chi_squared),
-    )
-
-
-def _counted(ends: Ends, chi_squared: float) -> dict[str, int]:
-    here, converged, refused = ended_at(ends, chi_squared), ends.state == CONVERGED, ends.state == REFUSED
-    kinds = {"here": here, "elsewhere": converged & ~here, "refused": refused, "without_end": ~refused & ~converged}
-    return {"starts": len(here)} | {name: int(np.count_nonzero(one)) for name, one in kinds.items()}
-
-
-def _warn_of(found: Fit) -> None:
-    """Give each warning that the result needs, once."""
-    warn_of(notes_of(found))
-    for name, one in found.residuals.items():
-        bare = not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi
-        if bare and abs(one.residual) > math.pi:
-            warn(
-                SuspectUnitsWarning(
-                    f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the "
-                    f"short way between them is round the circle: give it with its unit, such as Normal("
-                    f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg')",
-                    code="bare_angle",
-                )
-            )
-
-
-def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
-    answers = "; ".join(f"chi-squared {one.chi_squared:.4g} at {listed(one.values)}" for one in fits)
-    return AmbiguousSolutionError(
-        f"{len(fits)} answers fit the evidence about as well: {answers}. All are in .solutions; "
-        f"reconstruct.posterior says how probable each is; or narrow the bounds of an unknown to one of them, or add an "
-        f"observation that tells them apart",
-        code="ambiguous",
-        solutions=tuple(fits),
     )

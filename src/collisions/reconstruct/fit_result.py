@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError
+from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
 from ..quantities import OWN, Shown, derived, show
 from ..records import strict
 from ..summary import Cells, Part, Summary, all_numbers
@@ -21,6 +21,7 @@ from ..warning import warn
 from .observations import Observation
 
 _GIVEN_ERRORS = "A standard error is given the stated errors of the observations and priors."
+_TAKE_POSTERIOR = "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 # Probabilities of the misfit below which the evidence is said to agree weakly, and to contradict itself.
@@ -94,10 +95,9 @@ class Estimate(WithUnit):
                 code="bad_fraction",
                 argument="coverage",
             )
-        score = score_of_coverage(float(coverage))
         if not self.determined:
             return self.low, self.high
-        half = score * self.standard_error
+        half = score_of_coverage(float(coverage)) * self.standard_error
         return max(self.low, self.value - half), min(self.high, self.value + half)
 
 
@@ -168,12 +168,11 @@ class Fit(Shown):
     ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]`` has value, standard error and
     interval. ``covariance`` (locked, in the order of ``names``) is that of the model's slopes at the answer, with inf and NaN
     for what is not determined; where an unknown is in ``at_bounds`` it is that without the bound, so the errors of all are not
-    too small, and that of the unknown itself reaches to one side only. ``residuals`` and ``contributions`` go by the names of
-    the observations, and "prior of x" for those of the unknowns. ``contributions[unknown][observation]`` is the share of the
-    unknown's variance that the error of the observation makes. ``nonlinearity`` is by how much, relatively, a 95
-    percent interval is too narrow or too wide, by the rise of chi-squared where an unknown is moved by two standard errors and
-    the others are fitted again (where a bound is nearer, moved there); NaN if the model refuses there.
-    ``searches`` counts the starts by how they ended.
+    too small. ``residuals`` and ``contributions`` go by the names of the observations, and "prior of x" for those of the
+    unknowns. ``contributions[unknown][observation]`` is the share of the unknown's variance that the error of the observation
+    makes. ``nonlinearity`` is by how much, relatively, a 95 percent interval is too narrow or too wide, by the rise of
+    chi-squared where an unknown is moved by two standard errors (or to its bound) and the others as the slopes say; NaN if the
+    model refuses there.
     """
 
     values: Values
@@ -189,7 +188,6 @@ class Fit(Shown):
     undetermined: tuple[Direction, ...]
     at_bounds: dict[str, str]
     nonlinearity: float = field(metadata={"unit": ""})
-    searches: dict[str, int]
 
     _title = "Fit to evidence"
 
@@ -253,39 +251,20 @@ class Fit(Shown):
         return tuple(name for name in self.names if widths[name] < self.standard_errors[name] < math.inf)
 
     @property
-    def bend(self) -> str:
-        """How reliable the standard errors are, as a sentence."""
-        if math.isnan(self.nonlinearity):
-            return "the model refuses within two standard errors of the answer, so that the errors are not symmetric"
-        return (
-            f"the model bends within two standard errors of the answer: the 95 percent intervals are off by "
-            f"{self.nonlinearity:.0%} of their half-width, and the standard errors are as rough"
-        )
-
-    @property
     def statements(self) -> tuple[str, ...]:
         """The statements that belong with the numbers, as sentences."""
         return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON: an infinity and NaN by name."""
-        plain = (
-            "contributions",
-            "at_bounds",
-            "chi_squared",
-            "degrees_of_freedom",
-            "p_value",
-            "nonlinearity",
-            "searches",
-        )
         record = {
-            "names": self.names,
+            "statements": self.statements,
             "unknowns": {name: asdict(self[name]) for name in self.names},
             "covariance": self.covariance.tolist(),
             "residuals": {name: asdict(one) for name, one in self.residuals.items()},
             "undetermined": [asdict(one) | {"sentence": one.sentence} for one in self.undetermined],
-            "statements": self.statements,
         }
+        plain = ("names", "contributions", "at_bounds", "chi_squared", "degrees_of_freedom", "p_value", "nonlinearity")
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
 
@@ -293,18 +272,16 @@ class Fit(Shown):
         def row(one: Estimate) -> tuple[str, ...]:
             if not one.determined:
                 return one.name, "not determined", _NONE, _NONE
-            value, error = (numbers.text(end, one.unit) for end in (one.value, one.standard_error))
-            ends = numbers.text(np.array(one.interval(0.95)), one.unit)
             bound = f" ({one.at_bound} bound)" if one.at_bound else ""
-            return one.name, value + bound, error, ends
+            value, error = (numbers.text(part, one.unit) for part in (one.value, one.standard_error))
+            return one.name, value + bound, error, numbers.text(np.array(one.interval(0.95)), one.unit)
 
-        found = [row(self[name]) for name in self.names]
         misfit = [
-            (name, *(numbers.text(value, one.unit) for value in (one.observed, one.computed)), f"{one.over_sigma:+.2f}")
+            (name, numbers.text(one.observed, one.unit), numbers.text(one.computed, one.unit), f"{one.over_sigma:+.2f}")
             for name, one in self.residuals.items()
         ]
         parts = [
-            Part(found, "Unknown", ("estimate", "standard error", "95 percent interval")),
+            Part([row(self[name]) for name in self.names], "Unknown", ("estimate", "standard error", "95 percent interval")),
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
             Part([("chi-squared", _chi_squared(self))]),
             all_numbers(self._rows()),
@@ -318,24 +295,16 @@ class Fit(Shown):
     def __str__(self) -> str:
         return str(self.summary())
 
-    def __repr__(self) -> str:
-        estimates = ", ".join(f"{name}={_with_error(self[name])}" for name in self.names)
-        return (
-            f"Fit({estimates}, chi_squared={self.chi_squared:.4g}, degrees_of_freedom={self.degrees_of_freedom}, "
-            f"p_value={'not defined' if math.isnan(self.p_value) else f'{self.p_value:.3g}'}, errors given the stated errors)"
-        )
-
     def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
         for name in self.names:
-            bound = f", at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
-            yield prefix + name, _with_error(self[name]) + bound
-        yield f"{prefix}errors", _GIVEN_ERRORS
-        for name, one in self.residuals.items():
-            numbers = f"observed {show(one.observed, one.unit)}, computed {show(one.computed, one.unit)}"
-            yield prefix + name, f"{numbers}, residual over sigma {one.over_sigma:+.2f}"
-        yield prefix + "chi-squared", _chi_squared(self)
-        for number, sentence in enumerate(self.statements, 1):
-            yield f"{prefix}note {number}", sentence
+            one, bound = self[name], f", at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
+            number = f"{one.value:.6g} +/- {one.standard_error:.3g} {one.unit}".rstrip()
+            yield prefix + name, number + bound if one.determined else "not determined"
+        for name, each in self.residuals.items():
+            numbers = f"observed {show(each.observed, each.unit)}, computed {show(each.computed, each.unit)}"
+            yield prefix + name, f"{numbers}, residual over sigma {each.over_sigma:+.2f}"
+        yield prefix + "chi_squared", _chi_squared(self)
+        yield prefix + "errors", "given the stated errors of the observations and priors"
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
@@ -377,28 +346,32 @@ def notes_of(found: Fit) -> Iterator[Note]:
     if found.consistent is None:
         yield Note(None, "there is no more evidence than unknowns, so that nothing checks it")
     else:
-        by = f" (chi-squared {_chi_squared(found)})"
-        yield agreement(found.p_value, found.residuals, by)
+        yield agreement(found.p_value, found.residuals, f" (chi-squared {_chi_squared(found)})")
     for direction in found.undetermined:
-        advice = ". What nothing determines is NaN: give a prior of it (a Normal), or an observation that determines it"
-        if direction.held_by_prior:
-            yield Note(None, direction.sentence)
-        else:
-            yield Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
+        advice = "; give a prior of it (a Normal), or an observation that determines it, or take reconstruct.posterior"
+        open_ = Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
+        yield Note(None, direction.sentence) if direction.held_by_prior else open_
     for name, side in found.at_bounds.items():
         inward = "above" if side == "low" else "below"
         why = f"beyond which the evidence pulls it: its error is not symmetric and reaches {inward} only"
-        yield Note(None, f"{name} ended on its {side} bound, {why}")
+        yield Note(IllConditionedWarning, f"{name} ended on its {side} bound, {why}", _TAKE_POSTERIOR, "told_by_bounds")
     for name in found.told_by_bounds:
-        yield Note(
-            IllConditionedWarning,
-            f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds: they limit "
-            f"it, not the evidence",
-            "; give an observation that says more, or a prior",
-            "told_by_bounds",
-        )
-    if math.isnan(found.nonlinearity) or found.nonlinearity > _LARGE_NONLINEARITY:
-        yield Note(IllConditionedWarning, found.bend, "; reconstruct.posterior has no need of that", "not_linear")
+        error = f"the standard error of {name}, {found.standard_errors[name]:.3g}, exceeds the width of its bounds"
+        yield Note(IllConditionedWarning, f"{error}: they limit it, not the evidence", _TAKE_POSTERIOR, "told_by_bounds")
+    if not found.nonlinearity <= _LARGE_NONLINEARITY:
+        does = "refuses" if math.isnan(found.nonlinearity) else "bends"
+        by = "not symmetric" if math.isnan(found.nonlinearity) else f"off by {found.nonlinearity:.0%} of their half-width"
+        sentence = f"the model {does} within two standard errors of the answer: the 95 percent intervals are {by}"
+        yield Note(IllConditionedWarning, sentence, _TAKE_POSTERIOR, "not_linear")
+    for name, one in found.residuals.items():
+        if not one.unit and not one.is_prior and max(abs(one.observed), abs(one.computed)) <= math.pi < abs(one.residual):
+            degrees = f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg'"
+            yield Note(
+                SuspectUnitsWarning,
+                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
+                f"way between them is round the circle: give it with its unit, such as Normal({degrees})",
+                code="bare_angle",
+            )
 
 
 def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
@@ -426,9 +399,3 @@ def warn_of(notes: Iterable[Note]) -> None:
         if note.warning:
             sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
             warn(note.warning(sentences + note.rest, code=note.code))
-
-
-def _with_error(one: Estimate) -> str:
-    if not one.determined:
-        return "not determined"
-    return f"{one.value:.6g} +/- {one.standard_error:.3g} {one.unit}".rstrip()

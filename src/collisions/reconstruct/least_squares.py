@@ -15,16 +15,12 @@ _CLOSE = 1e-8
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
 _FIRST_DAMPING, _MOST_DAMPING = 1e-2, 1e16
-_LEAST_DAMPING = 1e-12  # the least that rounding does not absorb, for singular equations
-_LEAST_WEIGHT = 1e-6  # of the damping: an unknown that changes nothing is damped all the same
+_LEAST_WEIGHT = 1e-3  # of the largest slope: an unknown that changes less is damped like one that changes so much
 _KINK = 0.05  # of a slope; over so short a step a smooth model changes its own by less than a thousandth
 FLAT = 1e-3  # sigma: evidence that changes less while an unknown moves by its whole scale does not identify it
-_UNBOUNDED_SHARE = 0.1  # of a direction, in unknowns without bounds: along it a small slope may identify all the same
 _NEGLIGIBLE_SHARE = 1e-4  # of its scale: an unknown that moves less along a direction is not part of it
 _DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
-
-SEARCHING, CONVERGED, STALLED, AT_REFUSAL, REFUSED = range(5)
 
 
 class Problem(NamedTuple):
@@ -43,24 +39,21 @@ class Problem(NamedTuple):
     scale: Any
     size: Any = None
 
-    @property
-    def unbounded(self) -> Any:
-        """For each unknown, whether it has no bound on either side."""
-        return np.isinf(self.low) & np.isinf(self.high)
-
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
-        with np.errstate(invalid="ignore"):
-            turns = np.ceil(difference / self.period - 0.5)
-        return difference - np.where(np.isnan(self.period), 0.0, self.period * np.where(np.isnan(turns), 0.0, turns))
+        return difference - np.where(np.isnan(self.period), 0.0, self.period * np.ceil(difference / self.period - 0.5))
 
     def misfit(self, outputs: Any) -> Any:
         """Computed minus observed values."""
         return self.wrapped(outputs - self.target)
 
+    def chi_squared(self, points: Any) -> Any:
+        """Of points (k, n); NaN where the model refuses."""
+        return np.sum(self.misfit(self.evaluate(points)) ** 2, axis=1)
+
     def sizes(self, points: Any) -> Any:
         """The length, by unknown, over which the model is assumed to vary."""
-        return np.clip(abs(points), 0.1 * self.scale, 10.0 * self.scale) if self.size is None else self.size
+        return np.clip(abs(points), 1e-3 * self.scale, 10.0 * self.scale) if self.size is None else self.size
 
     def steps(self, points: Any) -> Any:
         """Finite-difference steps by unknown, small enough to stay within the bounds on one side."""
@@ -69,48 +62,42 @@ class Problem(NamedTuple):
         return np.minimum(step, 0.25 * (self.high - self.low))
 
     def with_slopes(self, points: Any) -> tuple[Any, Any]:
-        """Outputs (k, m) and their derivatives (k, m, n) by second-order differences, in one call of the model.
-
-        Both neighbours lie on one side where a bound is on the other. Where the model refuses one of them, the other is used;
-        the derivative is NaN where it refuses both.
-        """
-        outputs, one, other, to_one, to_other = self._differences(points)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            slopes = (one * to_other - other * to_one) / (to_other - to_one)
-        slopes = np.where(np.isnan(one), other, np.where(np.isnan(other), one, slopes))
-        return outputs, np.swapaxes(slopes, 1, 2)
+        """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model refuses on both sides."""
+        outputs, (above, below), (up, down) = self._differences(points)
+        return outputs, np.swapaxes((above - below) / (up - down), 1, 2)
 
     def has_kink(self, point: Any) -> bool:
         """Whether the one-sided slopes differ by more than a smooth model's do: a kink or a jump in between."""
-        _, one, other, _, _ = self._differences(point[np.newaxis])
-        sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (one, other, one - other)]
+        _, changes, moves = self._differences(point[np.newaxis])
+        above, below = changes / moves
+        sizes = [np.linalg.norm(part[0], axis=1) * self.scale for part in (above, below, above - below)]
         return bool(np.any(sizes[2] > _KINK * np.maximum(1.0, np.fmax(sizes[0], sizes[1]))))
 
-    def _differences(self, points: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Outputs, slopes towards two neighbours along each unknown (k, n, m), and the distances to these (k, n, 1)."""
+    def _differences(self, points: Any) -> tuple[Any, Any, Any]:
+        """Outputs, by how much they change towards a neighbour above and below (2, k, n, m), and the moves (2, k, n, 1).
+
+        Where a bound or a refusal is in the way both are 0.
+        """
         count, n = points.shape
         step = self.steps(points)
-        first = np.where(points + step <= self.high, step, -step)
-        second = np.where((first > 0.0) & (points - step >= self.low), -step, 2.0 * first)
-        moves = np.stack([first, second], axis=1)
-        places = points[:, np.newaxis, np.newaxis] + moves[..., np.newaxis] * np.eye(n)
-        moves = np.einsum("kjii->kji", places) - points[:, np.newaxis]
-        every = np.concatenate([points[:, np.newaxis], places.reshape(count, 2 * n, n)], axis=1)
-        found = self.evaluate(every.reshape(-1, n)).reshape(count, 2 * n + 1, -1)
-        changes = self.wrapped(found[:, 1:] - found[:, :1]).reshape(count, 2, n, -1)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            one, other = np.moveaxis(changes / moves[..., np.newaxis], 1, 0)
-        return found[:, 0], one, other, moves[:, 0, :, np.newaxis], moves[:, 1, :, np.newaxis]
+        moved = np.clip(np.stack([points + step, points - step]), self.low, self.high)
+        places = np.where(np.eye(n, dtype=bool), moved[..., np.newaxis], points[:, np.newaxis])
+        every = np.concatenate([points, places.reshape(-1, n)])
+        found = self.evaluate(every)
+        outputs, found = found[:count], found[count:].reshape(2, count, n, -1)
+        changes = self.wrapped(found - outputs[:, np.newaxis])
+        refused = np.any(np.isnan(changes), axis=3, keepdims=True)
+        return outputs, np.where(refused, 0.0, changes), np.where(refused, 0.0, (moved - points)[..., np.newaxis])
 
 
 class Ends(NamedTuple):
-    """The ends of the searches, one per row."""
+    """The ends of the searches, one per row; chi-squared is infinite where the model refuses from the start."""
 
     points: Any
     outputs: Any
     slopes: Any
     chi_squared: Any
-    state: Any
+    converged: Any
 
 
 def spread(count: int, low: Any, high: Any) -> Any:
@@ -126,54 +113,43 @@ def spread(count: int, low: Any, high: Any) -> Any:
     return low + (high - low) * share
 
 
-def minimise(problem: Problem, starts: Any, movable: Any = None, close: float = _CLOSE) -> Ends:
+def minimise(problem: Problem, starts: Any) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, seen in the metric of
-    the standard errors, is rounding; it stalls where no step however short lowers the misfit, which a smooth model does only
-    there. Where ``movable`` (k, n) is given, each search leaves the other unknowns as they start.
+    the standard errors, is rounding; one that no step however short takes lower, as at a jump or a refusal, has not.
     """
-    movable = np.ones(starts.shape, dtype=bool) if movable is None else movable
     points = np.clip(starts, problem.low, problem.high)
     outputs, slopes = problem.with_slopes(points)
-    misfit = problem.misfit(outputs)
-    cost = _cost(problem, misfit, slopes)
-    state = np.where(np.isfinite(cost), SEARCHING, REFUSED)
+    cost = _cost(problem, outputs, slopes)
+    live, left = np.isfinite(cost), np.full(len(points), np.inf)
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
     for _ in range(_ROUNDS):
-        arrived = _left_to_go(problem, points, misfit, slopes, movable, state == SEARCHING) <= close
-        state = np.where(arrived, CONVERGED, state)
-        live = np.flatnonzero(state == SEARCHING)
-        if not live.size:
+        rows = np.flatnonzero(live)
+        trial, foreseen, left[rows] = _step(problem, points[rows], outputs[rows], slopes[rows], damping[rows])
+        live = live & (left > _CLOSE) & (damping <= _MOST_DAMPING)
+        going = live[rows]
+        rows, trial, foreseen = rows[going], trial[going], foreseen[going]
+        if not rows.size:
             break
-        trial, foreseen = _step(problem, points[live], misfit[live], slopes[live], movable[live], damping[live])
         found, steep = problem.with_slopes(trial)
-        rest = problem.misfit(found)
-        new = _cost(problem, rest, steep)
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            gain = (cost[live] - new) / foreseen
-        better = (new < cost[live]) & (foreseen > 0.0)
-        taken = live[better]
-        points[taken], outputs[taken], misfit[taken] = trial[better], found[better], rest[better]
-        slopes[taken], cost[taken] = steep[better], new[better]
-        damping[taken] *= np.maximum(1.0 / 3.0, 1.0 - (2.0 * np.clip(gain[better], 0.0, 1.0) - 1.0) ** 3)
+        new = _cost(problem, found, steep)
+        better = (new < cost[rows]) & (foreseen > 0.0)
+        taken, other = rows[better], rows[~better]
+        gain = np.clip((cost[taken] - new[better]) / foreseen[better], 0.0, 1.0)
+        points[taken], outputs[taken], slopes[taken], cost[taken] = trial[better], found[better], steep[better], new[better]
+        damping[taken] *= np.maximum(1.0 / 3.0, 1.0 - (2.0 * gain - 1.0) ** 3)
         growth[taken] = 2.0
-        left = live[~better]
-        damping[left] *= growth[left]
-        growth[left] *= 2.0
-        stuck = damping[live] > _MOST_DAMPING
-        state[live[stuck]] = np.where(np.isfinite(new[stuck]), STALLED, AT_REFUSAL)
-
-    short_of_it = (state == STALLED) | (state == AT_REFUSAL) | (state == SEARCHING)
-    near = _left_to_go(problem, points, misfit, slopes, movable, short_of_it) <= _CLOSE_ENOUGH
-    return Ends(points, outputs, slopes, cost, np.where(near, CONVERGED, state))
+        damping[other] *= growth[other]
+        growth[other] *= 2.0
+    return Ends(points, outputs, slopes, cost, left <= _CLOSE_ENOUGH)
 
 
-def _cost(problem: Problem, misfit: Any, slopes: Any) -> Any:
+def _cost(problem: Problem, outputs: Any, slopes: Any) -> Any:
     """Chi-squared, infinite where the model refuses or its numbers cannot be squared."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        usable = np.all(abs(misfit) < _LARGEST, axis=1) & np.all(abs(slopes * problem.scale) < _LARGEST, axis=(1, 2))
+    misfit = problem.misfit(outputs)
+    usable = np.all(abs(misfit) < _LARGEST, axis=1) & np.all(abs(slopes * problem.scale) < _LARGEST, axis=(1, 2))
     return np.where(usable, np.sum(np.where(usable[:, np.newaxis], misfit, 0.0) ** 2, axis=1), np.inf)
 
 
@@ -182,53 +158,26 @@ def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
     return _DIFFERENCE_ERROR * _EPS * np.max(abs(outputs), axis=-1, initial=1.0)[..., np.newaxis] * scale / steps
 
 
-def _normal_equations(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any) -> tuple[Any, Any]:
-    """Gradient and curvature in scaled unknowns, with those held by a bound or not movable left out."""
-    scaled = slopes * problem.scale
+def _step(problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any) -> tuple[Any, Any, Any]:
+    """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how much there is left to go.
+
+    That is the length of the undamped step in standard errors, over the misfit where that is above 1, along directions of
+    which the slopes are more than rounding.
+    """
+    misfit, scaled = problem.misfit(outputs), slopes * problem.scale
     gradient = np.einsum("kmn,km->kn", scaled, misfit)
     held = ((points <= problem.low) & (gradient > 0.0)) | ((points >= problem.high) & (gradient < 0.0))
-    free = movable & ~held
-    curvature = np.einsum("kmi,kmj->kij", scaled, scaled) * (free[:, :, np.newaxis] & free[:, np.newaxis, :])
-    return np.where(free, gradient, 0.0), curvature
-
-
-def _step(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, damping: Any) -> tuple[Any, Any]:
-    """The damped step within the bounds, and the predicted fall of chi-squared."""
-    gradient, curvature = _normal_equations(problem, points, misfit, slopes, movable)
-    weight = np.einsum("kii->ki", curvature)
+    scaled = np.where(held[:, np.newaxis], 0.0, scaled)
+    weight = np.linalg.norm(scaled, axis=1)
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
-
-    def move_by(damping: Any) -> Any:
-        damped = curvature + (damping[:, np.newaxis] * weight)[..., np.newaxis] * np.eye(len(problem.scale))
-        return np.linalg.solve(damped, -gradient[..., np.newaxis])[..., 0]
-
-    try:
-        move = move_by(damping)
-    except np.linalg.LinAlgError:
-        move = move_by(np.maximum(damping, _LEAST_DAMPING))
+    across, size, direction = np.linalg.svd(scaled / weight[:, np.newaxis], full_matrices=False)
+    along = np.einsum("kmi,km->ki", across, misfit)
+    error = np.einsum("kij,kj->ki", abs(direction), _slope_error(outputs, problem.scale, problem.steps(points)) / weight)
+    left = np.linalg.norm(np.where(size > error, along, 0.0), axis=1) / np.maximum(1.0, np.linalg.norm(misfit, axis=1))
+    move = -np.einsum("kij,ki->kj", direction, along * size / (size**2 + damping[:, np.newaxis])) / weight
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)
-    real = (trial - points) / problem.scale
-    return trial, -2.0 * np.einsum("kn,kn->k", gradient, real) - np.einsum("ki,kij,kj->k", real, curvature, real)
-
-
-def _left_to_go(problem: Problem, points: Any, misfit: Any, slopes: Any, movable: Any, wanted: Any) -> Any:
-    """Length of the undamped step in standard errors, over the misfit where that is above 1; infinite where not wanted."""
-    left = np.full(len(points), np.inf)
-    rows = np.flatnonzero(wanted)
-    if rows.size:
-        points, misfit = points[rows], misfit[rows]
-        gradient, curvature = _normal_equations(problem, points, misfit, slopes[rows], movable[rows])
-        size, direction = np.linalg.eigh(curvature)
-        along = np.einsum("kij,ki->kj", direction, gradient)
-        # With bounds, directions that are too flat do not count either.
-        error = np.einsum(
-            "kij,ki->kj", abs(direction), _slope_error(misfit + problem.target, problem.scale, problem.steps(points))
-        )
-        unbounded = np.linalg.norm(direction * problem.unbounded[:, np.newaxis], axis=1) > _UNBOUNDED_SHARE
-        identified = size > np.where(unbounded, error, np.maximum(FLAT, error)) ** 2
-        step = np.sqrt(np.sum(np.where(identified, along**2 / np.where(identified, size, 1.0), 0.0), axis=1))
-        left[rows] = step / np.maximum(1.0, np.sqrt(np.einsum("km,km->k", misfit, misfit)))
-    return left
+    change = np.einsum("kmn,kn->km", scaled, (trial - points) / problem.scale)
+    return trial, -np.sum(change * (2.0 * misfit + change), axis=1), left
 
 
 class Determination(NamedTuple):
