@@ -720,6 +720,16 @@ def test_no_value_is_said_to_be_si_that_was_not():
     assert ("contact", "restitution e", "0.2, given as 20 %") in rows(page)
 
 
+def test_the_schema_is_a_new_dict_in_every_part():
+    """It may be changed, as its docstring says: the next one is whole."""
+    parts, written = [impact_schema()], json.dumps(impact_schema())
+    for part in parts:
+        parts += [one for one in (part.values() if isinstance(part, dict) else part) if isinstance(one, (dict, list))]
+    for part in parts:
+        part.clear()
+    assert json.dumps(impact_schema()) == written
+
+
 @pytest.mark.parametrize("make", ["in_texts", "solved", "of a batch"])
 def test_texts_go_with_the_impact(make):
     """Through solve, pickle, record and a case of a batch; the impact is that of its numbers."""

@@ -848,6 +848,14 @@ def test_refused_contacts():
         t_bone(drag=np.array([0.1, -0.1, 0.2]))
 
 
+def test_a_batch_without_friction_or_slip_is_frictionless():
+    """As the case by itself: with nothing along the tangent the contact neither slides nor is held by friction."""
+    a, b = {"mass": 1500.0, "vx": 10.0, "x": -2.0, "y": 0.0, "yaw_inertia": 2000.0}, col.Vehicle.barrier(x=1.0, y=0.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.0, "duration": 0.1, "steps": 20}
+    many = col.time_resolved(col.Vehicle(**a | {"mass": np.array([1500.0, 900.0])}), b, 0.2, **contact)
+    assert many.regime.tolist() == [many.case(i).regime for i in range(2)] == ["frictionless"] * 2
+
+
 def test_bodies_that_cannot_move_or_turn():
     """An infinite inertia, an infinite mass that turns, two that cannot move along the tangent; friction without end."""
     a, b = col.Vehicle(**A | {"yaw_inertia": math.inf}), col.Vehicle(**B)

@@ -26,7 +26,7 @@ from .reading import ArgumentReader, broadcast, widened
 from .settings import in_si
 from .side import SIGNS, Side, beside, title_of
 from .solving import solve_inputs
-from .summary import Cells, Part, Summarized, Summary, all_numbers
+from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
@@ -314,12 +314,9 @@ class Impact(Frozen, Summarized):
     @derived()
     def kind(self) -> Any:
         """One of "elastic" (e = 1), "elastoplastic", "plastic" (e = 0), "incomplete" (e < 0); an array of them in a batch."""
-        e = self._answered(self.restitution)
-        if isinstance(e, np.ndarray):
-            return np.select([e == 1.0, e == 0.0, e < 0.0, e > 0.0], ["elastic", "plastic", "incomplete", "elastoplastic"], "")
-        if self.refused:
-            return ""
-        return "elastic" if e == 1.0 else "plastic" if e == 0.0 else "incomplete" if e < 0.0 else "elastoplastic"
+        e = np.asarray(self._answered(self.restitution))
+        kinds = {"elastic": e == 1.0, "plastic": e == 0.0, "incomplete": e < 0.0, "elastoplastic": e > 0.0}
+        return _labels(np.select(list(kinds.values()), list(kinds), ""))
 
     @derived()
     def complete(self) -> Any:
@@ -333,26 +330,14 @@ class Impact(Frozen, Summarized):
         Under the law "stronge" also "reversing": the slip stopped, and ended the other way. "sticking" is what then stayed.
         The linear model has none: also where ``solve`` took it, the answer is "frictionless".
         """
-        rule, value, sticks = self.inputs.rule, self.inputs.rule_value, self._answer.sticks
-        if isinstance(sticks, np.ndarray):
-            if rule != FRICTION:
-                found = np.full(sticks.shape, "given", dtype="U12")
-            else:
-                moving = np.where(self._reverses(), "reversing", "sliding")
-                moving = np.where(np.equal(value, 0.0), "frictionless", moving)
-                found = np.where(sticks, "sticking", np.broadcast_to(moving, sticks.shape))
-            if self.choice is not None:
-                found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
-            return np.where(self.refused, "", found)
-        if self.refused:
-            return ""
-        if self.choice is not None and self.model == "linear_central":
-            return "frictionless"
-        if rule != FRICTION:
-            return "given"
-        if value == 0.0:
-            return "frictionless"
-        return "sticking" if sticks else "reversing" if self._reverses() else "sliding"
+        found = np.asarray("given", "U12")
+        if self.inputs.rule == FRICTION:
+            sliding = np.where(self._reverses(), "reversing", "sliding")
+            found = np.where(self._answer.sticks, "sticking", sliding)
+            found = np.where(np.equal(self.inputs.rule_value, 0.0), "frictionless", found)
+        if self.choice is not None:
+            found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
+        return _labels(np.where(self.refused, "", found))
 
     @derived()
     def pulse(self) -> Pulse | None:
@@ -543,8 +528,14 @@ class Impact(Frozen, Summarized):
             return NotImplemented
         return self.inputs == other.inputs and all(map(same, self._answer, other._answer))
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.inputs, self._answer, {name: getattr(self, name) for name in ("reconstruction", "choice")})
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in ("inputs", "_answer", "reconstruction", "choice")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Arrays come out of a pickle unlocked; those of inputs and choice lock themselves."""
+        vars(self).update(lock(state))
+        if self.reconstruction is not None:
+            lock((self.reconstruction.condition, self.reconstruction.answers, self.reconstruction.contact_velocity))
 
     def __repr__(self) -> str:
         shown = ", ".join(
@@ -555,15 +546,16 @@ class Impact(Frozen, Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         a, b = self.a, self.b
-        contact = [(label, numbers.text(getattr(self, name), unit_of(Impact, name))) for name, label in _CONTACT.items()]
-        contact = contact if self.inputs.model != "linear_central" else [row for row in contact if row[0] not in _TANGENTIAL]
+        names = [name for name in _CONTACT if self.inputs.model != "linear_central" or name not in _TANGENTIAL]
+        label = {"energy_loss": "energy lost"}
+        rows = [(label.get(name, label_of(name)), numbers.text(getattr(self, name), unit_of(Impact, name))) for name in names]
         notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
         if np.any(self.refused):
             many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases are refused; their status says why."
             notes = (f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many, *notes)
         title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
-        return Summary(title, [*beside((a, b), numbers), Part(contact, "Contact"), everything], notes)
+        return Summary(title, [*beside((a, b), numbers), Part(rows, "Contact"), everything], notes)
 
     def _texts(self) -> Iterable[Any]:
         return self.inputs.texts
@@ -577,18 +569,9 @@ class Impact(Frozen, Summarized):
                 yield name, show(value, unit_of(Impact, name))
 
 
-# The rows of a summary on the contact, and those among them that a linear impact does not have.
-_CONTACT = {
-    "model": "model",
-    "closing_speed": "closing speed",
-    "restitution": "restitution",
-    "normal_impulse": "normal impulse",
-    "tangential_impulse": "tangential impulse",
-    "impulse_ratio": "impulse ratio",
-    "regime": "regime",
-    "energy_loss": "energy lost",
-}
-_TANGENTIAL = ("tangential impulse", "impulse ratio", "regime")
+# The rows of a summary on the contact; a linear impact has no tangential ones.
+_TANGENTIAL = ("tangential_impulse", "impulse_ratio", "regime")
+_CONTACT = ("model", "closing_speed", "restitution", "normal_impulse", *_TANGENTIAL, "energy_loss")
 
 
 def build(inputs: Inputs, raw: Any) -> Impact:
@@ -658,14 +641,9 @@ def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> I
     return impact
 
 
-def _rebuild(inputs: Inputs, raw: Any, provenance: dict[str, Any]) -> Impact:
-    """An unpickled Impact; pickle restores arrays writable, so they are locked again."""
-    impact = build(inputs, lock(raw))
-    for found in provenance.values():
-        if found is not None:
-            lock(tuple(getattr(found, f.name) for f in fields(found)))
-    vars(impact).update(provenance)
-    return impact
+def _labels(found: Any) -> Any:
+    """The array of labels of a batch; of a single case its label."""
+    return found if found.ndim else str(found)
 
 
 def _divided(numerator: Value, denominator: Value) -> Value:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,6 +45,45 @@ class Reconstruction:
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Reconstruction) else NotImplemented
+
+
+class Known(NamedTuple):
+    """An input of a reverse solver beside the contact: description, kind, path in the result, and the solvers that take it.
+
+    The path is empty for what is no number of the result; the text of ``va`` and ``vb`` is that of a vehicle before.
+    """
+
+    what: str
+    kind: str
+    path: str
+    methods: tuple[str, ...]
+
+
+KNOWN = {
+    "energy_loss": Known("energy lost", "energy", "energy_loss", ("central", "planar", "speeds")),
+    "closing_speed": Known("closing speed", "speed", "closing_speed", ("planar",)),
+}
+for _label in "ab":
+    _of, _planar, _speeds = f" of {_label.upper()}", ("planar",), ("speeds",)
+    for _name, _what, _kind in (
+        ("vx", "velocity along x", "speed"),
+        ("vy", "velocity along y", "speed"),
+        ("speed", "speed", "speed"),
+        ("course", "course", "angle"),
+        ("yaw_rate", "yaw rate", "yaw rate"),
+    ):
+        KNOWN[f"{_label}_after.{_name}"] = Known(f"{_what}{_of} after", _kind, f"{_label}.after.{_name}", _planar)
+    KNOWN |= {
+        f"v{_label}": Known(f"velocity{_of} before", "speed", f"{_label}.before.vx", ()),
+        f"v{_label}_after": Known(f"velocity{_of} after", "speed", f"{_label}.after.vx", ("central",)),
+        f"speed_{_label}": Known(f"speed{_of} before", "speed", f"{_label}.before.speed", _speeds),
+        f"course_{_label}": Known(f"course{_of} before", "angle", f"{_label}.before.course", _speeds),
+        f"delta_v_{_label}": Known(f"delta-V{_of}", "speed", f"{_label}.delta_v", _speeds),
+        f"delta_v_forward_{_label}": Known(f"delta-V forward{_of}", "speed", f"{_label}.delta_v_forward", _speeds),
+        f"delta_v_left_{_label}": Known(f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left", _speeds),
+        f"ees_{_label}": Known(f"EES{_of} (ISO 12353)", "speed", "", _speeds),
+        f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
+    }
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:

@@ -19,7 +19,7 @@ from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
 from .models import read_again
-from .provenance import Reconstruction
+from .provenance import KNOWN, Reconstruction
 from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
@@ -37,15 +37,6 @@ _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
 _MOTION = ("vx", "vy", "yaw_rate")
 _POLAR: tuple[str, ...] = ("speed", "course")
-# What each reverse solver may be given in addition to the contact.
-_ENDS = tuple(f"{label}_after.{name}" for label in "ab" for name in ("vx", "vy", "speed", "course", "yaw_rate"))
-_SPEEDS = ("speed", "delta_v", "delta_v_forward", "delta_v_left", "ees", "max_crush_speed")
-_PAIRS = tuple(f"{name}_{label}" for name in (*_SPEEDS, "course") for label in "ab")
-_KNOWN = {
-    "central": ("va_after", "vb_after", "energy_loss"),
-    "planar": (*_ENDS, "closing_speed", "energy_loss"),
-    "speeds": (*_PAIRS, "energy_loss"),
-}
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 
 
@@ -191,7 +182,7 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
 
 
 def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
-    stray = known.keys() - set(() if origin is None else _KNOWN.get(origin.method, ()))
+    stray = known.keys() - {name for name, one in KNOWN.items() if origin is not None and origin.method in one.methods}
     if stray:
         raise bad_record(f"it has no {shown(min(stray))} that could have been given")
     if not all(isinstance(text, str) for text in known.values()):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import Field, fields
 from inspect import getdoc
 from typing import Any, get_args
@@ -25,15 +26,11 @@ _MODELS = list(BY_NAME)
 _PRECISIONS = ["float32", "float64"]
 _KINDS = ["elastic", "elastoplastic", "plastic", "incomplete", ""]
 _REGIMES = ["frictionless", "sliding", "sticking", "reversing", "given", ""]
-_TYPES: dict[str, dict[str, Any]] = {
-    "Value": {"$ref": "#/$defs/value"},
-    "tuple[Value, Value]": {"$ref": "#/$defs/pair"},
-    "ModelChoice": {"$ref": "#/$defs/choice"},
-    "Reconstruction": {"$ref": "#/$defs/reconstruction"},
-    "Pulse": {"$ref": "#/$defs/pulse"},
-    "Vehicle": {"$ref": "#/$defs/vehicle"},
-    "Side": {"$ref": "#/$defs/side"},
-    "str": {"type": "string"},
+_VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
+_NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
+_TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT} | {
+    name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
+    for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
 }
 
 
@@ -52,7 +49,7 @@ def impact_schema() -> dict[str, Any]:
     >>> schema["$defs"]["vehicle"]["properties"]["mass"]
     {'$ref': '#/$defs/value', 'description': '[kg]'}
     """
-    return {
+    schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:{FORMAT.replace(' ', ':')}",
         "title": "Record of an impact",
@@ -65,35 +62,35 @@ def impact_schema() -> dict[str, Any]:
             },
             "value": {
                 "description": "A number, or one for each case of a batch, in the order of C.",
-                "anyOf": [{"$ref": "#/$defs/number"}, _batch({"$ref": "#/$defs/number"}, {"enum": _PRECISIONS})],
+                "anyOf": [_NUMBER, _batch(_NUMBER, {"enum": _PRECISIONS})],
             },
             "given": {
                 "description": "A number or a batch in SI, or the text with a unit that it was given as.",
-                "anyOf": [{"$ref": "#/$defs/value"}, {"type": "string"}],
+                "anyOf": [_VALUE, _TEXT],
             },
-            "pair": _pair({"$ref": "#/$defs/value"}),
-            "vehicle": _closed({f.name: _vehicle_field(f) for f in fields(Vehicle)}),
+            "pair": _pair(_VALUE),
+            "vehicle": _closed({f.name: _field(f) for f in fields(Vehicle)}),
             "vehicle_inputs": _vehicle_inputs(),
             "side": _closed({name: _attribute(Side, name) for name in attributes(Side)}),
             "choice": _closed(
                 {
                     "model": _each({"enum": _MODELS}),
-                    "reason": {"type": "string"},
-                    "errors": _by_model({"$ref": "#/$defs/value"}),
-                    "missing": _by_model({"type": "array", "items": {"type": "string"}}),
-                    "tolerance": {"$ref": "#/$defs/value", "description": "[m/s]"},
+                    "reason": _TEXT,
+                    "errors": _by_model(_VALUE),
+                    "missing": _by_model({"type": "array", "items": _TEXT}),
+                    "tolerance": {**_VALUE, "description": "[m/s]"},
                 }
             ),
-            "pulse": _closed({f.name: _pulse_field(f) for f in fields(Pulse)}),
+            "pulse": _closed({f.name: _field(f) for f in fields(Pulse)}),
             "reconstruction": _closed({f.name: _RECONSTRUCTION[f.name] for f in fields(Reconstruction)}),
         },
     }
+    return deepcopy(schema)
 
 
 def _inputs() -> dict[str, Any]:
     """The inputs of every solver."""
-    given, vehicle = {"$ref": "#/$defs/given"}, {"$ref": "#/$defs/vehicle_inputs"}
-    null, pair = {"type": "null"}, {"$ref": "#/$defs/pair"}
+    vehicle = {"$ref": "#/$defs/vehicle_inputs"}
     question = _closed(
         {
             "model": {"enum": sorted(ARGUMENTS), "description": "The solver that was called."},
@@ -104,21 +101,15 @@ def _inputs() -> dict[str, Any]:
             **{name: _input(name) for name in UNITS},
             "geometry": {"enum": [*get_args(Geometry), None], "description": "Of time_resolved: what the positions are."},
             "steps": {"type": ["integer", "null"], "description": "Of time_resolved: steps a nominal duration."},
-            "normal": {"anyOf": [pair, {"type": "string"}], "description": "Unit vector from A into B, or its angle as given."},
-            "bare_normal": {
-                "anyOf": [{"$ref": "#/$defs/value"}, null],
-                "description": "The normal as an angle of more than a turn that was given without a unit [rad].",
-            },
-            "rule_value": {**given, "description": "... and its value."},
-            "tolerance": {"anyOf": [{"$ref": "#/$defs/value"}, null], "description": "Of solve [m/s]."},
+            "normal": {"anyOf": [_PAIR, _TEXT], "description": "Unit vector from A into B, or its angle as given."},
+            "bare_normal": _or_null(_VALUE, "The normal as an angle of more than a turn that was given without a unit [rad]."),
+            "rule_value": {**_GIVEN, "description": "... and its value."},
+            "tolerance": _or_null(_VALUE, "Of solve [m/s]."),
             "incomplete": {"type": "boolean", "description": "Whether a restitution below 0 was allowed."},
-            "contact_velocity": {
-                "anyOf": [pair, null],
-                "description": "Closing speed and slip before as a reverse solver found them [m/s].",
-            },
+            "contact_velocity": _or_null(_PAIR, "Closing speed and slip before as a reverse solver found them [m/s]."),
             "known": {
                 "type": "object",
-                "additionalProperties": {"type": "string"},
+                "additionalProperties": _TEXT,
                 "description": "What a reverse solver was given with a unit, by its argument.",
             },
         }
@@ -129,7 +120,7 @@ def _inputs() -> dict[str, Any]:
 def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
     """The inputs of one solver: none that it does not take, and those that it needs."""
     others = {argument for every in ARGUMENTS.values() for argument in every if argument not in (*takes, *RULES)}
-    needed = {"law": {"type": "string"}} if "law" in takes else {}
+    needed = {"law": _TEXT} if "law" in takes else {}
     needed |= {"point": {"type": "array"}} if name in PLACED else {}
     properties = {argument: {"enum": [None, False]} for argument in sorted(others)} | needed
     return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
@@ -142,15 +133,14 @@ def _results() -> dict[str, Any]:
 
 def _vehicle_inputs() -> dict[str, Any]:
     """The fields of a vehicle as they were given; speed and course may stand in place of vx and vy."""
-    given, text, null = {"$ref": "#/$defs/given"}, {"type": "string"}, {"type": "null"}
-    found: dict[str, Any] = {"name": text, "pivot": {"anyOf": [_pair(given), null], "description": "[m]"}}
+    found: dict[str, Any] = {"name": _TEXT, "pivot": _or_null(_pair(_GIVEN), "[m]")}
     for name in DOMAINS:
         unit = f"[{unit_of(Vehicle, name)}]"
         optional = Vehicle.__dataclass_fields__[name].type != "Value"
-        found[name] = {"anyOf": [given, null], "description": unit} if optional else {**given, "description": unit}
+        found[name] = _or_null(_GIVEN, unit) if optional else {**_GIVEN, "description": unit}
     needed = [name for name in found if name not in ("vx", "vy")]
     return {
-        **_closed(found | {"speed": text, "course": text}),
+        **_closed(found | {"speed": _TEXT, "course": _TEXT}),
         "required": needed,
         "oneOf": [{"required": ["vx", "vy"]}, {"required": ["speed", "course"]}],
         "dependentRequired": {"speed": ["course"], "course": ["speed"]},
@@ -160,11 +150,11 @@ def _vehicle_inputs() -> dict[str, Any]:
 def _input(name: str) -> dict[str, Any]:
     """A number or a pair among the inputs, with its unit."""
     plain, _, optional = str(Inputs.__dataclass_fields__[name].type).partition(" | ")
-    given, units = {"$ref": "#/$defs/given"}, UNITS[name]
-    several = {"type": "array", "items": given, "minItems": 3, "maxItems": 3}
-    found = {"Value": given, "tuple[Value, Value]": _pair(given), "tuple[Value, ...]": several}[plain]
-    unit = ", ".join(units) if isinstance(units, tuple) else units or 1
-    return {**({"anyOf": [found, {"type": "null"}]} if optional else found), "description": f"[{unit}]"}
+    units = UNITS[name]
+    several = {"type": "array", "items": _GIVEN, "minItems": 3, "maxItems": 3}
+    found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[plain]
+    unit = f"[{', '.join(units) if isinstance(units, tuple) else units or 1}]"
+    return _or_null(found, unit) if optional else {**found, "description": unit}
 
 
 def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
@@ -175,21 +165,20 @@ def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
     return {**(_LISTED[name] if declared == "Any" else _declared(declared)), "description": first}
 
 
-def _vehicle_field(field: Field[Any]) -> dict[str, Any]:
-    found = _declared(str(field.type))
+def _field(field: Field[Any]) -> dict[str, Any]:
+    """The schema of a field with its unit; one of any type is an array over time, which a batch has not."""
+    found = _declared("Value | None" if field.type == "Any" else str(field.type))
     return {**found, "description": f"[{field.metadata['unit']}]"} if "unit" in field.metadata else found
-
-
-def _pulse_field(field: Field[Any]) -> dict[str, Any]:
-    value = _declared("Value") if str(field.type) == "Value" else {"anyOf": [_declared("Value"), {"type": "null"}]}
-    return {**value, "description": f"[{field.metadata['unit']}]"}
 
 
 def _declared(declared: str) -> dict[str, Any]:
     """The schema for the declared type of an attribute."""
     plain, _, optional = declared.partition(" | ")
-    found = _TYPES[plain]
-    return {"anyOf": [found, {"type": "null"}]} if optional else dict(found)
+    return {"anyOf": [_TYPES[plain], _NULL]} if optional else dict(_TYPES[plain])
+
+
+def _or_null(found: dict[str, Any], description: str) -> dict[str, Any]:
+    return {"anyOf": [found, _NULL], "description": description}
 
 
 def _closed(properties: dict[str, Any]) -> dict[str, Any]:
@@ -219,7 +208,7 @@ def _batch(value: dict[str, Any], dtype: dict[str, Any]) -> dict[str, Any]:
 
 def _each(value: dict[str, Any]) -> dict[str, Any]:
     """A label, a count or a truth value, or one for each case of a batch."""
-    return {"anyOf": [value, _batch(value, {"type": "string"})]}
+    return {"anyOf": [value, _batch(value, _TEXT)]}
 
 
 _LISTED = {
@@ -230,18 +219,12 @@ _LISTED = {
     "ok": _each({"type": "boolean"}),
     "complete": _each({"type": "boolean"}),
     "refused": _each({"type": "boolean"}),
-    "pdof_clock": {
-        "anyOf": [
-            {"type": "integer", "minimum": 1, "maximum": 12},
-            {"$ref": "#/$defs/value"},
-            {"type": "null"},
-        ]
-    },
+    "pdof_clock": {"anyOf": [{"type": "integer", "minimum": 1, "maximum": 12}, _VALUE, _NULL]},
 }
 _RECONSTRUCTION = {
-    "method": {"type": "string"},
-    "known": {"type": "array", "items": {"type": "string"}},
-    "condition": {"$ref": "#/$defs/value"},
+    "method": _TEXT,
+    "known": {"type": "array", "items": _TEXT},
+    "condition": _VALUE,
     "answers": _each({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "inf"}]}),
-    "contact_velocity": {"anyOf": [{"$ref": "#/$defs/pair"}, {"type": "null"}]},
+    "contact_velocity": {"anyOf": [_PAIR, _NULL]},
 }

@@ -227,22 +227,20 @@ def energy(page: Page, s: Symbols) -> None:
     """The loss along the normal and along the tangent."""
     page.heading("Energy")
     along_n = Symbol(r"\Delta E_n", s.impact.energy_loss_normal, "energy")
+    along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
     if LAWS[s.impact.law or BRACH].energetic and s.tangential.value != 0.0:
         # The sum needs no path, its parts do.
         whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (s.slip + s.slip_after)
         page.equation("Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole)
-        along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
         page.say(f"Of that the work of friction takes {page.shown(along_t)}, the normal {page.shown(along_n)}.")
-        kinetic_energies(page, s)
-        return
-    page.equation("Energy lost along the normal, (8) at the contact", along_n, HALF * (1.0 - s.e) * s.closing * s.normal)
-    if s.tangential.value != 0.0:
-        along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
-        work = -(HALF * s.tangential * (s.slip + s.slip_after))
-        page.equation("Energy lost along the tangent, to the mean of both slips", along_t, work)
-        page.equation("Energy lost", s.loss, along_n + along_t)
     else:
-        page.equation("Energy lost, as nothing is lost along the tangent", s.loss, along_n)
+        page.equation("Energy lost along the normal, (8) at the contact", along_n, HALF * (1.0 - s.e) * s.closing * s.normal)
+        if s.tangential.value != 0.0:
+            work = -(HALF * s.tangential * (s.slip + s.slip_after))
+            page.equation("Energy lost along the tangent, to the mean of both slips", along_t, work)
+            page.equation("Energy lost", s.loss, along_n + along_t)
+        else:
+            page.equation("Energy lost, as nothing is lost along the tangent", s.loss, along_n)
     kinetic_energies(page, s)
 
 

@@ -127,8 +127,8 @@ class Lever(Body):
         nx, ny = impact.normal
         self.n = Symbol(rf"r_{{{label}n}}", nx * rx + ny * ry, "length")
         self.t = Symbol(rf"r_{{{label}t}}", nx * ry - ny * rx, "length")
-        about_pivot = self.inertia + self.mass * (self.arm("x").squared() + self.arm("y").squared())
-        self.resistance = Symbol(rf"I_{{{label}O}}", about_pivot.value, "inertia") if self.pinned else self.inertia
+        self.about_pivot = self.inertia + self.mass * (self.arm("x").squared() + self.arm("y").squared())
+        self.resistance = Symbol(rf"I_{{{label}O}}", self.about_pivot.value, "inertia") if self.pinned else self.inertia
         self.turns = math.isfinite(self.resistance.value)
         self.matters = (self.pinned or self.turns or self.start.yaw_rate != 0.0) and self.start.x is not None
 
@@ -143,10 +143,9 @@ class Lever(Body):
         page.equation(f"Lever of {label} {what}, along the normal", self.n, s.dot(x, y))
         page.equation(f"Lever of {label} {what}, along the tangent (r in (13))", self.t, s.cross(x, y))
         if self.pinned:
-            d_x, d_y = self.arm("x"), self.arm("y")
-            page.say(f"From the pivot to the centre of mass of {label}: {page.shown(d_x)}, {page.shown(d_y)}.")
-            about_pivot = self.inertia + self.mass * (d_x.squared() + d_y.squared())
-            page.equation(f"Yaw inertia of {label} about its pivot", self.resistance, about_pivot)
+            d_x, d_y = (page.shown(self.arm(axis)) for axis in "xy")
+            page.say(f"From the pivot to the centre of mass of {label}: {d_x}, {d_y}.")
+            page.equation(f"Yaw inertia of {label} about its pivot", self.resistance, self.about_pivot)
 
     def at_contact(self, page: Page, when: str, caption: str, directions: str = "nt") -> None:
         """The velocity of the body at the contact."""

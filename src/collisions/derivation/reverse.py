@@ -6,27 +6,15 @@ from collections.abc import Mapping
 
 from ..impact import Impact
 from ..kernels.central import shares
-from ..provenance import Reconstruction, how_many
+from ..provenance import KNOWN, Reconstruction, how_many
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
-# Descriptions of known values; others are described by the name of their argument.
-_KNOWN = {
-    "va": "velocity of A before",
-    "vb": "velocity of B before",
-    "va_after": "velocity of A after",
-    "vb_after": "velocity of B after",
-    "speed_a": "speed of A before",
-    "speed_b": "speed of B before",
-    "delta_v_a": "delta-V of A",
-    "delta_v_b": "delta-V of B",
-    "energy_loss": "energy lost",
-    "ees_a": "EES of both (ISO 12353)",
-    "max_crush_speed_a": "speeds of maximum crush of both",
-}
+# Of these both vehicles' are known at once, by the name of that of A.
+_OF_BOTH = {"ees_a": "EES of both (ISO 12353)", "max_crush_speed_a": "speeds of maximum crush of both"}
 
 
 def why_this_model(page: Page, impact: Impact) -> None:
@@ -69,7 +57,8 @@ def state_before(page: Page, s: Symbols) -> None:
 def what_was_known(page: Page, origin: Reconstruction) -> None:
     """Write which reverse solver found the state before, from what, its condition, and whether it is the only solution."""
     page.heading("How the state before was found")
-    known = ", ".join(_KNOWN.get(name, name.replace("_", " ")) for name in origin.known)
+    words = {name: known.what for name, known in KNOWN.items()} | _OF_BOTH
+    known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
     page.say(f"Backwards, by reconstruct.{origin.method}: known beside masses and geometry were {known}.")
     page.say(
         f"Condition {page.system.answer(origin.condition, 'number')}: by so much a relative error of what was given may be "

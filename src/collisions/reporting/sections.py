@@ -23,34 +23,13 @@ from ..impact import Impact
 from ..kernels.contact_laws import FRICTION, LAWS
 from ..models import BY_NAME
 from ..plot.canvas import who
+from ..provenance import KNOWN
 from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution, Posterior
 from ..units import Input
 from ..vehicle import Vehicle
 from .render import Sheet, given_as, plain
 
-_VELOCITY = {"vx": "velocity along x", "vy": "velocity along y", "speed": "speed", "course": "course", "yaw_rate": "yaw rate"}
-# Known inputs of the reverse solvers other than the contact: description, kind, and path in the result, which may be "".
-_KNOWN: dict[str, tuple[str, str, str]] = {
-    "energy_loss": ("energy lost", "energy", "energy_loss"),
-    "closing_speed": ("closing speed", "speed", "closing_speed"),
-}
-for _label in "ab":
-    _of = f" of {_label.upper()}"
-    for _name, _what in _VELOCITY.items():
-        _kind = {"course": "angle", "yaw_rate": "yaw rate"}.get(_name, "speed")
-        _KNOWN[f"{_label}_after.{_name}"] = f"{_what}{_of} after", _kind, f"{_label}.after.{_name}"
-    _KNOWN |= {
-        f"v{_label}": (f"velocity{_of} before", "speed", f"{_label}.before.vx"),
-        f"v{_label}_after": (f"velocity{_of} after", "speed", f"{_label}.after.vx"),
-        f"speed_{_label}": (f"speed{_of} before", "speed", f"{_label}.before.speed"),
-        f"course_{_label}": (f"course{_of} before", "angle", f"{_label}.before.course"),
-        f"delta_v_{_label}": (f"delta-V{_of}", "speed", f"{_label}.delta_v"),
-        f"delta_v_forward_{_label}": (f"delta-V forward{_of}", "speed", f"{_label}.delta_v_forward"),
-        f"delta_v_left_{_label}": (f"delta-V to the left{_of}", "speed", f"{_label}.delta_v_left"),
-        f"ees_{_label}": (f"EES{_of} (ISO 12353)", "speed", ""),
-        f"max_crush_speed_{_label}": (f"speed of maximum crush{_of}", "speed", ""),
-    }
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states
 # that still approach by up to a hundredth of the closing speed are taken to stay together.
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
@@ -178,16 +157,16 @@ def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
     """Table rows with the texts of a reverse solver's known inputs."""
     rows = []
     for name, text in (impact.inputs.given or {}).items():
-        if name in _KNOWN:
-            what, kind, _ = _KNOWN[name]
-            rows.append(("known", what, sheet.as_given(_read(text, name), kind, text)))
+        if name in KNOWN:
+            known = KNOWN[name]
+            rows.append(("known", known.what, sheet.as_given(_read(text, name), known.kind, text)))
     return rows
 
 
 def _read(text: str, name: str) -> float | None:
     """The number of a text; None if its unit is of another registry."""
     reader = ArgumentReader()
-    kind = _KNOWN[name][1]
+    kind = KNOWN[name].kind
     read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
     return None if reader.problems else float(read)
 
@@ -205,16 +184,16 @@ def contradicted(impact: Impact) -> Iterator[str]:
         "angle": _COMES_OUT + together,
     }
     for name, text in (impact.inputs.given or {}).items():
-        what, kind, path = _KNOWN.get(name, ("", "", ""))
-        read = _read(text, name) if path else None
-        if read is None:
+        known = KNOWN.get(name)
+        read = _read(text, name) if known is not None and known.path else None
+        if known is None or read is None:
             continue
-        number = attrgetter(path)(impact)
+        number, kind = attrgetter(known.path)(impact), known.kind
         # A speed may come out negative, with the opposite course; a vehicle at rest has no course.
         apart = math.remainder(read - number, math.pi) if kind == "angle" else read - number
         measured = name.startswith(("delta_v_forward", "delta_v_left"))
         if abs(apart) > (_RECORDED * max(side.delta_v for side in sides) if measured else allowed[kind]):
-            yield f"{name} was given as {text!r}, but the {what} is {number!r} {SI_UNITS[kind]}"
+            yield f"{name} was given as {text!r}, but the {known.what} is {number!r} {SI_UNITS[kind]}"
 
 
 def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
