@@ -3,6 +3,7 @@
 Nothing here is a default of a solver. ``PUBLISHED`` lists every value, ``FITS`` every formula.
 """
 
+from . import contact, ground, inertia
 from .contact import (
     CONTACT_DURATION,
     CONTACT_DURATION_BRAKED,
@@ -35,31 +36,12 @@ from .inertia import YAW_INERTIA_INDEX, YAW_INERTIA_RECTANGLE, YAW_INERTIA_WHEEL
 from .published import Fit, Published
 
 PUBLISHED: tuple[Published, ...] = (
-    RESTITUTION,
-    RESTITUTION_LOW_SPEED,
-    RESTITUTION_OBLIQUE,
-    RESTITUTION_SMALL_OVERLAP,
-    RESTITUTION_FRONTAL_BARRIER,
-    RESTITUTION_OVERLAP_SMALL,
-    RESTITUTION_OVERLAP_HALF,
-    RESTITUTION_OVERLAP_LARGE,
-    RESTITUTION_LOW_SPEED_HALF,
-    RESTITUTION_LOW_SPEED_FULL,
-    INTER_VEHICLE_FRICTION,
-    IMPULSE_RATIO_OBLIQUE,
-    IMPULSE_RATIO_SMALL_OVERLAP,
-    SHARE_OF_CRITICAL_OBLIQUE,
-    SHARE_OF_CRITICAL_SMALL_OVERLAP,
-    CONTACT_DURATION,
-    CONTACT_DURATION_BRAKED,
-    CONTACT_DURATION_SIDESWIPE,
-    RECORDER_ACCURACY,
-    RECORDER_RESOLUTION,
-    RECORDER_ERROR,
-    YAW_INERTIA_INDEX,
-    ROLLING_RESISTANCE,
-    ENGINE_BRAKING_HIGH,
-    ENGINE_BRAKING_LOW,
+    *(
+        value
+        for part in (contact, inertia, ground)
+        for name, value in vars(part).items()
+        if isinstance(value, Published) and not name.startswith("_")
+    ),
     *DRAG_FACTORS,
 )
 """Every published value."""

@@ -84,6 +84,33 @@ RESTITUTION_FRONTAL_BARRIER = Published(
     domain="one car of 2018 into a rigid barrier at 57.1 km/h",
     quality="One test; the range is that of its sensors.",
 )
+
+
+def _by_overlap(which: str, low: float, high: float, source: str, domain: str, quality: str) -> Published:
+    """A row of restitution by the share of the width that overlaps."""
+    return Published(
+        name=f"restitution, rear-end, {which}", low=low, high=high, unit="", source=source, domain=domain, quality=quality
+    )
+
+
+_REAR_END = (
+    "Verkehrsunfall und Fahrzeugtechnik 2000, p. 275, abstract at https://www.colliseum.eu/wiki (Die Stosszahl bei "
+    "Auffahrkollisionen)",
+    "car into the rear of a car, relative speed 7.8 to 32.4 km/h",
+    "Second hand: the abstract of an evaluation of 38 tests, which calls it a guide; few tests had a small overlap.",
+)
+_LOW_SPEED_REAR_END = (
+    "Moosmueller and Reinkemeyer, Verkehrsunfall und Fahrzeugtechnik 45 (2007), p. 44, summary at "
+    "https://www.colliseum.eu/wiki (Erkenntnisse zum Deformationsverhalten moderner Fahrzeuge)",
+    "modern cars of 2002 to 2004 into the rear of one, delta-V up to 10 km/h",
+    "Second hand: a summary of three test series of the Allianz Zentrum fuer Technik, of which it quotes the values.",
+)
+RESTITUTION_OVERLAP_SMALL = _by_overlap("under half the width", 0.0, 0.15, *_REAR_END)
+RESTITUTION_OVERLAP_HALF = _by_overlap("about half the width", 0.10, 0.20, *_REAR_END)
+RESTITUTION_OVERLAP_LARGE = _by_overlap("over half the width", 0.15, 0.30, *_REAR_END)
+RESTITUTION_LOW_SPEED_HALF = _by_overlap("half the width, low speed", 0.173, 0.247, *_LOW_SPEED_REAR_END)
+RESTITUTION_LOW_SPEED_FULL = _by_overlap("full width, low speed", 0.328, 0.38, *_LOW_SPEED_REAR_END)
+
 INTER_VEHICLE_FRICTION = Published(
     name="inter-vehicle friction",
     low=0.3,
@@ -132,32 +159,6 @@ SHARE_OF_CRITICAL_SMALL_OVERLAP = Published(
     domain=_SMALL_OVERLAP,
     quality="Fitted to measured motion in ten tests.",
 )
-
-
-def _by_overlap(which: str, low: float, high: float, source: str, domain: str, quality: str) -> Published:
-    """A row of restitution by the share of the width that overlaps."""
-    return Published(
-        name=f"restitution, rear-end, {which}", low=low, high=high, unit="", source=source, domain=domain, quality=quality
-    )
-
-
-_REAR_END = (
-    "Verkehrsunfall und Fahrzeugtechnik 2000, p. 275, abstract at https://www.colliseum.eu/wiki (Die Stosszahl bei "
-    "Auffahrkollisionen)",
-    "car into the rear of a car, relative speed 7.8 to 32.4 km/h",
-    "Second hand: the abstract of an evaluation of 38 tests, which calls it a guide; few tests had a small overlap.",
-)
-_LOW_SPEED_REAR_END = (
-    "Moosmueller and Reinkemeyer, Verkehrsunfall und Fahrzeugtechnik 45 (2007), p. 44, summary at "
-    "https://www.colliseum.eu/wiki (Erkenntnisse zum Deformationsverhalten moderner Fahrzeuge)",
-    "modern cars of 2002 to 2004 into the rear of one, delta-V up to 10 km/h",
-    "Second hand: a summary of three test series of the Allianz Zentrum fuer Technik, of which it quotes the values.",
-)
-RESTITUTION_OVERLAP_SMALL = _by_overlap("under half the width", 0.0, 0.15, *_REAR_END)
-RESTITUTION_OVERLAP_HALF = _by_overlap("about half the width", 0.10, 0.20, *_REAR_END)
-RESTITUTION_OVERLAP_LARGE = _by_overlap("over half the width", 0.15, 0.30, *_REAR_END)
-RESTITUTION_LOW_SPEED_HALF = _by_overlap("half the width, low speed", 0.173, 0.247, *_LOW_SPEED_REAR_END)
-RESTITUTION_LOW_SPEED_FULL = _by_overlap("full width, low speed", 0.328, 0.38, *_LOW_SPEED_REAR_END)
 
 _COLLISEUM = (
     "Fahrzeugbelastungen bei Heck-Crashs im niedrigen Geschwindigkeitsbereich (DTC, AGU), as quoted at "
@@ -273,22 +274,18 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     speed: Any = reader.number(closing_speed, "m/s", "closing_speed", POSITIVE_FINITE)
     check_outside(reader, outside)
     reader.close()
-    if isinstance(speed, float):
-        e = _fitted(math.log10(speed))
-        if not 0.0 <= e <= 1.0:
-            raise InputError(
-                f"closing_speed {speed:.6g} m/s: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
-                f"Give a value, such as one from reference.RESTITUTION",
-                code="outside_reference",
-                argument="closing_speed",
-            )
-        answer: Value = settle(RESTITUTION_FIT, e, {"closing_speed": speed}, False, outside)
-        return answer
     with np.errstate(all="ignore"):
-        many = _fitted(np.log10(speed))
-        unusable = ~((many >= 0.0) & (many <= 1.0) & (speed > 0.0))
-        answers: Value = settle(RESTITUTION_FIT, many, {"closing_speed": speed}, unusable, outside)
-    return answers
+        e = _fitted((math if isinstance(speed, float) else np).log10(speed))
+        usable = (e >= 0.0) & (e <= 1.0) & (speed > 0.0)
+    if isinstance(e, float) and not usable:
+        raise InputError(
+            f"closing_speed {speed:.6g} m/s: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
+            f"Give a value, such as one from reference.RESTITUTION",
+            code="outside_reference",
+            argument="closing_speed",
+        )
+    answer: Value = settle(RESTITUTION_FIT, e, {"closing_speed": speed}, usable, outside)
+    return answer
 
 
 def restitution_range(closing_speed: Input) -> tuple[Value, Value]:

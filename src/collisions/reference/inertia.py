@@ -127,16 +127,13 @@ def yaw_inertia(
         else:
             fit, found_inertia = YAW_INERTIA_RECTANGLE, weight * (over_all * over_all + second * second) / 12.0
         usable = (second < over_all) & (weight > 0.0) & (second > 0.0) & np.isfinite(found_inertia)
-    if shape is None:
-        if not math.isfinite(found_inertia):
-            raise InputError("the yaw inertia is not a finite number", code="out_of_range", argument="mass")
-        if not usable:
-            raise InputError(
-                f"{other} {second:.6g} m is not below length {over_all:.6g} m; exchange them, or correct the unit",
-                code="bad_dimensions",
-                argument=other,
-            )
-        answer: Value = settle(fit, float(found_inertia), numbers, False, outside)
-        return answer
-    answers: Value = settle(fit, np.broadcast_to(found_inertia, shape), numbers, ~np.broadcast_to(usable, shape), outside)
-    return answers
+    if shape is None and not math.isfinite(found_inertia):
+        raise InputError("the yaw inertia is not a finite number", code="out_of_range", argument="mass")
+    if shape is None and not usable:
+        raise InputError(
+            f"{other} {second:.6g} m is not below length {over_all:.6g} m; exchange them, or correct the unit",
+            code="bad_dimensions",
+            argument=other,
+        )
+    answer: Value = settle(fit, found_inertia, numbers, usable, outside)
+    return answer

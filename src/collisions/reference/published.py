@@ -117,28 +117,25 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
         )
 
 
-def settle(fit: Fit, found: Any, given: dict[str, Any], unusable: Any, outside: str) -> Any:
+def settle(fit: Fit, found: Any, given: dict[str, Any], usable: Any, outside: str) -> Any:
     """The value of a fit; NaN for batch cases without one; inputs outside its ranges raise or warn."""
+    ranges = ", ".join(f"{name} {low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items())
     beyond: Any = False
     for name, (low, high, _) in fit.ranges.items():
-        if name in given:
-            beyond = beyond | (given[name] < low) | (given[name] > high)
+        beyond = beyond | (given[name] < low) | (given[name] > high)
     if not isinstance(found, np.ndarray):
         if beyond:
-            _tell_of_one(fit, given, outside)
+            _tell_of_one(fit, ranges, given, outside)
         return found
-    lost = unusable | (beyond if outside == "refuse" else False)
+    lost = ~usable | (beyond if outside == "refuse" else False)
     answer = np.where(lost, np.array(math.nan, dtype=found.dtype), found)
     answer.setflags(write=False)
-    counts = {
-        "outside_reference": int(np.count_nonzero(np.broadcast_to(beyond, found.shape) & ~np.broadcast_to(lost, found.shape))),
-        "refused": int(np.count_nonzero(np.broadcast_to(lost, found.shape))),
-    }
+    counts = {"outside_reference": int(np.count_nonzero(beyond & ~lost)), "refused": int(np.count_nonzero(lost))}
     if any(counts.values()):
         warn_of_cases(
             OutOfRangeWarning(
                 f"{fit.name}: of {found.size} cases {counts['outside_reference']} lie outside the range it holds for "
-                f"({_ranges(fit, given)}), and {counts['refused']} have no answer and are NaN",
+                f"({ranges}), and {counts['refused']} have no answer and are NaN",
                 code="outside_reference",
                 counts=counts,
             )
@@ -146,19 +143,13 @@ def settle(fit: Fit, found: Any, given: dict[str, Any], unusable: Any, outside: 
     return answer
 
 
-def _tell_of_one(fit: Fit, given: dict[str, Any], outside: str) -> None:
-    where = ", ".join(f"{name} {value:.6g} {fit.ranges[name][2]}" for name, value in given.items() if name in fit.ranges)
-    text = f"{fit.name}: {where} lies outside the range it holds for, which is {_ranges(fit, given)} ({fit.source})"
+def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> None:
+    where = ", ".join(f"{name} {given[name]:.6g} {unit}" for name, (_, _, unit) in fit.ranges.items())
+    text = f"{fit.name}: {where} lies outside the range it holds for, which is {ranges} ({fit.source})"
     if outside == "refuse":
         raise InputError(
             f"{text}; give a measured value, or accept one from outside with outside='warn'",
             code="outside_reference",
-            argument=next(name for name in given if name in fit.ranges),
+            argument=next(iter(fit.ranges)),
         )
     warn_of_cases(OutOfRangeWarning(f"{text}; the value is an extrapolation", code="outside_reference", given=given))
-
-
-def _ranges(fit: Fit, given: dict[str, Any]) -> str:
-    return ", ".join(
-        f"{name} {low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items() if name in given
-    )
