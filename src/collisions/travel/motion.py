@@ -55,9 +55,8 @@ class Wheels(NamedTuple):
         """Those of some of the cases."""
         return Wheels._make([*(part[..., which] for part in self[:-1]), [(corners, mu[which]) for corners, mu in self.areas]])
 
-    def places(self, x: Any, y: Any, heading: Any) -> tuple[Any, Any]:
-        """Where the wheels are in the scene."""
-        c, s = np.cos(heading), np.sin(heading)
+    def places(self, x: Any, y: Any, c: Any, s: Any) -> tuple[Any, Any]:
+        """Where the wheels are in the scene, from the cosine and sine of the heading."""
         return x + c * self.ahead - s * self.left, y + s * self.ahead + c * self.left
 
     def forces(self, vx: Any, vy: Any, turning: Any, x: Any, y: Any, heading: Any) -> tuple[Any, Any, Any]:
@@ -86,7 +85,7 @@ class Wheels(NamedTuple):
         """The friction under each wheel: of the first area that holds it."""
         if not self.areas:
             return self.friction
-        px, py = x + c * self.ahead - s * self.left, y + s * self.ahead + c * self.left
+        px, py = self.places(x, y, c, s)
         friction = np.broadcast_to(self.friction, px.shape)
         for corners, mu in reversed(self.areas):
             inside = np.zeros(px.shape, dtype=bool)

@@ -328,14 +328,10 @@ def _errors(
 
 def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks: Sequence[tuple[str, Any]]) -> RunOut:
     """The results of a batch as locked arrays of its shape; NaN where a case has none."""
-    of_run = {f.name: getattr(run, f.name) for f in fields(run) if getattr(run, f.name) is not None}
-    flat = [part for value in of_run.values() for part in (value if isinstance(value, tuple) else (value,))]
-    settled = iter(write_locked(tuple(np.array(answer) for answer in settle(flat, named, shape, checks))))
-    answers: dict[str, Any] = {
-        name: tuple(next(settled) for _ in value) if isinstance(value, tuple) else next(settled)
-        for name, value in of_run.items()
-    }
-    return RunOut(**answers)
+    of_run = {f.name: value for f in fields(run) if (value := getattr(run, f.name)) is not None}
+    settled = settle(list(of_run.values()), named, shape, checks)
+    copied: list[Any] = [tuple(map(np.array, part)) if isinstance(part, tuple) else np.array(part) for part in settled]
+    return RunOut(**write_locked(dict(zip(of_run, copied, strict=True))))
 
 
 def _wrapped(angle: Any) -> Any:

@@ -267,9 +267,9 @@ def _way(wheels: Wheels, start: Any, limit: Any, moments: int) -> tuple[Any, Any
     # At the last moment the vehicle stands, with the marks that it came with.
     motion = [np.concatenate([part[:-1], part[-2:-1]]).ravel() for part in (vx, vy, turn)]
     every = wheels.of(np.tile(cases, moments))
-    speed, here = size(motion), [part.ravel() for part in place]
-    *_, used = every.forces(motion[0] / speed, motion[1] / speed, motion[2] / speed / every.reach, *here)
-    tracks = np.where(used[:, None] >= _MARKS, np.stack(every.places(*here), axis=1), np.nan)
+    speed, (x, y, heading) = size(motion), [part.ravel() for part in place]
+    *_, used = every.forces(motion[0] / speed, motion[1] / speed, motion[2] / speed / every.reach, x, y, heading)
+    tracks = np.where(used[:, None] >= _MARKS, np.stack(every.places(x, y, np.cos(heading), np.sin(heading)), axis=1), np.nan)
     found = np.concatenate([np.stack([time, *place]), tracks.reshape(2 * len(WHEELS), *time.shape)])
     return found, np.stack([at[-1], size(states[-1])])
 

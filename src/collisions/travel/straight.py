@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -85,10 +86,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     >>> round(speed([12.0, "8 m"], drag=[0.7, 0.45], grade=[0, "10 %"], end_speed="20 km/h") * 3.6, 1)
     60.4
     """
-    run = _Run(distance, drag, grade, end_speed)
-    with np.errstate(all="ignore"):
-        start: Value = _answer(run.speeds()[0], run.named, run.shape)
-    return start
+    return _over_surfaces(distance, drag, grade, end_speed, lambda lengths, grades, speeds: speeds[0])
 
 
 def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
@@ -145,9 +143,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         drop = slowing + slope
         change = start - end
         if isinstance(drop, float) and isinstance(change, float):
-            problem = _never_gets_there(start, end, drop)
-            if problem is not None:
-                raise problem
+            _check_ends(start, end, drop)
         # A change that the ground works against would need a negative distance.
         fits = ((change > 0.0) & (drop > 0.0)) | ((change < 0.0) & (drop < 0.0)) | ((change == 0.0) & (drop != 0.0))
         rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
@@ -191,58 +187,49 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     >>> round(time("66 ft", drag=0.65), 2)
     2.51
     """
-    run = _Run(distance, drag, grade, end_speed)
+    return _over_surfaces(distance, drag, grade, end_speed, lambda *along: sum(durations_along(*along), start=0.0))
+
+
+def _over_surfaces(length: Any, drag: Any, grade: Any, end_speed: Any, figure: Callable[..., Any]) -> Value:
+    """What ``figure`` makes of the lengths and grades of all surfaces, and of the speeds at their ends."""
+    reader = ArgumentReader()
+    listed = isinstance(length, (list, tuple))
+    if listed and not length:
+        reader.refuse(ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance"))
+    count = (len(length) or None) if listed else 0
+    lengths = for_each(reader, length, "distance", count, read_length)
+    drags = for_each(reader, drag, "drag", count, read_drag)
+    grades = for_each(reader, grade, "grade", count, read_grade)
+    end = read_speed(reader, end_speed, "end_speed")
+    reader.close()
+    arguments = {"end_speed": [end], "distance": lengths, "drag": drags, "grade": grades}
+    ((end,), lengths, drags, grades), named, shape = in_one_precision(arguments)
+    segment = "distance[{}]" if listed else "distance"
     with np.errstate(all="ignore"):
-        durations = durations_along(run.lengths, run.grades, run.speeds())
-        total: Value = _answer(sum(durations, start=0.0), run.named, run.shape)
-    return total
+        drops = [slowing + slope for slowing, slope in zip(drags, grades, strict=True)]
+        found: Value = _answer(figure(lengths, grades, speeds_along(lengths, drops, end, segment.format)), named, shape)
+    return found
 
 
-class _Run:
-    """The arguments of ``speed`` and ``time`` as numbers, one entry a segment."""
-
-    def __init__(self, length: Any, drag: Any, grade: Any, end_speed: Any) -> None:
-        reader = ArgumentReader()
-        listed = isinstance(length, (list, tuple))
-        if listed and not length:
-            reader.refuse(
-                ShapeError("distance is an empty list; give at least one segment", code="bad_shape", argument="distance")
-            )
-        count = (len(length) or None) if listed else 0
-        self.segment = "distance[{}]" if listed else "distance"
-        lengths = for_each(reader, length, "distance", count, read_length)
-        drags = for_each(reader, drag, "drag", count, read_drag)
-        grades = for_each(reader, grade, "grade", count, read_grade)
-        end = read_speed(reader, end_speed, "end_speed")
-        reader.close()
-        arguments = {"end_speed": [end], "distance": lengths, "drag": drags, "grade": grades}
-        ((self.end,), self.lengths, drags, self.grades), self.named, self.shape = in_one_precision(arguments)
-        with np.errstate(all="ignore"):
-            self.drops = [slowing + slope for slowing, slope in zip(drags, self.grades, strict=True)]
-
-    def speeds(self) -> list[Any]:
-        return speeds_along(self.lengths, self.drops, self.end, self.segment.format)
-
-
-def _never_gets_there(start: float, end: float, drop: float) -> NoSolutionError | None:
+def _check_ends(start: float, end: float, drop: float) -> None:
+    """Raise if one speed does not lead to the other."""
     if start > end and drop <= 0.0:
         what = "stops" if end == 0.0 else f"slows to {end:.6g} m/s"
-        return NoSolutionError(
+        raise NoSolutionError(
             f"the vehicle never {what}: drag + grade is {drop:.6g}, which does not slow it; correct the sign of the grade, or "
             f"the drag",
             code="never_stops",
         )
     if start < end and drop >= 0.0:
-        return NoSolutionError(
+        raise NoSolutionError(
             f"end_speed {end:.6g} m/s is above speed {start:.6g} m/s, and drag + grade is {drop:.6g}, which does not speed the "
             f"vehicle up; exchange the two, or correct the sign of the grade",
             code="contradictory",
         )
     if start == end and drop == 0.0:
-        return NoSolutionError(
+        raise NoSolutionError(
             f"drag + grade is 0, so the vehicle keeps its {start:.6g} m/s over any distance", code="any_distance"
         )
-    return None
 
 
 def _answer(found: Any, named: dict[str, Any], shape: tuple[int, ...] | None) -> Any:

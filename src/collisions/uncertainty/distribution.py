@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import InputError, ShapeError, UnitsError
 from ..formatting import typeset
 from ..kernels.elementwise import FINITE, UNCHECKED
+from ..quantities import same
 from ..reading import ArgumentReader, is_whole
 from ..units import factor, has_unit, is_quantity, parse, shown, si_unit, unit_as_written
 from .normal import both_tails
@@ -63,7 +64,7 @@ class Stated:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return self.unit == other.unit and self._parts == other._parts
+        return self.unit == other.unit and same(self._parts, other._parts)
 
     def __hash__(self) -> int:
         return hash((type(self), self.unit, *self._parts.values()))
@@ -125,7 +126,7 @@ class Distribution(Stated):
             A probability outside 0 to 1, or no number.
         """
         p = probability(p)
-        return self._at(p, 1.0 - p)
+        return _like(p, self._at(np.asarray(p), np.asarray(1.0 - p)))
 
     def scored(self, z: Any) -> Any:
         """Value that is as likely to be exceeded as z is by a standard normal variable.
@@ -152,13 +153,13 @@ class Distribution(Stated):
         reader.close()
         if np.any(np.isnan(z)):
             raise InputError("z must be a number, got NaN", code="not_finite", argument="z")
-        return self._scored(z)
+        return _like(z, self._scored(np.asarray(z)))
 
     def _scored(self, z: Any) -> Any:
         return self._at(*both_tails(z))
 
     def _at(self, below: Any, above: Any) -> Any:
-        """The value with these probabilities below and above it, which add up to 1."""
+        """The values with these probabilities below and above them, which add up to 1."""
         raise NotImplementedError
 
     def _describe(self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]) -> None:
@@ -178,6 +179,11 @@ class Distribution(Stated):
             code="out_of_range",
             argument=next(iter(self._parts)),
         )
+
+
+def _like(given: Any, found: Any) -> Any:
+    """What was found for an array, or the number in it if a number was given."""
+    return found if isinstance(given, np.ndarray) else float(found)
 
 
 T = TypeVar("T", bound=Stated)

@@ -60,7 +60,8 @@ class Uniform(Distribution):
     def _at(self, below: Any, above: Any) -> Any:
         low, high = self.support
         width = high - low
-        return _chosen(below <= above, low + width * below, high - width * above)
+        # The form, from the lower end or from the upper one, that keeps the digits.
+        return np.where(below <= above, low + width * below, high - width * above)
 
 
 class Triangular(Distribution):
@@ -114,8 +115,7 @@ class Triangular(Distribution):
         width = high - low
         left, right = (self.mode - low) / width, (high - self.mode) / width
         rising, falling = low + width * np.sqrt(left * below), high - width * np.sqrt(right * above)
-        value = np.clip(_chosen(below <= left, rising, falling), low, high)
-        return value if isinstance(below, np.ndarray) else float(value)
+        return np.clip(np.where(below <= left, rising, falling), low, high)
 
 
 class Samples(Distribution):
@@ -214,11 +214,6 @@ class Samples(Distribution):
             moments = float(rows[0]) + scale * mean, scale * sd, float(np.mean(away**3)), float(np.mean(away**4))
         self._describe(*moments, support=(float(ordered[0]), float(ordered[-1])))
 
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        return self.unit == other.unit and self.group == other.group and np.array_equal(self.rows, other.rows)
-
     def __hash__(self) -> int:
         return hash((type(self), self.unit, self.group, self.rows.tobytes()))
 
@@ -231,9 +226,7 @@ class Samples(Distribution):
         return f"one of {self.rows.size} values from {low} to {high}"
 
     def _at(self, below: Any, above: Any) -> Any:
-        places = np.minimum(np.floor(np.asarray(below) * self.rows.size).astype(np.intp), self.rows.size - 1)
-        found = self._sorted[places]
-        return found if isinstance(below, np.ndarray) else float(found)
+        return self._sorted[np.minimum(np.floor(below * self.rows.size).astype(np.intp), self.rows.size - 1)]
 
 
 def _checked(rows: Any, argument: str) -> Any:
@@ -372,8 +365,3 @@ def range_hint(value: Any) -> str:
     kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
     rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
     return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
-
-
-def _chosen(lower: Any, rising: Any, falling: Any) -> Any:
-    """The form (plain or complement) that keeps the digits at this end."""
-    return np.where(lower, rising, falling) if isinstance(lower, np.ndarray) else rising if lower else falling

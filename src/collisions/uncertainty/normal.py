@@ -1,4 +1,4 @@
-"""The standard normal distribution: its quantiles, both its tails and its density, for floats and for arrays.
+"""The standard normal distribution: its quantiles, both its tails and its density.
 
 Quantiles by M. J. Wichura, "Algorithm AS 241: The Percentage Points of the Normal Distribution", Applied Statistics 37 (1988)
 477-484: rational approximations good to 1e-16, one for the middle 85 percent and two for the tails. Tails of arrays by one
@@ -57,21 +57,21 @@ _DENSITY_AT_ZERO = 1.0 / math.sqrt(2.0 * math.pi)
 
 def quantile(p: Any) -> Any:
     """The value that a standard normal variable stays below with probability p: -inf at 0, inf at 1, NaN outside."""
-    if isinstance(p, np.ndarray):
-        return _quantiles(np.asarray(p, dtype=np.float64))
-    p = float(p)
-    if abs(p - 0.5) <= _MIDDLE:
-        return from_median(p - 0.5)
-    if not 0.0 < p < 1.0:
-        return -math.inf if p == 0.0 else math.inf if p == 1.0 else math.nan
-    root = math.sqrt(-math.log(min(p, 1.0 - p)))
-    distance = _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6) if root <= _NEAR else _ratio(_FAR_TOP, _FAR_BOTTOM, root - _NEAR)
-    return distance if p > 0.5 else -distance
-
-
-def from_median(offset: Any) -> Any:
-    """The quantile at 0.5 + offset, for an offset from -0.425 to 0.425; accurate for offsets too small to add to 0.5."""
-    return offset * _ratio(_MIDDLE_TOP, _MIDDLE_BOTTOM, _MIDDLE * _MIDDLE - offset * offset)
+    flat = np.ravel(p)
+    with np.errstate(all="ignore"):
+        offset = flat - 0.5
+        found = offset * _ratio(_MIDDLE_TOP, _MIDDLE_BOTTOM, _MIDDLE * _MIDDLE - offset * offset)
+        places = np.flatnonzero(~(np.abs(offset) <= _MIDDLE))
+        if places.size:
+            outer = flat[places]
+            root = np.sqrt(-np.log(np.minimum(outer, 1.0 - outer)))
+            distance = _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6)
+            far = np.flatnonzero(root > _NEAR)
+            if far.size:
+                distance[far] = _ratio(_FAR_TOP, _FAR_BOTTOM, root[far] - _NEAR)
+                distance[np.isinf(root)] = np.inf
+            found[places] = np.copysign(distance, offset[places])
+    return found.reshape(np.shape(p)) if isinstance(p, np.ndarray) else float(found[0])
 
 
 def score_of_coverage(coverage: float) -> float:
@@ -84,45 +84,30 @@ def score_of_coverage(coverage: float) -> float:
 
 def cdf(z: Any) -> Any:
     """The probability below z, accurate in the lower tail too."""
-    return _tails(-z) if isinstance(z, np.ndarray) else 0.5 * math.erfc(-z * _ROOT_HALF)
+    return survival(-z)
 
 
 def survival(z: Any) -> Any:
     """The probability above z, accurate in the upper tail too."""
-    return _tails(z) if isinstance(z, np.ndarray) else 0.5 * math.erfc(z * _ROOT_HALF)
+    if not isinstance(z, np.ndarray):
+        return 0.5 * math.erfc(z * _ROOT_HALF)
+    smaller = _beyond(np.abs(z))
+    return np.where(z > 0.0, smaller, 1.0 - smaller)
 
 
 def both_tails(z: Any) -> tuple[Any, Any]:
     """The probabilities below and above z, each accurate where it is small too."""
-    if not isinstance(z, np.ndarray):
-        return cdf(z), survival(z)
-    smaller = _tails(np.abs(z))
+    if not np.ndim(z):
+        return cdf(float(z)), survival(float(z))
+    smaller = _beyond(np.abs(z))
     larger = 1.0 - smaller
     below = z < 0.0
     return np.where(below, smaller, larger), np.where(below, larger, smaller)
 
 
-def density(z: Any) -> Any:
+def density(z: float) -> float:
     """The density at z."""
-    return _DENSITY_AT_ZERO * (np.exp(-0.5 * z * z) if isinstance(z, np.ndarray) else math.exp(-0.5 * z * z))
-
-
-def _quantiles(p: Any) -> Any:
-    flat = p.reshape(-1)
-    with np.errstate(all="ignore"):
-        offset = flat - 0.5
-        found = from_median(offset)
-        places = np.flatnonzero(~(np.abs(offset) <= _MIDDLE))
-        if places.size:
-            outer = flat[places]
-            root = np.sqrt(-np.log(np.minimum(outer, 1.0 - outer)))
-            distance = _ratio(_NEAR_TOP, _NEAR_BOTTOM, root - 1.6)
-            far = np.flatnonzero(root > _NEAR)
-            if far.size:
-                distance[far] = _ratio(_FAR_TOP, _FAR_BOTTOM, root[far] - _NEAR)
-                distance[np.isinf(root)] = np.inf
-            found[places] = np.copysign(distance, offset[places])
-    return found.reshape(p.shape)
+    return _DENSITY_AT_ZERO * math.exp(-0.5 * z * z)
 
 
 def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
@@ -138,18 +123,17 @@ def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
     return above
 
 
-def _tails(z: Any) -> Any:
-    """The upper-tail probabilities of an array."""
-    distance = np.minimum(np.abs(z), _NOTHING_BEYOND)
-    smaller = _beside_exponential(distance) * np.exp(-0.5 * np.square(distance))
-    return np.where(z > 0.0, smaller, 1.0 - smaller)
+def _beyond(distance: Any) -> Any:
+    """The probability beyond distances >= 0 on one side."""
+    distance = np.minimum(distance, _NOTHING_BEYOND)
+    return _beside_exponential(distance) * np.exp(-0.5 * np.square(distance))
 
 
 def log_survival(z: Any) -> Any:
     """The logarithm of the probability above each of an array, also where that is too small for a float."""
     distance = np.abs(z)
     far = np.log(_beside_exponential(distance)) - 0.5 * np.square(distance)
-    return np.where(z > 0.0, far, np.log1p(-_tails(distance)))
+    return np.where(z > 0.0, far, np.log1p(-_beyond(distance)))
 
 
 def _beside_exponential(distance: Any) -> Any:

@@ -118,7 +118,7 @@ class NormalFamily(Distribution):
     def _truncate(self, low: float, high: float) -> None:
         """Truncate to two bounds; refused if too little probability is left."""
         steepness = self._steepness
-        anchor = min(max(self._value(0.0), low), high)
+        anchor = min(max(float(self._value(0.0)), low), high)
         left = None
         if low < high and abs(score := self._score(anchor)) <= _FARTHEST:
             start, end = self._between(anchor, low), self._between(anchor, high)
@@ -182,17 +182,12 @@ class NormalFamily(Distribution):
             return quantile(below)
         lost_below, share, lost_above = self._split
         lower, upper = lost_below + below * share, lost_above + above * share
-        if not isinstance(lower, np.ndarray):
-            return quantile(lower) if lower <= upper else -quantile(upper)
-        score = quantile(np.minimum(lower, upper))
+        score = quantile(np.asarray(np.minimum(lower, upper)))
         return np.where(lower <= upper, score, -score)
 
     def _inside(self, value: Any) -> Any:
         """The value, clipped to bounds that rounding may have crossed."""
-        if self.truncate is None:
-            return value
-        low, high = self.support
-        return np.clip(value, low, high) if isinstance(value, np.ndarray) else min(max(value, low), high)
+        return value if self.truncate is None else np.clip(value, *self.support)
 
 
 class Normal(NormalFamily):
@@ -306,8 +301,7 @@ class LogNormal(NormalFamily):
 
     def _value(self, score: Any) -> Any:
         with np.errstate(over="ignore"):
-            value = self._median * np.exp(self._scale * score)
-        return value if isinstance(score, np.ndarray) else float(value)
+            return self._median * np.exp(self._scale * score)
 
     def _between(self, start: float, end: float) -> float:
         if end <= 0.0:
