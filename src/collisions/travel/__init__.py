@@ -1,14 +1,8 @@
 """Work and energy before and after the impact: speed, distance and time of a vehicle that slows over known ground.
 
-Over a distance the drag of the ground takes a known energy, so speeds follow backward from where the speed is known::
-
-    v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) * distance
-
 ``drag`` is the deceleration on the level as a fraction of gravity, ``grade`` the rise over the run, positive uphill in the
-direction of travel. Distances are measured in plan, as from a scene diagram, and speeds are along the slope. On a slope at the
-angle atan(grade) the load, and with it the drag, is less by its cosine, and the way longer by the same; so their product, and
-the balance, is exact. A tape laid on the slope reads longer by ``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %. Times are
-those over the slope.
+direction of travel. Distances are measured in plan, as from a scene diagram; speeds are along the slope, and times those over
+it. A tape laid on the slope reads longer by ``sqrt(1 + grade**2)``: 0.5 % at a grade of 10 %.
 
 Sheets in US units write the speed in mph as sqrt(30 f d) with d in feet. The constant for standard gravity is 29.914, so their
 speeds are 0.14 % higher than these; those of sheets that take 32.2 ft/s2 are 0.04 % higher.

@@ -20,7 +20,6 @@ from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
 from ..units import Input, Pair, Texts, Value, shown, texts_of
 from ..warning import warn
-from .smoothing import slopes, smooth
 from .surfaces import (
     Segments,
     durations_along,
@@ -33,7 +32,7 @@ from .surfaces import (
     settle,
     speeds_along,
 )
-from .survey import HALF_TURN, in_radians, read_errors, read_headings, read_points
+from .survey import HALF_TURN, in_radians, read_errors, read_headings, read_points, slopes, smooth
 
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
 # A wheel about the centre of mass [m], and its speed by the yaw over that of the vehicle from which on its slip matters.
@@ -192,12 +191,10 @@ def path(
     To chain segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
     Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. The drag agrees with what Rose, Rollover Accident
     Reconstruction, section CRASH Model, says of the equation that Fricke, Traffic Crash Reconstruction (2010), attributes to
-    the CRASH program: a square root that is the braking level at no crab angle, 1 broadside, and 1 throughout at full braking.
-    Of these books we had excerpts without the equations.
+    the CRASH program. Of these books we had excerpts without the equations.
 
     If ``lock`` is read as the share of wheels that are locked while the others roll, the drag is friction times lock plus
-    (1 - lock) sin(crab), which is higher by at most 0.1 times the friction. Marquard's relations, with which CRASH starts, go
-    from the whole turn and distance without the path, and are not used here. On soft ground the drag measured near broadside
+    (1 - lock) sin(crab), which is higher by at most 0.1 times the friction. On soft ground the drag measured near broadside
     is above what such formulas give (Christoffersen and others, SAE 950139).
 
     Examples

@@ -71,8 +71,8 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     -----
     The vehicle is a point mass on a straight line or a gentle bend, and each surface has one drag at every speed: shift of
     load, resistance of the air and the time in which brakes build up are left out. A vehicle that spins has another drag at
-    every crab angle: see ``path``. Distances are those of the plan, with which drag + grade is exact; a tape on the slope
-    reads longer by ``sqrt(1 + grade**2)``. Speeds are along the slope; in plan they are lower by the same factor.
+    every crab angle: see ``path``. On a slope at the angle atan(grade) the load, and with it the drag, is less by its cosine,
+    and the way longer than in plan by the same, so the balance is exact. Speeds in plan are lower by that factor.
 
     Examples
     --------

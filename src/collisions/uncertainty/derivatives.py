@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -71,12 +71,8 @@ class Local(Output):
         return self._known_shares
 
 
-class Slopes(NamedTuple):
-    """Value, gradient and second derivatives of an output at the mean of the inputs, per standard deviation of each."""
-
-    value: float
-    gradient: Any
-    curvature: Any
+# Value, gradient and second derivatives of an output at the mean of the inputs, per standard deviation of each.
+Slopes: TypeAlias = tuple[float, Any, Any]
 
 
 def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes], int]:
@@ -93,7 +89,7 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
     rows += [p * unit[i] + q * unit[j] for i, j in pairs for p in (-1, 1) for q in (-1, 1)]
     at = mean + np.array(rows) * (step * sd)
     answers = model({name: np.ascontiguousarray(at[:, i]) for i, name in enumerate(joint.inputs)}, len(at))
-    found = {}
+    found: dict[str, Slopes] = {}
     for name, values in answers.items():
         if np.isnan(values).any():
             raise NoSolutionError(
@@ -122,7 +118,7 @@ def slopes(model: Model, joint: Joint, second: bool) -> tuple[dict[str, Slopes],
             curvature[i, j] = curvature[j, i] = ((pp - pm) - (mp - mm)) / (4.0 * step[i] * step[j])
         # A curvature that rounding of the values could make is taken as 0.
         curvature[np.abs(curvature) * np.outer(step, step) < 8.0 * rounding] = 0.0
-        found[name] = Slopes(float(values[0]), gradient, curvature)
+        found[name] = float(values[0]), gradient, curvature
     return found, len(at)
 
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..errors import InputError, NoSolutionError
 from ..quantities import OWN, derived, returns
+from ..records import strict
 from . import angles
 from .derivatives import Local
 from .designs import REPLICATES
@@ -247,7 +248,9 @@ class Bounds(Output):
 
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
-        return {"unit": self.unit, "mean": list(self.mean), "std": list(self.std), "interval_95": list(self.interval())}
+        figures = {"unit": self.unit, "mean": self.mean, "std": self.std, "interval_95": self.interval()}
+        found: dict[str, Any] = strict(figures)
+        return found
 
     def _mean(self) -> Any:
         return _range(case.mean for case in self.cases)

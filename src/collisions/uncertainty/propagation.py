@@ -232,27 +232,21 @@ def _read_inputs(inputs: Any) -> dict[str, Any]:
 def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[str, float]:
     """The tolerance of every output it was given for, in the unit of the output."""
     given = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(units, tolerance)
-    if not given:
-        raise InputError(
-            f"tolerance names no output; the model returned {', '.join(units)}", code="bad_tolerance", argument="tolerance"
-        )
-    reader = ArgumentReader(trusted=tuple(f"tolerance[{shown(name)}]" for name in given))
-    found: dict[str, float] = {}
-    for name, value in given.items():
-        if name not in units:
-            raise InputError(
-                f"tolerance names {shown(name)}, which is no output; the model returned {', '.join(units)}",
-                code="bad_tolerance",
-                argument="tolerance",
-            )
-        found[name] = reader.number(value, units[name] or "", f"tolerance[{shown(name)}]")
+    unknown = [f"{shown(name)}, which is no output" for name in given if name not in units]
+    if unknown or not given:
+        raise _bad_tolerance(f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}")
+    names = {name: f"tolerance[{shown(name)}]" for name in given}
+    reader = ArgumentReader(trusted=tuple(names.values()))
+    found = {name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()}
     reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:
-            raise InputError(
-                f"tolerance must be a number > 0, got {shown(value)} for {name}", code="bad_tolerance", argument="tolerance"
-            )
+            raise _bad_tolerance(f"tolerance must be a number > 0, got {shown(value)} for {name}")
     return found
+
+
+def _bad_tolerance(text: str) -> InputError:
+    return InputError(text, code="bad_tolerance", argument="tolerance")
 
 
 def _run_at(

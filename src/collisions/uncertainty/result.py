@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..formatting import KIND_OF, Numbers
 from ..quantities import OWN, Derived, InUnit, Quantities, derived, returns, same, show
 from ..reading import is_whole
+from ..records import strict
 from ..summary import Cells, Part, Summarized, Summary, all_numbers
 from ..units import shown
 from . import angles
@@ -205,7 +206,8 @@ class Output(Summarized):
     def record(self) -> dict[str, Any]:
         """The figures as plain values that strict JSON can hold."""
         shares = {"contributions": self.contributions, "total_contributions": self.total_contributions}
-        return {name: _plain(value) for name, value in (self._basics() | shares).items()}
+        found: dict[str, Any] = strict(self._basics() | shares)
+        return found
 
     def __repr__(self) -> str:
         name, text = self.row()
@@ -227,7 +229,7 @@ class Output(Summarized):
             "std": self.std,
             "mean_standard_error": self.mean_standard_error,
             "std_standard_error": self.std_standard_error,
-            "interval_95": list(self.interval()),
+            "interval_95": self.interval(),
         }
 
     def _mean(self) -> Any:
@@ -537,11 +539,3 @@ def deviation(values: Any) -> float:
 
 def _ranked(shares: Mapping[str, float]) -> dict[str, float]:
     return dict(sorted(shares.items(), key=lambda item: -item[1] if item[1] == item[1] else math.inf))
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else str(value)
-    if isinstance(value, list):
-        return [_plain(part) for part in value]
-    return {name: _plain(part) for name, part in value.items()} if isinstance(value, dict) else value
