@@ -340,6 +340,19 @@ def test_figures_of_bounds():
     assert found.correlation == {}
 
 
+def test_a_spread_that_is_not_known_is_strict_json():
+    """With this seed one of 64 cases has an answer at both ends, which has no spread: NaN is written by name."""
+    with pytest.warns(col.OutOfRangeWarning, match="cases had no answer"):
+        found = propagate(
+            lambda x, e: {"y": np.where(x < 0.02, x + e, np.nan)},
+            {"x": Uniform(0, 1), "e": Interval(0.1, 0.2)},
+            samples=64,
+            seed=1,
+        )
+    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert record["outputs"]["y"]["std"] == ["nan", "nan"]
+
+
 def test_failures_over_an_interval_are_told_once():
     """In all, not once for each place: of the square root of x in one case of six none, of 256 draws to a binomial deviation."""
     with pytest.warns(col.OutOfRangeWarning) as caught:
