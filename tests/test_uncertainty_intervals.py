@@ -340,6 +340,7 @@ def test_figures_of_bounds():
     assert found.correlation == {}
 
 
+@pytest.mark.slow
 def test_a_spread_that_is_not_known_is_strict_json():
     """With this seed one of 64 cases has an answer at both ends, which has no spread: NaN is written by name."""
     with pytest.warns(col.OutOfRangeWarning, match="cases had no answer"):
