@@ -492,6 +492,20 @@ def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
     assert caught.value.code == "contradictory"
 
 
+def test_evidence_that_would_take_thousands_of_stages_is_refused_soon():
+    """Each of its stages got twenty times as far as where the samples creep, from a likelihood of 1e-250 on."""
+    calls = []
+
+    def model(x, y):
+        calls.append(len(x))
+        return {"s": np.sqrt(x) * y, "d": np.where(x > y, x * x, y / x)}
+
+    priors = {"x": Normal(2.029e-124, 7.125e-126), "y": LogNormal(2.0, 1.0)}
+    with pytest.raises(col.NoSolutionError, match="contradicts the priors"):
+        posterior(model, priors, {"d": Normal(16.96, 0.8)}, samples=512, seed=1)
+    assert len(calls) < 500 * 80  # sweeps of a stage at most, for the first islands
+
+
 def test_an_output_without_any_answer_has_no_figures():
     found = posterior(lambda x: {"s": x, "d": np.nan * x}, {"x": Normal(0.0, 1.0)}, {"s": (1.0, 1.0)}, samples=512, seed=1)
     output = found["d"]

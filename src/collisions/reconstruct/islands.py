@@ -17,8 +17,9 @@ _MOVES, _MOVES_LAST, _MOST_SWEEPS = 3.0, 10.0, 80  # accepted moves a point afte
 _ACCEPTED = 0.25  # share of moves to aim at, which suits many dimensions
 _NOISE = 0.1  # of the spread, beside the differences of points
 _NO_NEARER, _MOST_OF_THESE = 0.98, 5  # sharp bounds that so many stages miss by as much cannot be met
-# A stage goes on by about one deviation: so little is left of its gain when the samples are 200 deviations beyond the prior.
-_CRAWLING = 0.995
+# Ordinary evidence takes 5 to 50 stages. A stage goes on by a quarter of a deviation of the prior or more, so that these end
+# at 100 deviations from its mean at least: no prior means that.
+_MOST_STAGES = 500
 _MOST_MISFIT = 1e13  # where the rounding of a logarithm is no longer small against 1, and all points are as likely
 _BISECTIONS = 40
 
@@ -64,15 +65,12 @@ class Islands:
         """The islands, taken from the prior to the posterior."""
         self._draw()
         self._meet_bounds()
-        stuck = 0
-        while self.power < 1.0:
-            before = self.power
+        for _ in range(_MOST_STAGES):
+            if self.power == 1.0:
+                break
             self._raise_power()
-            stuck = stuck + 1 if before >= _CRAWLING * self.power else 0
-            if stuck == _MOST_OF_THESE and self.power < 1.0:
-                raise UnreachableError(0, 0.0)
             report(self.power)
-        if np.max(self.likelihood) < -_MOST_MISFIT:
+        if self.power < 1.0 or np.max(self.likelihood) < -_MOST_MISFIT:
             raise UnreachableError(0, 0.0)
         return list(map(Island, self.points, self.log_evidence.tolist(), self.refused.tolist(), self.moved.tolist()))
 

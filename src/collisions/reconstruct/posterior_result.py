@@ -30,7 +30,8 @@ _MOSTLY_REFUSED = 0.05  # of the prior
 class PosteriorOutput(Sampled):
     """One unknown, or one output of the model, given the evidence and the priors; otherwise like an output of ``propagate``.
 
-    ``values`` are the samples, equally likely. Standard errors are those of sampling: the jackknife over the islands.
+    ``values`` are the samples, equally likely. Standard errors are those of sampling: the jackknife over the islands,
+    NaN where one island has all of the samples.
     """
 
     given = "the evidence and the priors"
@@ -141,7 +142,8 @@ class Posterior(Summarized):
         Returns
         -------
         probability, standard_error : float
-            Between 0 and 1. Of what no sample shows, or each, the error is one sample in all.
+            Between 0 and 1. Of what no sample shows, or each, the error is one sample in all. It is NaN where one island has
+            all of the samples, of which ``posterior`` warns.
 
         Raises
         ------
