@@ -855,7 +855,8 @@ def test_posterior(case: Case) -> None:
     chance = case.call("reconstruct.Posterior.probability", found.probability, condition)
     if not isinstance(chance, Exception):
         alone = math.isnan(found["x"].mean_standard_error)  # one island has all of the samples
-        assert 0.0 <= chance[0] <= 1.0 and (math.isnan(chance[1]) if alone else chance[1] >= 0.0), chance
+        assert 0.0 <= chance[0] <= 1.0, chance
+        assert math.isnan(chance[1]) if alone else chance[1] >= 0.0, chance
     one, other = case.choice(((known_posterior(), known_posterior(5.0)), (found, found), (found, known_posterior())))
     prior = case.option(None, {"one": 0.3, "other": 0.7}, {"one": case.value("share_a"), "other": 0.5})
     accounts = case.option({"one": one, "other": other}, {"one": one}, case.garbage())

@@ -1374,7 +1374,7 @@ def test_axes_that_held_a_scene_take_another_picture(two_speeds):
 
 def test_evidence_that_cannot_be_drawn(two_speeds):
     sharp = reconstruct.posterior(
-        lambda x: {"x": x, "one": 1.0 + 0.0 * x},
+        lambda x: {"x": x, "one": 1.0 + 0.0 * x, "rounded": 7.64092 + 1e-15 * x},
         {"x": uncertainty.Uniform(0, 1)},
         {"x": uncertainty.Interval(0.1, 0.2)},
         samples=512,
@@ -1388,6 +1388,7 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
         (lambda: plot.corner(two_speeds, unknowns=["z"]), "unknown_name"),
         (lambda: plot.corner(two_speeds, unknowns=[["x"]]), "unknown_name"),
         (lambda: plot.corner(sharp, unknowns=["one"]), "no_spread"),
+        (lambda: plot.corner(sharp, unknowns=["rounded"]), "no_spread"),
         (lambda: plot.residuals(3.0), "bad_option"),
         (lambda: plot.residuals(sharp), "no_residuals"),
     ):

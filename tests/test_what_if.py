@@ -8,6 +8,7 @@ import subprocess
 from operator import attrgetter
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -179,6 +180,7 @@ def test_the_page():
         ({"speed_a": ("5 kg", "6 kg")}, "bad_units", "2 arguments"),
         ({"speed_a": (5.0, 20.0), "vx_a": (5.0, 20.0)}, "speed_twice", "two ways"),
         ({"speed_a": (np.array([1.0]), 20.0)}, "bad_range", "pair of finite numbers"),
+        ({"normal": (pint.Quantity(np.array([1.0, 1e307]), "rad"), "20 deg")}, "bad_range", "pair of finite numbers"),
     ],
 )  # fmt: skip
 def test_ranges_that_are_refused(ranges, code, text):

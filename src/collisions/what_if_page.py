@@ -227,7 +227,7 @@ def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
     kind = _kind(name)
     if kind == "angle":
         value, in_degrees = reader.angle(given, name)
-        return value if in_degrees else _TO_DEGREES * value
+        return value if in_degrees or not isinstance(value, float) else _TO_DEGREES * value
     domains = _DOMAINS | {"restitution": restitution_domain(impact.inputs.incomplete)}
     domain = domains.get(name if name in _CONTACT else name[:-2], FINITE)
     return reader.number(given, SI_UNITS[kind], name, domain)
