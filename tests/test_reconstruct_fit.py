@@ -426,7 +426,6 @@ def test_fewer_observations_than_unknowns():
     assert found["z"].standard_error == pytest.approx(0.1, rel=1e-8)
     assert [sorted(one.unknowns) for one in found.undetermined] == [["x", "y"]]
     assert math.isnan(found.p_value)
-    assert "chi_squared=" in repr(found)
     assert found.consistent is None
     assert found.degrees_of_freedom == 0
     assert "nothing checks it" in found.statements[0]
@@ -762,9 +761,7 @@ def test_units_come_back():
 def test_shown_and_read_again():
     """Texts, table, strict JSON and pickle say the same."""
     found, _ = simple()
-    assert "x=" in repr(found)
-    assert "chi_squared=" in repr(found)
-    for text in (str(found), found._repr_html_()):
+    for text in (repr(found), str(found), found._repr_html_()):
         for part in ("prior of x", "residual over sigma", "degrees of freedom", "m/s"):
             assert part in text
     assert "standard_error" in repr(found["x"])

@@ -440,7 +440,7 @@ def test_shown_and_read_again():
     found = posterior(side, *SIDE, samples=1024, seed=1)
     assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["log_evidence"] == found.log_evidence
     for text in (repr(found), found._repr_html_()):
-        for part in ("speed", "predicted v", "log evidence", "agrees with itself", "given the evidence and the priors"):
+        for part in ("speed", "predicted", "log evidence", "agrees with itself", "given the evidence and the priors"):
             assert part in text.lower()
     again = pickle.loads(pickle.dumps(found))
     assert again.to_dict() == found.to_dict()

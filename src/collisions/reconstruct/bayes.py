@@ -21,7 +21,7 @@ from ..units import shown
 from .fit_result import residual_of, warn_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
-from .observations import Observation, listed, observed_columns, read_each, read_reading, refused_everywhere
+from .observations import Observation, observed_columns, read_each, read_reading, refused_everywhere
 from .posterior_result import Posterior, PosteriorOutput, notes_of
 
 ISLANDS = 8
@@ -212,13 +212,7 @@ class _Problem:
                 points=problem.draws,
             )
         if not self.answered:
-            return NoSolutionError(
-                f"the model refuses all {problem.draws} points drawn from the priors, as it does their medians, {listed(at)}"
-                f"{refused_everywhere(self.model, at)}. Give priors within which the impact happens",
-                code="refused",
-                points=problem.draws,
-                at=at,
-            )
+            return refused_everywhere(self.model, problem.draws, at, "priors within which the impact happens")
         sharp = [row.name for row in self.rows if not row.sigma] if math.isfinite(problem.missed) else []
         what = "fits within numbers that a float holds"
         if problem.missed == 0.0:

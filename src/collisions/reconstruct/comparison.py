@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import permutations
 from typing import Any
@@ -55,7 +55,7 @@ class Comparison(Summarized):
         return written
 
     def __repr__(self) -> str:
-        return "\n".join(["<Comparison, given the evidence and the priors", *(f"  {a}: {b}" for a, b in self._rows())]) + ">"
+        return str(self.summary())
 
     def _summary(self, numbers: Cells) -> Summary:
         rows = [
@@ -65,13 +65,6 @@ class Comparison(Summarized):
         stated = [(name, "; ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
         parts = [Part(rows, "Account", ("probability", "before the evidence")), Part(stated, "Priors")]
         return Summary("Accounts compared, given the evidence and the priors", parts, (self.sentence,))
-
-    def _rows(self) -> Iterator[tuple[str, str]]:
-        yield "result", self.sentence
-        for name, value in self.probability.items():
-            yield name, f"probability {value:.3g} ± {self.probability_error[name]:.1g}, before {self.prior[name]:.3g}"
-        for name, priors in self.priors.items():
-            yield f"priors of {name}", "; ".join(f"{unknown} {prior}" for unknown, prior in priors.items())
 
 
 def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None) -> Comparison:

@@ -108,7 +108,9 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         problem = inputs.problem()
         ends = minimise(problem, inputs.starts(_STARTS))
         if np.all(np.isinf(ends.chi_squared)):
-            raise _refused_everywhere(inputs)
+            advice = "bounds or starts within which the impact happens; reconstruct.posterior finds rare ones too"
+            start = dict(zip(inputs.unknowns, inputs.numbers_of("start").tolist(), strict=True))
+            raise refused_everywhere(inputs.model, _STARTS, start, advice)
         # The least misfit, or one that is as good where a search converged.
         best = _examined(inputs, problem, ends, int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)))
         _check_minimum(best, ends)
@@ -239,19 +241,6 @@ def _examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> _Candi
 def _ended_at(ends: Ends, chi_squared: float) -> Any:
     """Which searches ended at a minimum of this misfit."""
     return ends.converged & (abs(ends.chi_squared - chi_squared) <= _SAME_CHI_SQUARED)
-
-
-def _refused_everywhere(inputs: FitInputs) -> NoSolutionError:
-    """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
-    at = {name: unknown.start for name, unknown in inputs.unknowns.items()}
-    return NoSolutionError(
-        f"the model refuses all {_STARTS} points tried for the unknowns, among them {listed(at)}"
-        f"{refused_everywhere(inputs.model, at)}. Give bounds or starts of the unknowns within which the impact happens; "
-        f"reconstruct.posterior finds rare ones too",
-        code="refused",
-        points=_STARTS,
-        at=at,
-    )
 
 
 def _check_minimum(best: _Candidate, ends: Ends) -> None:

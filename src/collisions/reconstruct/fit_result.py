@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
-from ..quantities import OWN, Shown, derived, show
+from ..quantities import OWN, Shown, derived
 from ..records import strict
-from ..summary import Cells, Part, Summary, all_numbers
+from ..summary import Cells, Part, Summary
 from ..uncertainty.distribution import GivenUnit
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
@@ -219,19 +220,16 @@ class Fit(Shown):
     def correlation_matrix(self) -> Any:
         """Correlations in the order of ``names``; NaN for unknowns that are not determined."""
         errors = np.sqrt(np.diagonal(self.covariance))
-        known = np.isfinite(errors)
-        size = np.where(known, errors, np.nan)
-        found = np.clip(self.covariance / np.outer(size, size), -1.0, 1.0)
-        found[known, known] = 1.0
+        found = np.clip(self.covariance / np.outer(errors, errors), -1.0, 1.0)
+        np.fill_diagonal(found, np.where(np.isfinite(errors), 1.0, np.nan))
         return found
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
         """Correlations by pair of unknowns, as ``uncertainty.propagate`` takes them together with ``inputs``."""
         self._check_determined("correlation")
-        matrix = self.correlation_matrix
-        pairs = zip(*np.triu_indices(len(self.names), 1), strict=True)
-        return {(self.names[i], self.names[j]): float(matrix[i, j]) for i, j in pairs}
+        pairs = combinations(enumerate(self.names), 2)
+        return {(one, other): float(self.correlation_matrix[i, j]) for (i, one), (j, other) in pairs}
 
     @property
     def inputs(self) -> dict[str, Normal]:
@@ -284,7 +282,6 @@ class Fit(Shown):
             Part([row(self[name]) for name in self.names], "Unknown", ("estimate", "standard error", "95 percent interval")),
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
             Part([("chi-squared", _chi_squared(self))]),
-            all_numbers(self._rows()),
         ]
         return Summary(self._title, parts, (*(f"{text[0].upper()}{text[1:]}." for text in self.statements), _GIVEN_ERRORS))
 
@@ -292,19 +289,8 @@ class Fit(Shown):
         units = (*self.units.values(), *(one.unit for one in self.residuals.values()))
         return (f"1 {unit.written}" for unit in units if isinstance(unit, GivenUnit))
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         return str(self.summary())
-
-    def _rows(self, prefix: str = "") -> Iterator[tuple[str, str]]:
-        for name in self.names:
-            one, bound = self[name], f", at its {self.at_bounds[name]} bound" if name in self.at_bounds else ""
-            number = f"{one.value:.6g} +/- {one.standard_error:.3g} {one.unit}".rstrip()
-            yield prefix + name, number + bound if one.determined else "not determined"
-        for name, each in self.residuals.items():
-            numbers = f"observed {show(each.observed, each.unit)}, computed {show(each.computed, each.unit)}"
-            yield prefix + name, f"{numbers}, residual over sigma {each.over_sigma:+.2f}"
-        yield prefix + "chi_squared", _chi_squared(self)
-        yield prefix + "errors", "given the stated errors of the observations and priors"
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
@@ -370,7 +356,8 @@ def notes_of(found: Fit) -> Iterator[Note]:
                 SuspectUnitsWarning,
                 f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; if it is an angle, the short "
                 f"way between them is round the circle: give it with its unit, such as Normal({degrees})",
-                code="bare_angle",
+                "",
+                "bare_angle",
             )
 
 

@@ -47,10 +47,6 @@ class Problem(NamedTuple):
         """Computed minus observed values."""
         return self.wrapped(outputs - self.target)
 
-    def chi_squared(self, points: Any) -> Any:
-        """Of points (k, n); NaN where the model refuses."""
-        return np.sum(self.misfit(self.evaluate(points)) ** 2, axis=1)
-
     def sizes(self, points: Any) -> Any:
         """The length, by unknown, over which the model is assumed to vary."""
         return np.clip(abs(points), 1e-3 * self.scale, 10.0 * self.scale) if self.size is None else self.size

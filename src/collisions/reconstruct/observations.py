@@ -8,8 +8,9 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError, UnitsError
+from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..reading import ArgumentReader
+from ..uncertainty.angles import folded
 from ..uncertainty.censored import Censored
 from ..uncertainty.distribution import from_numbers, read_alike, show
 from ..uncertainty.distributions import Interval, Normal
@@ -36,7 +37,7 @@ class Observation(NamedTuple):
     def apart(self, computed: Any, angle: bool) -> Any:
         """Observed minus computed values, by the short way round for angles; 0 within the bounds of a censored reading."""
         if isinstance(self.value, Normal):
-            return short_way(self.value.given_mean - computed) if angle else self.value.given_mean - computed
+            return folded(self.value.given_mean - computed, math.pi if angle else None)
         below, above = self._beyond(computed, angle)
         return np.maximum(below, 0.0) - np.maximum(above, 0.0)
 
@@ -88,13 +89,8 @@ class Observation(NamedTuple):
                     argument="observed",
                 )
             middle = 0.5 * (low + high)
-            computed = middle - short_way(middle - computed)
+            computed = middle - folded(middle - computed, math.pi)
         return computed * 0.0 - np.inf if low is None else low - computed, -np.inf if high is None else computed - high
-
-
-def short_way(difference: Any) -> Any:
-    """Differences of angles within half a turn."""
-    return difference - math.tau * np.ceil(difference / math.tau - 0.5)
 
 
 def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[Any]:
@@ -166,16 +162,22 @@ def read_value(label: str, given: Any) -> Normal:
     return given
 
 
-def refused_everywhere(model: Model, at: Mapping[str, float]) -> str:
-    """The reason that the model itself gives for refusing a single case, to be added to a sentence."""
+def refused_everywhere(model: Model, points: int, at: Mapping[str, float], advice: str) -> NoSolutionError:
+    """The error if the model has no answer anywhere, with its own reason if a single case gives one."""
+    reason = "; call the model there with on_failure='raise' to see why"
     try:
         model.function(**at)
     except CollisionsError as error:
-        return f": {error}"
+        reason = f": {error}"
     except Exception:
         # A model of arrays need not take floats; an error about that says nothing about the scene.
         pass
-    return "; call the model there with on_failure='raise' to see why"
+    return NoSolutionError(
+        f"the model refuses all {points} points tried for the unknowns, among them {listed(at)}{reason}. Give {advice}",
+        code="refused",
+        points=points,
+        at=dict(at),
+    )
 
 
 def listed(values: Mapping[str, float]) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError
 from ..records import strict
-from ..summary import Cells, Part, Summarized, Summary, all_numbers
+from ..summary import Cells, Part, Summarized, Summary
 from ..uncertainty.censored import Censored
 from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
 from ..uncertainty.model import described
@@ -220,34 +220,22 @@ class Posterior(Summarized):
         return written
 
     def __repr__(self) -> str:
-        lines = "\n".join(f"  {name}: {text}" for name, text in self._rows())
-        return f"<Posterior of {self.samples} samples, given the evidence and the priors\n{lines}>"
+        return str(self.summary())
 
     def _summary(self, numbers: Cells) -> Summary:
-        predicted = outputs_part(self.predicted, numbers, "Predicted")
-        observed = [(name, str(one)) for name, one in self.observed.items()]
-        stated = [(name, str(one)) for name, one in self.priors.items()]
+        observed = [(name, str(one), f"{self.residuals[name].over_sigma:+.2f}") for name, one in self.observed.items()]
         parts = [
             outputs_part(self.unknowns, numbers, "Unknown"),
-            predicted,
-            Part(observed, "Observed"),
-            Part(stated, "Priors"),
-            all_numbers(self._rows()),
+            outputs_part(self.predicted, numbers, "Predicted"),
+            Part(observed, "Observed", ("as stated", "residual over sigma")),
+            Part([(name, str(one)) for name, one in self.priors.items()], "Priors"),
+            Part([("log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}")]),
         ]
         notes = (f"{text[0].upper()}{text[1:]}." for text in self.statements)
         return Summary(f"Given the evidence and the priors ({self.samples} samples)", parts, notes)
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.observed | self.priors)
-
-    def _rows(self) -> Iterator[tuple[str, str]]:
-        yield from (one.row() for one in self.unknowns.values())
-        for name, one in self.residuals.items():
-            predicted, at = self.predicted[name].row()[1], f", residual over sigma {one.over_sigma:+.2f}" if one.sigma else ""
-            yield f"predicted {name}", f"{predicted}; observed {shown(self.observed[name], 1000)}{at}"
-        yield "log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}"
-        for number, sentence in enumerate(self.statements, 1):
-            yield f"note {number}", sentence
 
 
 def notes_of(found: Posterior) -> Iterator[Note]:
