@@ -50,11 +50,11 @@ _FEW = 12
 _HANGS = 60.0  # seconds
 _MOST_FAILURES = 25
 _PACKAGE = str(Path(col.__file__).parent)
-# What Python itself says of a keyword that is unknown or left out, and what a Vehicle does, with what to write.
+# What is said of a keyword that is unknown or left out, by Python or with what to write.
 _MISSPELT = re.compile(
     r"missing \d+ required|unexpected keyword|multiple values for|keywords must be strings|takes the fields of a Vehicle|"
     r"^again\(\) takes the arguments of |"
-    r"^Vehicle has no argument '.*'; (write \w+=|write Vehicle\.from_speed|it has mass, )",
+    r"^\w[\w.]*(\(\))? has no argument '.*'; (write |it has |\w+ has it|\w+ and \w+ have it)|^Vehicle takes its arguments by name",
     re.DOTALL,
 )
 # What an impact says of itself to be NaN where it ended while the contact points still approached.

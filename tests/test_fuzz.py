@@ -286,7 +286,7 @@ def called_wrongly(call: Any) -> Any:
     try:
         return call()
     except TypeError as error:
-        said = r"missing \d+ required|unexpected keyword|multiple values for (keyword )?argument|keywords must be strings"
+        said = r"missing \d+ required|has no argument|multiple values for (keyword )?argument|keywords must be strings"
         if not re.search(said, str(error)):
             raise
         return None

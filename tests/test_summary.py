@@ -101,7 +101,24 @@ def test_what_has_no_number_says_why():
     speeds = np.array([10.0, 20.0, -1.0])
     many = col.linear_central(col.Vehicle(mass=1500.0, vx=speeds), col.Vehicle(mass=1000.0), 0.2, on_failure="nan")
     assert lines(many.summary())["Contact", "closing speed"] == ["10.00 to 20.00 m/s"]
-    assert "1 of 3 cases are refused" in str(many.summary())
+    assert "1 of 3 cases were refused" in str(many.summary())
+    assert lines(many.summary())["Before", "speed"][0] == lines(many.a.summary())["Before", "speed"][0] == "10.00 to 20.00 m/s"
+    none = col.linear_central(col.Vehicle(mass=1500.0, vx=-speeds[:2]), col.Vehicle(mass=1000.0), 0.2, on_failure="nan")
+    assert lines(none.summary())["Before", "speed"][0] == "not defined"
+
+
+def test_the_regimes_of_a_batch_are_those_of_the_cases_with_an_answer():
+    a = camry(vx=np.array([15.0, -15.0]), name="")
+    many = crash(a=a, on_failure="nan")
+    assert list(many.refused) == [False, True]
+    assert lines(many.summary())["Contact", "regime"] == [many.case(0).regime]
+
+
+def test_huge_numbers_stay_in_the_units_of_the_inputs():
+    heavy = col.linear_central(col.Vehicle(mass="1e10 lb", vx="30 mph"), col.Vehicle(mass="1e10 lb"), 0.0)
+    found = lines(heavy.summary())["Contact", "energy lost"]
+    # m v^2 / 4 with 1 lbf = 32.17405 lb ft/s^2
+    assert found == [f"{1e10 * 44.0**2 / 4.0 / 32.17405:.4g} ft·lbf"]
 
 
 def test_a_notebook_shows_the_same_cells_and_folds_the_rest():
@@ -353,3 +370,26 @@ def test_planar_momentum_says_what_a_degree_of_each_course_does():
     assert [float(cell.removesuffix(" mph")) for cell in shown] == pytest.approx(
         changes, abs=0.05 + 0.01
     )  # rounded, and a slope
+
+
+def test_a_batch_of_planar_momentum_is_shown_in_the_units_of_its_inputs():
+    """Without the case whose courses are parallel."""
+    courses = {"course_a": "0 deg", "course_b": pint.Quantity(np.array([90.0, 80.0, 0.0]), "deg")}
+    courses |= {"course_a_after": "20 deg", "course_b_after": "40 deg", "speed_a_after": "17 mph", "speed_b_after": "20 mph"}
+    many = reconstruct.momentum("3400 lb", "3000 lb", **courses, on_failure="nan")
+    # Momentum along both axes by hand: 17 sin 20 + (30/34) 20 sin 40 = (30/34) v_b
+    by_hand = 34 / 30 * 17 * np.sin(np.radians(20)) + 20 * np.sin(np.radians(40))
+    assert "80 to 90°" in str(many.summary())
+    assert f"{by_hand:.1f} to {by_hand / np.sin(np.radians(80)):.1f} mph" in str(many.summary())
+
+
+def test_the_reason_for_a_model_is_in_the_units_of_the_inputs():
+    a, b = camry(name=""), civic(name="")
+    choice = col.required_model(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="2 mph")
+    error = choice.errors["oblique_central"] / MPH
+    table = " ".join(str(choice.summary()).split())
+    assert f"would err by {error:.3g} mph, and 2 mph are accepted" in table
+    assert " m/s" not in table
+    assert " m/s" in choice.reason  # as data it stays in SI
+    taken = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="2 mph").choice
+    assert str(taken.summary()) == str(choice.summary())

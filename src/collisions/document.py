@@ -42,7 +42,15 @@ class Document(str):
             The file cannot be written.
         """
         target = Path(path)
-        target.write_text(self, encoding="utf-8", newline="\n")
+        try:
+            target.write_text(self, encoding="utf-8", newline="\n")
+        except FileNotFoundError as error:
+            folder = str(target.parent)
+            text = f"there is no folder {folder!r}; make it first, by pathlib.Path({folder!r}).mkdir(parents=True), to save"
+            raise FileNotFoundError(error.errno, text, str(target)) from None
+        except IsADirectoryError as error:
+            text = f"this is a folder; name a file in it, such as {str(target / 'report.html')!r}, in place of"
+            raise IsADirectoryError(error.errno, text, str(target)) from None
         return target
 
     def _repr_html_(self) -> str | None:

@@ -546,12 +546,14 @@ class Impact(Frozen, Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         a, b = self.a, self.b
+        numbers.answered = np.logical_not(self.refused)
         names = [name for name in _CONTACT if self.inputs.model != "linear_central" or name not in _TANGENTIAL]
         label = {"energy_loss": "energy lost"}
         rows = [(label.get(name, label_of(name)), numbers.text(getattr(self, name), unit_of(Impact, name))) for name in names]
         notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
         if np.any(self.refused):
-            many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases are refused; their status says why."
+            many = f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases were refused, for what their status "
+            many += "says; the ranges are those of the others."
             notes = (f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many, *notes)
         title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
@@ -600,7 +602,9 @@ def solved(
         return build(inputs, solve_inputs(model_of(inputs), inputs, on_failure, threads, progress))
     answer, choice = solve_least(inputs, on_failure, threads, progress, choice)
     impact = build(inputs, answer)
-    vars(impact)["choice"] = where_answered(choice, answer.status > Status.ENERGY_GAIN)
+    choice = where_answered(choice, answer.status > Status.ENERGY_GAIN)
+    given = inputs.a.given or inputs.b.given or inputs.given
+    vars(impact)["choice"] = choice if given is None else in_units_of(choice, inputs.texts)
     return impact
 
 

@@ -19,7 +19,7 @@ from .quantities import lock, same
 from .reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown, texts_of
-from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, without_turning
+from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
@@ -158,8 +158,9 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
         try:
             return part_of(value, take)
         except InputError as error:
-            who = f"{label} ({value.name})" if value.name else label
-            raise type(error)(f"{who}: {error}", code=error.code, **{**error.fields, "vehicle": label}) from None
+            raise type(error)(
+                f"{with_name(label, value)}: {error}", code=error.code, **{**error.fields, "vehicle": label}
+            ) from None
 
     return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .contact_time import timed
+from .formatting import Numbers
 from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
@@ -23,6 +24,7 @@ from .progress import halves, reporter
 from .quantities import Shown, derived, lock, numeric, same
 from .reading import ArgumentReader, broadcast
 from .solving import cases_of, check_options, say_of_cases, solve_cases, solve_inputs
+from .summary import Cells, Summary, all_numbers, sided
 from .units import Value, to_quantity
 from .warning import quietly
 
@@ -32,6 +34,7 @@ _LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
 _LAST, _ROUGH = len(MODELS), 25
 # Safety factor on an error against that.
 _MARGIN = 1.15
+_SI = Numbers("si")
 _PIVOT, _OUTSIDE = "a body that turns about a pivot", "an impulse from outside"
 
 
@@ -126,6 +129,10 @@ class ModelChoice(Shown):
         """By model, what it still needs, such as "a.yaw_inertia" or "point"."""
         last = {_IN_TIME: self._missing} if len(self._predicted) == _LAST else {}
         return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing, **last})
+
+    def _summary(self, numbers: Cells) -> Summary:
+        values = ((name, _reason(self, numbers) if name == "reason" else value, unit) for name, value, unit in self._values())
+        return Summary(self._title, [*sided(values, numbers), all_numbers(self._rows())])
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         yield prefix + "model", self.model, None
@@ -359,7 +366,7 @@ def _predicted(inputs: Inputs, missing: tuple[str, ...], shape: tuple[int, ...] 
     return least_models((inputs.rule, inputs.law, known, eps), (*numbers, limit), cases, progress)
 
 
-def _reason(choice: ModelChoice) -> str:
+def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     """The reason for the choice, in a sentence."""
     which, errors, tolerance, timed = choice._which, choice._predicted, choice.tolerance, choice._timed
     if isinstance(which, np.ndarray):
@@ -368,17 +375,20 @@ def _reason(choice: ModelChoice) -> str:
         return f"of {which.size} cases {listed or 'none'}: each the least within its tolerance"
     if choice._untimed and not timed:
         bare = replace(choice, _untimed="", _predicted=errors[:2])
-        return f"{_reason(bare)}; {choice._untimed}"
+        return f"{_reason(bare, system)}; {choice._untimed}"
+
+    def speed(value: float) -> str:
+        return f"{system.converted(value, 'speed'):.3g}{system.unit('speed')}"
 
     def would(at: int) -> str:
-        return f"{_NAMES[at]} {'has no answer' if errors[at] == math.inf else f'would err by {errors[at]:.3g} m/s'}"
+        return f"{_NAMES[at]} {'has no answer' if errors[at] == math.inf else f'would err by {speed(errors[at])}'}"
 
-    model, accepted = _NAMES[which], f", and {tolerance:.3g} m/s are accepted"
+    model, accepted = _NAMES[which], f", and {speed(tolerance)} are accepted"
     fullest = _LAST if timed else ECCENTRIC
     if which != fullest:
         how = "with what an impulse leaves out of this duration it errs" if timed else "it errs"
         others = f"; {would(0)}" if which and not timed else ""
-        return f"{model}: {how} by {errors[which]:.3g} m/s{accepted}{others}"
+        return f"{model}: {how} by {speed(errors[which])}{accepted}{others}"
     nearest = errors[fullest - 1]
     if tolerance == 0.0:
         why = f"a tolerance of 0 asks for the {'fullest' if timed else 'full'} model"

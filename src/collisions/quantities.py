@@ -135,7 +135,7 @@ class Quantities:
             if unit is None:
                 raise AttributeError(f"{name} gives no quantity; call it on the object itself, without .q")
             return lambda *args, **kwargs: self._with_unit(value(*args, **kwargs), unit)
-        if value is None and unit is not None and hasattr(self._owner, "_missing"):
+        if value is None and hasattr(self._owner, "_missing"):
             problem = self._owner._missing(name)
             if problem is not None:
                 raise NoQuantityError(str(problem), code=problem.code, **problem.fields)

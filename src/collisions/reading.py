@@ -14,7 +14,7 @@ import numpy as np
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, POSITIVE_FINITE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import units_required
-from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown
+from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown, si_unit, unit_as_written
 from .warning import warn
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
@@ -236,8 +236,8 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             raise _not_a_number(value, argument, unit)
         try:
             value = value.__array__()
-        except Exception as error:
-            raise _not_a_number(value, argument, unit) from error
+        except Exception:
+            raise _not_a_number(value, argument, unit) from None
     if not isinstance(value, np.ndarray):
         raise _not_a_number(value, argument, unit)
     if type(value) not in (np.ndarray, np.memmap):
@@ -247,6 +247,8 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             code="not_a_number",
             argument=argument,
         )
+    if value.dtype.kind in "UO" and any(isinstance(part, str) or is_quantity(part) for part in value.flat):
+        _from_sequence(value.tolist(), argument, unit)
     if value.dtype.kind not in "fiu":
         raise InputError(
             f"{argument} is an array of {value.dtype}; give an array of floats or integers, for example by .astype(float)",
@@ -278,8 +280,7 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
             stack.extend((part, depth + 1) for part in item)
         elif is_quantity(item) or isinstance(item, str):
             raise UnitsError(
-                f"{argument} is a {type(value).__name__} with {shown(item)} in it; put the unit on the whole: "
-                f"{_as_quantity(value)}, or give numbers in SI",
+                f"{argument} is a {type(value).__name__} with {shown(item)} in it; {_as_quantity(value, argument, unit)}",
                 code="bad_units",
                 argument=argument,
             )
@@ -295,19 +296,26 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
         ) from None
 
 
-def _as_quantity(values: Sequence[Any]) -> str:
-    """How a list of texts of one unit is written as one Quantity; an example for others."""
-    parts = [part.partition(" ") for part in values if isinstance(part, str)]
-    numbers, units = ", ".join(number for number, _, _ in parts), {unit.strip() for _, _, unit in parts}
-    if len(parts) != len(values) or len(units) != 1 or not numbers.replace(", ", "").replace(".", "").isdigit():
-        numbers, units = "40, 50", {"mph"}
-    return f"pint.Quantity([{shown(numbers)[1:-1]}], {units.pop()!r})"
+def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
+    """How a list of texts and Quantities is written as one Quantity, in the first unit in it; an example for others."""
+    first = next((part for part in values if has_unit(part)), None)
+    if first is None:
+        return "give numbers, without quotes"
+    try:
+        name, unit = unit_as_written(first), unit or si_unit(first)
+        by, _ = _read(f"1 {name}", unit, argument)
+        # What a number without a unit was meant in is not known.
+        parts = [f"{_read(part, unit, argument)[0] / by:.10g}" if has_unit(part) else "..." for part in values]
+    except (InputError, TypeError):  # of an array among them, too
+        parts, name = ["40", "50"], example(unit).rpartition("'")[0].rpartition(" ")[2] or "%"
+    return f"put the unit on the whole: pint.Quantity([{shown(', '.join(parts))[1:-1]}], {name!r}), or give numbers in SI"
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
+    got = "it was not given, or as None" if value is None else f"got {shown(value)} of type {type(value).__name__}"
+    got += "; write its mass, such as a.mass" if unit == "kg" and hasattr(value, "mass") else ""
     return InputError(
-        f"{argument} must be a number, an array or a Quantity, such as {example(unit)}; got {shown(value)} of type "
-        f"{type(value).__name__}",
+        f"{argument} must be a number, an array or a Quantity, such as {example(unit)}; {got}",
         code="not_a_number",
         argument=argument,
     )

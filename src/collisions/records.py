@@ -224,15 +224,22 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
                 _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
         for name, value in _results(side):
             _add(found, f"{label}.{name}", value, unit_of(Side, name))
-    return dict(_column(name, *found[name], units, np.shape(impact.status)) for name in _chosen(found, wanted))
+    return dict(_column(name, *found[name], units, np.shape(impact.status)) for name in _chosen(impact, found, wanted))
 
 
-def _chosen(found: Mapping[str, Any], wanted: Any) -> list[str]:
+def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
     """The names of the columns that were asked for, by default all."""
     if wanted is None:
         return list(found)
     names = list(wanted) if np.iterable(wanted) and not isinstance(wanted, str) else [wanted]
     for name in names:
+        if isinstance(name, str) and name not in found:
+            side, _, inner = name.rpartition(".")
+            owner = getattr(impact, side) if side in ("a", "b") else impact
+            if inner in attributes(type(owner)):
+                text = f"columns: {name} has no value in this impact; leave it out"
+                problem = owner._missing(inner) if isinstance(owner, Side) else None
+                raise problem or InputError(text, code="unknown_name", argument="columns")
         if not isinstance(name, str) or name not in found:
             near = get_close_matches(shown(name), found, 3) or list(found)[:3]
             raise InputError(

@@ -9,6 +9,7 @@ from functools import wraps
 from typing import Any, TypeVar, cast
 
 from .errors import InputError
+from .hints import hinted
 from .units import shown
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -41,6 +42,7 @@ class options:
     collisions.errors.UnitsError: vx = 20 has no unit, and options(require_units=True) asks for one; write for example '80 km/h'
     """
 
+    @hinted
     def __init__(self, *, require_units: bool) -> None:
         if not isinstance(require_units, bool):
             raise InputError(
@@ -67,10 +69,11 @@ def in_si() -> Iterator[None]:
 
 def computing(function: F) -> F:
     """Decorate a function that works on results: the numbers it gives on are the package's own, in SI."""
+    named = hinted(function)
 
     @wraps(function)
     def inside(*args: Any, **options: Any) -> Any:
         with in_si():
-            return function(*args, **options)
+            return named(*args, **options)
 
     return cast(F, inside)

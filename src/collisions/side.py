@@ -20,7 +20,7 @@ from .quantity_names import SideQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Pair, Texts, Value
-from .vehicle import Vehicle, missing, moved, turn_at, without_turning
+from .vehicle import Vehicle, missing, moved, turn_at, with_name, without_turning
 
 
 class Side(Frozen, Summarized):
@@ -346,6 +346,7 @@ class Side(Frozen, Summarized):
         return c * x + s * y, c * y - s * x
 
     def _missing(self, name: str) -> MissingInputError | None:
+        """The error for an attribute that is None, if a field of the vehicle is missing."""
         if name not in ("moment_arm", "normal_arm", "gamma"):
             return missing(self.before, "heading", name, "ab"[self._index])
         lacking = [field for field in ("x", "y", "yaw_inertia") if getattr(self.before, field) is None]
@@ -363,6 +364,7 @@ class Side(Frozen, Summarized):
         return f"<{'ab'[self._index]}: delta_v={show(self.delta_v, 'm/s')}, after={self.after!r}>"
 
     def _summary(self, numbers: Cells) -> Summary:
+        numbers.answered = self._answer.status <= Status.ENERGY_GAIN
         return Summary(title_of(self), [*beside((self,), numbers), all_numbers(self._rows())], SIGNS)
 
     def _texts(self) -> Iterable[Any]:
@@ -385,8 +387,7 @@ _CHANGE = {"delta_v": "total", "delta_v_forward": "forward", "delta_v_left": "le
 
 def title_of(side: Side) -> str:
     """The letter of a vehicle, and its name if that says more."""
-    letter, name = "AB"[side._index], " ".join(side.before.name.split())
-    return letter if name in ("", letter) else f"{letter} ({name})"
+    return with_name("AB"[side._index], side.before)
 
 
 def beside(sides: Sequence[Side], numbers: Cells) -> list[Part]:

@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Any
+from inspect import signature
+from typing import Any, Never
 
 from .contact_time import Geometry, read_contact_time
+from .hints import hinted, no_argument, open_to_hints
 from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, plain_inputs, read_inputs
 from .kernels.contact_laws import FRICTION
 from .model_choice import ModelChoice, choose
 from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read
 from .progress import Progress
+from .quantities import in_units_of
 from .solving import solve_inputs
 from .units import Impulse, Input, Pair
 from .vehicle import Vehicle
 
 _FRICTIONLESS = 0.0, None, None
+# Where an argument is that a solver does not have.
+_ELSEWHERE = {
+    **dict.fromkeys(("friction", "impulse_ratio", "critical_fraction", "law"), "oblique_central and eccentric have it"),
+    **dict.fromkeys(("point", "outside_a", "outside_b"), "eccentric has it"),
+    **dict.fromkeys(("duration", "stiffness", "crush_a", "crush_b", "drag"), "time_resolved has it"),
+}
 
 
+@open_to_hints
 def linear_central(
     a: Vehicle,
     b: Vehicle,
@@ -28,6 +38,7 @@ def linear_central(
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
+    **unknown: Never,
 ) -> Impact:
     """Solve a linear central impact: from the states before and the restitution to the states after.
 
@@ -83,9 +94,12 @@ def linear_central(
     >>> round(impact.energy_loss / 1000, 1)
     106.0
     """
+    if unknown:
+        raise no_argument("linear_central()", signature(linear_central).parameters, unknown, _ELSEWHERE)
     return _solve(LINEAR, a, b, restitution, normal, None, _FRICTIONLESS, None, incomplete, on_failure, threads, progress)
 
 
+@open_to_hints
 def oblique_central(
     a: Vehicle,
     b: Vehicle,
@@ -100,6 +114,7 @@ def oblique_central(
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
+    **unknown: Never,
 ) -> Impact:
     """Solve an oblique central impact: velocities at an angle to the normal, bodies that do not turn.
 
@@ -152,10 +167,13 @@ def oblique_central(
     >>> round(impact.b.after.vx, 3), round(impact.a.after.vx, 3), round(impact.a.after.vy, 3)
     (3.464, -3.0, 2.0)
     """
+    if unknown:
+        raise no_argument("oblique_central()", signature(oblique_central).parameters, unknown, _ELSEWHERE)
     tangential = friction, impulse_ratio, critical_fraction
     return _solve(OBLIQUE, a, b, restitution, normal, None, tangential, law, incomplete, on_failure, threads, progress)
 
 
+@open_to_hints
 def eccentric(
     a: Vehicle,
     b: Vehicle,
@@ -173,6 +191,7 @@ def eccentric(
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
+    **unknown: Never,
 ) -> Impact:
     """Solve an eccentric impact: the line of impact misses a centre of mass, so the bodies turn.
 
@@ -250,6 +269,8 @@ def eccentric(
     1.95 0
     1.61 -827
     """
+    if unknown:
+        raise no_argument("eccentric()", signature(eccentric).parameters, unknown, _ELSEWHERE)
     tangential = friction, impulse_ratio, critical_fraction
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
@@ -257,6 +278,7 @@ def eccentric(
     )
 
 
+@open_to_hints
 def time_resolved(
     a: Vehicle,
     b: Vehicle,
@@ -277,6 +299,7 @@ def time_resolved(
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
+    **unknown: Never,
 ) -> Impact:
     """Follow a contact that takes time: a spring between the vehicles, friction, sliding tyres, and places that change.
 
@@ -358,6 +381,8 @@ def time_resolved(
     >>> round(impact.b.delta_v, 2), round(impact.pulse.q.duration.m_as("ms")), round(impact.pulse.q.max_crush.m_as("cm"), 1)
     (0.73, 100, 8.8)
     """
+    if unknown:
+        raise no_argument("time_resolved()", signature(time_resolved).parameters, unknown, _ELSEWHERE)
     extra = {
         "duration": duration,
         "stiffness": stiffness,
@@ -373,6 +398,7 @@ def time_resolved(
     return build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
 
 
+@hinted
 def required_model(
     a: Vehicle,
     b: Vehicle,
@@ -439,9 +465,10 @@ def required_model(
     tangential = friction, impulse_ratio, critical_fraction
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
     inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
-    return choose(inputs)[0]
+    return in_units_of(choose(inputs)[0], inputs.texts)
 
 
+@open_to_hints
 def solve(
     a: Vehicle,
     b: Vehicle,
@@ -462,6 +489,7 @@ def solve(
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
+    **unknown: Never,
 ) -> Impact:
     """Solve an impact with the least model that stays within a tolerance of the eccentric one.
 
@@ -500,6 +528,8 @@ def solve(
     >>> impact.model, round(impact.b.delta_v, 3)
     ('linear_central', 6.667)
     """
+    if unknown:
+        raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
     tangential = friction, impulse_ratio, critical_fraction
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
     inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)

@@ -29,7 +29,7 @@ from .kernels.time_resolved import Passed
 from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
 from .progress import reporter
 from .units import shown
-from .vehicle import DOMAINS
+from .vehicle import DOMAINS, with_name
 from .warning import warn_of_cases
 
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
@@ -157,7 +157,7 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
             values |= {"limit": limit, "side": "less" if limit > 0.0 else "greater"}
             extra["limit"] = limit
         case Status.SPINNING:
-            turning = [(f"{side}{f' ({body.name})' if body.name else ''}", body.yaw_rate) for side, body in bodies]
+            turning = [(with_name(side, body), body.yaw_rate) for side, body in bodies]
             values["motion"] = " and ".join(f"{who} has yaw_rate = {rate:.6g} rad/s" for who, rate in turning if rate != 0.0)
             extra["argument"] = "yaw_rate"
         case Status.TRANSVERSE:

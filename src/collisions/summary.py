@@ -13,7 +13,7 @@ import numpy as np
 from .formatting import KIND_OF, Numbers, bad_system, in_words, number_with_unit
 from .units import system_given
 
-_LARGEST = 1e9  # beyond it numbers are written with a power of ten, in SI
+_LARGEST = 1e9  # beyond it numbers are written with a power of ten
 _SHORT = 30  # characters of a cell that is a number, and not a sentence
 _PAGE, _LEAST = 88, 24  # characters of a line of the plain table, and at least of its longest column
 _NOT_KNOWN = "\u2013"
@@ -35,6 +35,8 @@ class Cells(Numbers):
     """Writes numbers for a table: rounded, with the unit; angles are in degrees in every system of units."""
 
     typeset = True
+    # Of a batch, which cases have an answer: ranges are of these alone.
+    answered: Any = None
 
     def text(self, value: Any, unit: str | None) -> str:
         """A number in this SI unit; the range of an array; other values as they are."""
@@ -51,16 +53,20 @@ class Cells(Numbers):
         kind = KIND_OF.get(unit)
         if not math.isfinite(value):
             return in_words(value)
-        if kind is None or not abs(value * self.scale(kind)) < _LARGEST:
+        if kind is None or math.isinf(value * self.scale(kind)):
             return number_with_unit(f"{value:.4g}", unit)
+        if not abs(value * self.scale(kind)) < _LARGEST:
+            return number_with_unit(f"{value * self.scale(kind):.4g}", self.label(kind))
         if kind in ("angle", "yaw rate") and self.name == "si":
             return Cells("metric").text(value, unit)
         return self.answer(value, kind)
 
     def _range(self, values: Any, unit: str | None) -> str:
         """An array by its least and greatest value, and how many cases have none."""
+        if isinstance(self.answered, np.ndarray):
+            values = np.broadcast_to(values, self.answered.shape)[self.answered]
         if values.dtype.kind != "f" or unit is None:
-            return ", ".join(map(str, np.unique(values).tolist()))
+            return ", ".join(map(str, np.unique(values).tolist())) or _NOT_KNOWN
         known = values[~np.isnan(values)]
         if not known.size:
             return in_words(math.nan)

@@ -14,7 +14,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from .errors import UnitsError
+from .errors import InputError, UnitsError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -109,6 +109,9 @@ _MEANT = {
     "kgs": "kg",
     "lbm": "lb",
 }
+# Marks in place of a unit, and units of which pounds are a force.
+_MARKS = {"'": "ft", '"': "in", "''": "in", "#": "lb"}
+_FORCES = {"J", "N*s", "N/m", "N/m**2", "kg*m**2/s"}
 _NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
 # Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive.
@@ -183,7 +186,7 @@ def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str
     try:
         roots = dict(quantity._REGISTRY.get_root_units(quantity._units)[1]._units)
     except Exception as error:
-        raise _bad_units(value, _ANY_KIND, argument, error) from error
+        raise _bad_units(value, _ANY_KIND, argument, error) from None
     names = [str(name) for name in quantity._units]
     if names == ["gram"] or any(_is_count(quantity._REGISTRY, name) and name not in _SPOKEN_PROPORTIONS for name in names):
         hint = "a drag factor is a plain number, an acceleration '6.9 m/s**2', a mass '0.7 kg'"
@@ -288,22 +291,29 @@ def parse(text: str, unit: str, argument: str) -> Any:
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
         raise UnitsError(
-            f"{argument}: cannot read {shown(text)}{_cure(stripped)}; write {how}, such as {example(unit)}",
+            f"{argument}: cannot read {shown(text)}{_cure(stripped, unit)}; write {how}, such as {example(unit)}",
             code="bad_units",
             argument=argument,
             text=text,
         )
+    value = float(number.group())
+    if math.isinf(value) and "inf" not in number.group():
+        raise InputError(f"{argument} is too large: {shown(text)}", code="out_of_range", argument=argument)
     try:
         units = read.get(name)
         if units is None:
             units = read[name] = registry.parse_units(name)._units
-        return registry.Quantity(float(number.group()), units)
+        return registry.Quantity(value, units)
     except Exception as error:
-        raise _bad_units(text, unit, argument, error) from error
+        raise _bad_units(text, unit, argument, error) from None
 
 
-def _cure(text: str) -> str:
+def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
+    if unit == "rad" and re.match(r"(north|south|east|west|[ns] ?\d|[nsew]{1,3}$)", text.lower()):
+        return ": angles are counted from the x axis, counter-clockwise; with x to the east, north is '90 deg'"
+    if mark := re.fullmatch(rf"({_NUMBER})\s*('|\"|''|#|\w+\.)", text):
+        return f", {f'{mark[1]} {_MARKS.get(mark[2]) or mark[2][:-1]}'!r} can be read"
     feet = re.fullmatch(r"""(\d+)\s*(?:'|ft|feet)\s*(\d+(?:\.\d+)?)\s*(?:"|''|in|inch|inches)""", text)
     if feet:
         return f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' is one"
@@ -318,9 +328,13 @@ def _cure(text: str) -> str:
     cured = re.sub(r"(?<=[a-z])(\d)\b", r"**\1", re.sub(r"(?<=[a-z])-(?=[a-z])", "*", text))
     if cured != text:
         # Pounds beside seconds are a force: lb ft s2 is the yaw inertia of a US data sheet.
-        cured = re.sub(r"\blbs?\b", "lbf", cured) if re.search(r"\bs(?:ec)?\b", cured) else cured
+        cured = _as_force(cured) if unit in _FORCES or re.search(r"\bs(?:ec)?\b", cured) else cured
         return f": units are multiplied by * and raised by **, {cured!r}"
     return ""
+
+
+def _as_force(text: str) -> str:
+    return re.sub(r"\b(?:lbs?|pounds?)\b", "lbf", text)
 
 
 def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
@@ -339,7 +353,7 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
             zero, one, two = (float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0, 1, 2))
             found = one, "" if registry.Quantity(1, quantity.units).unitless else f"{quantity.units}"
         except Exception as error:
-            raise _bad_units(given, unit, argument, error) from error
+            raise _bad_units(given, unit, argument, error) from None
         if zero != 0.0 or two != 2.0 * one:
             raise _bad_units(given, unit, argument, None)
         if (hint := _out_of_place(quantity, unit)) or (hint := _ambiguous_unit(quantity)):
@@ -421,6 +435,8 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
         hint = f"; {name!r} is written {meant!r}"
     if unit == "kg" and is_force:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
+    elif unit in _FORCES and _as_force(text) != text:
+        hint = f"; pounds here are a force, {_as_force(text)!r}"
     elif unit == "kg*m**2" and is_force:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
     return UnitsError(

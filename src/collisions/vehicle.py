@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field, fields
-from inspect import signature
 from typing import Any, Never, cast
 
 import numpy as np
 
 from .directions import Angle, angle_of, direction
 from .errors import InputError, MissingInputError
+from .hints import no_argument, open_to_hints
 from .kernels.elementwise import FINITE, POSITIVE, not_about_pivot, select, turning_velocity
 from .quantities import Quantities, derived, hypot, lock, returns, same, show
 from .quantity_names import VehicleQuantities
@@ -84,9 +84,10 @@ class Vehicle(_AsGiven):
     pivot: tuple[Value, Value] | None = field(metadata={"unit": "m", "domain": FINITE})
     name: str = field()
 
+    @open_to_hints
     def __init__(
         self,
-        *,
+        *unnamed: Never,
         mass: Input,
         vx: Input = 0.0,
         vy: Input = 0.0,
@@ -99,8 +100,10 @@ class Vehicle(_AsGiven):
         name: str = "",
         **unknown: Never,
     ) -> None:
+        if unnamed:
+            raise TypeError(f"Vehicle takes its arguments by name, as in mass={shown(unnamed[0])}: {', '.join(NAMES)}")
         if unknown:
-            raise _unknown(next(iter(unknown)))
+            raise no_argument("Vehicle", NAMES, unknown, _HINTS)
         given = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name)
         plain = (
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
@@ -319,7 +322,7 @@ class Vehicle(_AsGiven):
             return vx + turn_x, vy + turn_y
 
     def _missing(self, name: str) -> MissingInputError | None:
-        return None if name == "pivot" else missing(self, name, f".q.{name}")
+        return None if name in ("pivot", "given") else missing(self, name, f".q.{name}")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Vehicle):
@@ -364,10 +367,6 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
 for _name in ("__setattr__", "__delattr__"):
     setattr(Vehicle, _name, _refuse_setting)
 
-# Without a default Python would say that mass is missing, and not that it was given as weight. The signature stays as it is.
-_signature = signature(Vehicle)
-type.__setattr__(Vehicle, "__signature__", _signature.replace(parameters=list(_signature.parameters.values())[:-1]))
-(Vehicle.__init__.__kwdefaults__ or {})["mass"] = None
 NAMES = tuple(f.name for f in fields(Vehicle))
 UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
 DOMAINS = {f.name: f.metadata["domain"] for f in fields(Vehicle) if "domain" in f.metadata and f.name != "pivot"}
@@ -452,27 +451,17 @@ def turn_at(vehicle: Vehicle, yaw_rate: Any, px: Any, py: Any, purpose: str, x: 
     return turning_velocity(yaw_rate, px, py, x, y)
 
 
-# What people call the fields, and what is asked for by speed.
-_CALLED = {
-    "mass": ("weight", "m"),
-    "yaw_rate": ("omega", "angular_velocity", "spin", "r"),
-    "yaw_inertia": ("inertia", "izz", "iz", "moment_of_inertia", "I"),
-    "heading": ("angle", "theta", "psi", "yaw", "orientation"),
+_BY_SPEED = "write Vehicle.from_speed(speed='45 mph', course='0 deg', ...), or the velocity in scene axes as vx= and vy="
+_HINTS = {
+    **dict.fromkeys(("speed", "velocity", "v", "course", "direction"), _BY_SPEED),
+    "weight": "write mass=, such as mass='3400 lb' for a vehicle that weighs 3400 lb",
 }
-_BY_SPEED = ("speed", "velocity", "v", "course", "direction")
 
 
-def _unknown(name: str) -> TypeError:
-    """The error for an argument that a Vehicle does not have, with the one that is meant."""
-    from difflib import get_close_matches
-
-    near = [field for field, others in _CALLED.items() if name in others] or get_close_matches(name, NAMES, 1)
-    hint = f"; write {near[0]}=" if near else f"; it has {', '.join(NAMES)}"
-    if name in _BY_SPEED:
-        hint = "; write Vehicle.from_speed(speed='45 mph', course='0 deg', ...), or the velocity in scene axes as vx= and vy="
-    if name == "weight":
-        hint += ", such as mass='3400 lb' for a vehicle that weighs 3400 lb"
-    return TypeError(f"Vehicle has no argument {name!r}{hint}")
+def with_name(label: str, vehicle: Vehicle) -> str:
+    """A label that ends in the letter of a vehicle, and the name of the vehicle if that says more."""
+    name = " ".join(vehicle.name.split())
+    return label if name.lower() in ("", label.rpartition(" ")[2].lower()) else f"{label} ({name})"
 
 
 def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> Any:
@@ -485,7 +474,7 @@ def needed(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle"
 
 def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle") -> MissingInputError:
     """The error for a vehicle without a field that is needed."""
-    who = f"{label} ({vehicle.name})" if vehicle.name else label
+    who = with_name(label, vehicle)
     example = {
         "yaw_inertia": "yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
         "x": "x='2.5 m' (the centre of mass at the moment of impact)",
@@ -502,8 +491,9 @@ def missing(vehicle: Vehicle, name: str, purpose: str, label: str = "the vehicle
 
 def not_a_vehicle(label: str, given: Any) -> InputError:
     """The error for an argument that is not a Vehicle."""
+    write = "its .before or .after" if isinstance(getattr(given, "after", None), Vehicle) else "collisions.Vehicle(mass=...)"
     return InputError(
-        f"{label} must be a Vehicle, got {type(given).__name__}; write collisions.Vehicle(mass=...)",
+        f"{label} must be a Vehicle, got {type(given).__name__}; write {write}",
         code="not_a_vehicle",
         argument=label,
     )

@@ -16,6 +16,7 @@ from .directions import angle_of, direction, from_degrees
 from .document import Document
 from .errors import InputError, Status
 from .formatting import SI_UNITS, UnitSystem, decimals_of, number_with_unit, scale_of, typeset, unit_of
+from .hints import hinted
 from .impact import Impact, build
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
@@ -25,7 +26,7 @@ from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
 from .summary import cells
-from .units import Input, Texts, shown
+from .units import Input, Texts, has_unit, shown
 from .vehicle import NAMES, Vehicle, moved
 
 _PAGE = Path(__file__).with_name("what_if_page.html")
@@ -61,6 +62,7 @@ class Slider(NamedTuple):
     start: float
 
 
+@hinted
 def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units: UnitSystem | None = None) -> Document:
     """One offline HTML page with a slider for each of these inputs: the scene, delta-V, PDOF, yaw and energy as they move.
 
@@ -204,8 +206,10 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         if kind == "angle":
             start += 360.0 * round((middle - start) / 360.0)
         if not (low < high and low <= start <= high):
-            unit = "deg" if kind == "angle" else SI_UNITS[kind]
-            text = f"{name} is {start:.6g} {unit}, which is not from {low:.6g} to {high:.6g}; give ends in order, around it"
+            system = cells(None, impact._texts())
+            now = f"{start:.10g}°" if kind == "angle" else f"{system.converted(start, kind):.10g}{system.unit(kind)}"
+            bare = "" if kind == "number" or has_unit(ends[0]) else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
+            text = f"{name} must be a pair (low, high) in rising order around {now}, got {shown(ends)}{bare}"
             refuse(text, name, "bad_range")
         found.append(Slider(name, kind, low, high, start))
     for label in "ab":

@@ -22,7 +22,7 @@ from ..outlines import overlap, placed
 from ..reconstruct import MomentumSolution
 from ..side import Side
 from ..solvers import required_model
-from ..vehicle import Vehicle
+from ..vehicle import Vehicle, with_name
 
 # A computed ratio that equals its limit up to rounding has not passed it.
 RATIO_ROUNDING = 1e-9
@@ -117,7 +117,7 @@ class ImpactCase(_Case):
     def sides(self) -> list[tuple[str, str, Side]]:
         """Label, name in a sentence, and side of both vehicles."""
         sides = (("a", "vehicle A", self.answer.a), ("b", "vehicle B", self.answer.b))
-        return [(label, f"{who} ({side.before.name})" if side.before.name else who, side) for label, who, side in sides]
+        return [(label, with_name(who, side.before), side) for label, who, side in sides]
 
     @cached_property
     def overlaps(self) -> tuple[float, float, float] | None:

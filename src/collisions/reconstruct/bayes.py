@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, NoSolutionError
+from ..hints import hinted
 from ..progress import reporter
 from ..quantities import lock
 from ..reading import ArgumentReader
@@ -29,6 +30,7 @@ _SIDE_BY_SIDE = 4  # in each call of the model, for any number of threads: so th
 _LEAST_SAMPLES = 512
 
 
+@hinted
 def posterior(
     model: Callable[..., Mapping[str, Any]],
     unknowns: Mapping[str, Any],

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError
+from ..hints import hinted
 from ..impact import Impact
 from ..inputs import Inputs, OnFailure, check_incomplete
 from ..kernels.central import shares
@@ -39,6 +40,7 @@ class Candidate(NamedTuple):
     fits: Any
 
 
+@hinted
 def central(
     mass_a: Input,
     mass_b: Input,

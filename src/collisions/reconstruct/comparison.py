@@ -9,6 +9,7 @@ from itertools import permutations
 from typing import Any
 
 from ..errors import CollisionsWarning, InputError
+from ..hints import hinted
 from ..reading import ArgumentReader
 from ..records import strict
 from ..summary import Cells, Part, Summarized, Summary
@@ -67,6 +68,7 @@ class Comparison(Summarized):
         return Summary("Accounts compared, given the evidence and the priors", parts, (self.sentence,))
 
 
+@hinted
 def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None) -> Comparison:
     """Which of several accounts of a crash the evidence speaks for: Bayes factors and probabilities.
 

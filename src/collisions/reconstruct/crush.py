@@ -10,6 +10,7 @@ import numpy as np
 
 from ..directions import Angle
 from ..errors import InputError, OutOfRangeWarning, ShapeError
+from ..hints import hinted
 from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
 from ..reading import ArgumentReader, amount, largest, warn_if_large
@@ -24,6 +25,7 @@ _DEEPEST, _WIDEST = 2.0, 10.0
 _MOST_OBLIQUE = math.radians(45.0)  # where the correction reaches 2, as far as the CRASH programs take it
 
 
+@hinted
 def crush_energy(
     widths: Input | Sequence[Input],
     depths: Input | Sequence[Input],
@@ -126,6 +128,7 @@ def crush_energy(
     return _answers(cases, faults, energy)[0]
 
 
+@hinted
 def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
     """Share of the crush energy that A takes, from the stiffness of both: ``stiffness_b / (stiffness_a + stiffness_b)``.
 
@@ -178,6 +181,7 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
         return _answers(cases, faults, 1.0 / (1.0 + a / b))[0]
 
 
+@hinted
 def crush_delta_v(
     energy: Input, mass_a: Input, mass_b: Input, *, gamma_a: Input = 1.0, gamma_b: Input = 1.0
 ) -> tuple[Value, Value]:

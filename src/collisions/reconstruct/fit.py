@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, NoSolutionError
+from ..hints import hinted
 from ..quantities import lock
 from ..settings import in_si
 from .fit_problem import FitInputs, read_fit_inputs
@@ -31,6 +32,7 @@ _STEP_ROUNDS = 4
 _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 
 
+@hinted
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
     """Estimate the unknowns of a scene from measurements, each given with its error.
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, NoSolutionError
+from ..hints import hinted
 from ..kernels.central import shares
 from ..kernels.elementwise import RESTITUTION
 from ..kernels.reverse import changing_speed, energy_of_speeds, losing_speed
@@ -20,6 +21,7 @@ from .common import ASK_ALONE, PAIRS, Cases, exactly, input_faults, read_amounts
 from .restitution_roots import RestitutionOf, crossings
 
 
+@hinted
 def inline_closing_speed(
     mass_a: Input,
     mass_b: Input,

@@ -18,13 +18,14 @@ from ..errors import (
     NoSolutionError,
     OutOfRangeWarning,
 )
+from ..hints import hinted
 from ..inputs import OnFailure
 from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
 from ..kernels.status import EPS, Status
-from ..quantities import hypot, show
+from ..quantities import hypot, in_units_of, show
 from ..reading import ArgumentReader, amount
 from ..solving import check_options
-from ..units import Input, Pair, is_quantity, magnitude, shown
+from ..units import Input, Pair, is_quantity, magnitude, shown, texts_of
 from ..warning import warn, warn_of_cases
 from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
@@ -33,6 +34,7 @@ _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
 _COURSES = ("course_a", "course_b", "course_a_after", "course_b_after")
 
 
+@hinted
 def momentum(
     mass_a: Input,
     mass_b: Input,
@@ -155,7 +157,7 @@ def momentum(
             for name in ("outside_impulse", "normal")
         )
         known = _Known(cases, numbers, angles, terms, impulse, normal, unlike)
-        return _solve(known, given if cases.shape is None else None, on_failure)
+        return in_units_of(_solve(known, given if cases.shape is None else None, on_failure), texts_of(reader.texts))
 
 
 def _as_given(value: Any) -> str | float:

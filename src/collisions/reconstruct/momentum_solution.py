@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..errors import MissingInputError
 from ..kernels.status import Status
 from ..quantities import Shown, derived, same
@@ -93,6 +95,7 @@ class MomentumSolution(Shown):
         )
 
     def _summary(self, numbers: Cells) -> Summary:
+        numbers.answered = np.less_equal(self.status, Status.ENERGY_GAIN)
         whole = Shown._summary(self, numbers)
         degree, speeds = math.pi / 180.0, self.sensitivity
         courses = [name for name in next(iter(speeds.values()), ()) if name.startswith("course")]
@@ -101,7 +104,7 @@ class MomentumSolution(Shown):
         return Summary(whole.title, [*whole.parts[:-1], changes, whole.parts[-1]])
 
     def _texts(self) -> Iterable[Any]:
-        return (self.given or {}).values()
+        return (self.given or {}).values() or Shown._texts(self)
 
     @derived()
     def ok(self) -> Any:

@@ -14,6 +14,7 @@ from ..errors import (
     OutOfRangeWarning,
     Status,
 )
+from ..hints import hinted
 from ..inputs import read_inputs
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
@@ -35,6 +36,7 @@ _PART_FASTER = "the contact points part faster than they met; the data contradic
 _Faults = list[tuple[Any, int]]
 
 
+@hinted
 def restitution(
     a_before: Vehicle,
     b_before: Vehicle,
@@ -103,6 +105,7 @@ def restitution(
     return observed
 
 
+@hinted
 def friction(
     a_before: Vehicle,
     b_before: Vehicle,

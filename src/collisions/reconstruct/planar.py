@@ -15,6 +15,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, InputError, OutOfRangeWarning
+from ..hints import hinted
 from ..impact import Impact
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
@@ -34,6 +35,7 @@ _MOTION = ("vx", "vy", "speed", "course", "yaw_rate")
 _NEARLY_STICKING = 0.05  # of the difference between both directions of sliding: a smaller slip may be 0
 
 
+@hinted
 def planar(
     a_after: Vehicle,
     b_after: Vehicle,

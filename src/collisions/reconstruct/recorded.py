@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ..errors import InputError, OutOfRangeWarning, ShapeError
+from ..hints import hinted
 from ..quantities import Shown, derived, in_units_of, lock
 from ..reading import ArgumentReader
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
@@ -93,6 +94,7 @@ class RecordedPulse(Shown):
         return {name: Uniform(value - _error(value), value + _error(value)) for name, value in values.items()}
 
 
+@hinted
 def recorded_pulse(
     time: Input | os.PathLike[str],
     delta_v_forward: Input | None = None,

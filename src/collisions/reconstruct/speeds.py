@@ -12,6 +12,7 @@ import numpy as np
 
 from ..directions import Angle, course
 from ..errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
+from ..hints import hinted
 from ..impact import Impact
 from ..inputs import Inputs, Law, read_inputs
 from ..kernels.contact_laws import BRACH, LAWS
@@ -33,6 +34,7 @@ _ELASTIC = 1.0 - 1e-6
 _NEAR_FOLD = 0.7
 
 
+@hinted
 def speeds(
     a: Vehicle,
     b: Vehicle,

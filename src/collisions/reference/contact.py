@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
+from ..hints import hinted
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..reading import ArgumentReader, at_least_zero
-from ..units import Input, Value, shown
+from ..units import Input, Value, has_unit, shown
 from .published import Fit, Outside, Published, check_outside, settle
 
 _MPH = 0.44704
@@ -229,6 +230,7 @@ _SCATTER = 0.5 * (RESTITUTION_LOW_SPEED.high - RESTITUTION_LOW_SPEED.low)
 _HIGHEST = 0.3
 
 
+@hinted
 def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     """Coefficient of restitution at a closing speed, by the fit of Cipriani and others.
 
@@ -278,8 +280,9 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
         e = _fitted((math if isinstance(speed, float) else np).log10(speed))
         usable = (e >= 0.0) & (e <= 1.0) & (speed > 0.0)
     if isinstance(e, float) and not usable:
+        given = shown(closing_speed) if has_unit(closing_speed) else f"{speed:.6g} m/s"
         raise InputError(
-            f"closing_speed {speed:.6g} m/s: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
+            f"closing_speed {given}: the fit gives {e:.3g}, which is no restitution; it holds from 2 to 15 mph. "
             f"Give a value, such as one from reference.RESTITUTION",
             code="outside_reference",
             argument="closing_speed",
@@ -288,6 +291,7 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     return answer
 
 
+@hinted
 def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
     """Restitutions that are plausible at a closing speed: lowest and highest.
 
@@ -335,6 +339,7 @@ def _fitted(x: Any) -> Any:
     return 0.47477 + x * (-0.26139 + x * (0.03382 - 0.11639 * x))
 
 
+@hinted
 def restitution_by_overlap(overlap: Input) -> Published:
     """Published range of the restitution of a rear-end collision by the share of the width that overlaps.
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError
+from ..hints import hinted
 from ..reading import ArgumentReader
 from ..units import Input, shown
 from .published import Published
@@ -100,6 +101,7 @@ DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() fo
 """Every published drag factor of locked wheels."""
 
 
+@hinted
 def drag_factor(surface: str, *, speed: Input) -> Published:
     """Published range of the drag factor of locked wheels on a surface.
 

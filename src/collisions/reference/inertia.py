@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..hints import hinted
 from ..kernels.elementwise import POSITIVE
 from ..reading import ArgumentReader, broadcast, widened
 from ..units import Input, Value
@@ -59,6 +60,7 @@ YAW_INERTIA_INDEX = Published(
 )
 
 
+@hinted
 def yaw_inertia(
     mass: Input,
     *,

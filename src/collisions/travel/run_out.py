@@ -13,6 +13,7 @@ import numpy as np
 from ..directions import angle_of
 from ..drag import HIGHEST_DRAG, one_value
 from ..errors import InputError, OutOfRangeWarning
+from ..hints import hinted
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, in_units_of, numeric
 from ..quantities import lock as write_locked
@@ -96,6 +97,7 @@ class RunOut(Shown):
         return difference
 
 
+@hinted
 def path(
     points: Sequence[Pair] | Input,
     headings: Segments,

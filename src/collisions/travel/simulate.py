@@ -11,6 +11,7 @@ import numpy as np
 
 from ..drag import one_value
 from ..errors import InputError, NoSolutionError, ShapeError
+from ..hints import hinted
 from ..kernels.batch import precision
 from ..kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
 from ..quantities import Shown, hypot, in_units_of
@@ -66,6 +67,7 @@ class SimulatedPath(Shown):
         yield from ((f"rest.{name}", getattr(self.rest, name), UNITS[name]) for name in ("x", "y", "heading"))
 
 
+@hinted
 def simulate(
     vehicle: Vehicle,
     *,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..drag import GRAVITY, read_drag
 from ..errors import NoSolutionError, ShapeError
+from ..hints import hinted
 from ..kernels.elementwise import select
 from ..reading import ArgumentReader
 from ..units import Input, Value
@@ -27,6 +28,7 @@ from .surfaces import (
 )
 
 
+@hinted
 def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
     """Speed [m/s] at the start of a distance over which a vehicle slows.
 
@@ -89,6 +91,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     return _over_surfaces(distance, drag, grade, end_speed, lambda lengths, grades, speeds: speeds[0])
 
 
+@hinted
 def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
     """Distance [m] over which a vehicle comes from one speed to another on one surface; the reverse of ``speed``.
 
@@ -152,6 +155,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     return answer
 
 
+@hinted
 def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
     """Time [s] that a vehicle takes over the distance.
 

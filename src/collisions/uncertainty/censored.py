@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..errors import InputError, MissingInputError
+from ..hints import hinted
 from ..units import Input
 from .distribution import Stated, check_order, read_alike, show
 
@@ -42,6 +43,7 @@ class Censored(Stated):
     high: float | None
     error: float | None
 
+    @hinted
     def __init__(self, low: Input | None = None, high: Input | None = None, error: Input | None = None) -> None:
         (start, end, sigma), unit = read_alike({}, {"low": low, "high": high, "error": error})
         self._make(unit, low=start, high=end, error=sigma)

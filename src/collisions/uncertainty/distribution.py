@@ -255,7 +255,7 @@ def read_alike(
         if name in optional and isinstance(number, float) and not math.isfinite(number):
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
             reader.refuse(InputError(f"{name} {what}; write None for an end that is open", code="not_finite", argument=name))
-        if isinstance(number, np.ndarray) is not arrays:
+        if isinstance(number, np.ndarray) is not arrays and not reader.problems:
             what = "an array or a list of values" if arrays else "one number; for a set of measured values use Samples"
             reader.refuse(ShapeError(f"{name} must be {what}, got {shown(given[name])}", code="bad_shape", argument=name))
     reader.close()
@@ -266,10 +266,10 @@ def check_order(low: float, high: float, what: str = "low and high", unit: str =
     """Refuses a range without width; of angles with a hint how to go on across the end of a turn."""
     if low < high:
         return
-    shown_ends, hint = f"{low:.6g} and {high:.6g}", "of a quantity that is known exactly give the number itself"
+    hint = "exchange them" if high < low else "of a quantity that is known exactly give the number itself"
+    shown_ends = f"{show(low, unit)} and {show(high, unit)}"
     start, end = math.degrees(low), math.degrees(high)
     if unit == "rad" and high < low:
-        shown_ends += f" rad ({start:.6g} and {end:.6g} deg)"
         onwards = (end - start) % 360.0
         if 0.0 < onwards < 180.0:
             hint = (

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, ShapeError, UnitsError
+from ..hints import hinted
 from ..kernels.elementwise import UNCHECKED
 from ..quantities import lock
 from ..reading import ArgumentReader
@@ -49,6 +50,7 @@ class Uniform(Distribution):
 
     _words = "{low} to {high}, all values equally likely"
 
+    @hinted
     def __init__(self, low: Input, high: Input) -> None:
         (start, end), unit = read_alike({"low": low, "high": high})
         self._make(unit, low=start, high=end)
@@ -91,6 +93,7 @@ class Triangular(Distribution):
 
     mode: float
 
+    @hinted
     def __init__(self, low: Input, mode: Input, high: Input) -> None:
         (start, middle, end), unit = read_alike({"low": low, "mode": mode, "high": high})
         self._make(unit, low=start, mode=middle, high=end)
@@ -98,8 +101,11 @@ class Triangular(Distribution):
     def _derive(self, low: float, mode: float, high: float) -> None:
         check_order(low, high, unit=self.unit)
         if not low <= mode <= high:
+            least, most, given = (show(value, self.unit) for value in (low, high, mode))
             raise InputError(
-                f"mode must be from low to high, {low:.6g} to {high:.6g}, got {mode:.6g}", code="bad_range", argument="mode"
+                f"mode must be from low to high, {least} to {most}, got {given}",
+                code="bad_range",
+                argument="mode",
             )
         self._set(mode=mode)
         width = high - low
@@ -158,6 +164,7 @@ class Samples(Distribution):
     group: str | None
     _sorted: Any
 
+    @hinted
     def __init__(self, values: Any) -> None:
         (rows,), unit = read_alike({"values": values}, arrays=True)
         self._make(unit, rows=_checked(rows, "values"), group=None)
@@ -286,6 +293,7 @@ class Interval(Stated):
     low: float
     high: float
 
+    @hinted
     def __init__(self, low: Input, high: Input) -> None:
         (start, end), unit = read_alike({"low": low, "high": high})
         self._make(unit, low=start, high=end)

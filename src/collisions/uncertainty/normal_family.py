@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from ..errors import InputError, ShapeError
+from ..hints import hinted
 from ..reading import ArgumentReader
 from ..units import Input, shown
 from .distribution import Distribution, check_order, from_numbers, read_alike, show
@@ -48,6 +49,7 @@ class NormalFamily(Distribution):
     # Of the probability before truncation: below the lower bound, between both, and above the upper one.
     _split: tuple[float, float, float] | None
 
+    @hinted
     def __init__(self, mean: Input, sd: Input, *, truncate: Truncation | None = None) -> None:
         (given_mean, given_sd, *bounds), unit = read_alike({"mean": mean, "sd": sd}, _named_bounds(truncate))
         self._make(unit, mean=given_mean, sd=given_sd, truncate=_pair(bounds))

@@ -12,6 +12,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from ..errors import CollisionsWarning, InputError, NoSolutionError, OutOfRangeWarning
+from ..hints import hinted
 from ..progress import reporter
 from ..reading import ArgumentReader, is_whole
 from ..units import shown
@@ -50,6 +51,7 @@ class Run:
     differing: Mapping[str, float] = field(default_factory=dict)
 
 
+@hinted
 def propagate(
     model: Function,
     inputs: Mapping[str, Any],

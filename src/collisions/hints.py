@@ -1,0 +1,104 @@
+"""Hints for an argument that a function does not have: the TypeError names the one that is meant, or all that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from inspect import Parameter, signature
+from types import MappingProxyType
+from typing import Any, ParamSpec, TypeVar
+
+P = ParamSpec("P")
+T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
+
+# What else the arguments are called.
+_CALLED = {
+    "mass": "weight m",
+    "yaw_rate": "omega angular_velocity spin r",
+    "yaw_inertia": "inertia izz iz moment_of_inertia",
+    "heading": "angle theta psi yaw orientation",
+    "restitution": "e cor epsilon coefficient_of_restitution",
+    "friction": "mu f drag coefficient_of_friction",
+    "drag": "mu f friction drag_factor deceleration coefficient_of_friction",
+    "normal": "angle contact_angle normal_angle n",
+    "point": "poi contact impact_point contact_point",
+    "mean": "mu loc average value m",
+    "sd": "std sigma stdev stddev standard_deviation scale s",
+    "low": "lower min minimum start a",
+    "high": "upper max maximum stop end b",
+    "mode": "likely most_likely peak",
+    "grade": "slope",
+    "units": "unit system",
+    "axes": "ax axis",
+    "samples": "n size draws trials",
+    "seed": "random_state rng",
+    "distance": "d length",
+    "end_speed": "final_speed v_end",
+    "speed": "v velocity initial_speed",
+    "delta_v": "dv",
+    "course": "direction angle",
+    "inputs": "distributions",
+    "outline": "size shape",
+}
+
+
+def no_argument(
+    caller: str, names: Iterable[str], unknown: Iterable[str], hints: Mapping[str, str] = MappingProxyType({})
+) -> TypeError:
+    """The error for an argument that a function does not have, with the one that is meant."""
+    from difflib import get_close_matches
+
+    known, given = list(names), next(iter(unknown))
+    stem, side = _parted(given)
+    near = [name for name in known if given in _CALLED.get(name, "").split()]
+    # Without the letter of a vehicle: v_a is speed_a.
+    near += [name for name in known if _parted(name)[1] == side and stem in _CALLED.get(_parted(name)[0], "").split()]
+    near += get_close_matches(given, known, 1, 0.75)  # friction is not restitution
+    hint = hints.get(given) or (f"write {near[0]}=" if near else f"it has {', '.join(known)}")
+    return TypeError(f"{caller} has no argument {given!r}; {hint}")
+
+
+def _parted(name: str) -> tuple[str, str]:
+    """A name without the letter of a vehicle at its end, and that letter."""
+    stem, _, side = name.rpartition("_")
+    return (stem, side) if side in ("a", "b") else (name, "")
+
+
+def hinted(function: Callable[P, T]) -> Callable[P, T]:
+    """Decorate a function so that an argument it does not have is refused with a hint."""
+
+    @wraps(function)
+    def call(*args: P.args, **options: P.kwargs) -> T:
+        try:
+            return function(*args, **options)
+        except TypeError as error:
+            # Raised within the function, and not by the call itself.
+            if error.__traceback__ is None or error.__traceback__.tb_next is not None:
+                raise
+            made, own = function.__name__ == "__init__", f"{function.__qualname__}()"
+            taken = list(signature(function).parameters.values())[made:]
+            caller, names = type(args[0]).__name__ if made else own, [one.name for one in taken]
+            if unknown := [name for name in options if name not in names]:
+                raise no_argument(caller, names, unknown) from None
+            by_name = [one.name for one in taken if one.kind is Parameter.KEYWORD_ONLY]
+            surplus = f"; write the others by name, such as {by_name[0]}=" if "were given" in str(error) and by_name else ""
+            raise TypeError(str(error).replace(own, caller) + surplus) from None
+
+    return call
+
+
+def open_to_hints(function: F) -> F:
+    """Decorate a function that takes ``**unknown`` to refuse it with a hint, for a fiftieth of the cost of ``hinted``.
+
+    Its signature does not show ``**unknown``. What has no default is None in a call, as otherwise Python would say that it is
+    missing, and not what it was given as; a reader refuses the None.
+    """
+    shown = signature(function)
+    taken = [one for one in shown.parameters.values() if one.kind not in (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)]
+    vars(function)["__signature__"] = shown.replace(parameters=taken)
+    needed = [one for one in taken if one.default is Parameter.empty and one.name != "self"]
+    by_name = {one.name: None for one in needed if one.kind is Parameter.KEYWORD_ONLY}
+    function.__defaults__ = (None,) * (len(needed) - len(by_name))
+    function.__kwdefaults__ = by_name | (function.__kwdefaults__ or {})
+    return function
