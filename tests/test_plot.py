@@ -4,6 +4,7 @@ import ast
 import functools
 import itertools
 import math
+import random
 import re
 import subprocess
 import sys
@@ -161,7 +162,7 @@ def area(polygon):
 
 def scale(axes, what):
     """How much one unit of length stands for, as it is printed."""
-    found = re.search(rf"{what}: 1 \w+ = ([\d.\u2009e+-]+) ", axes.get_xlabel())
+    found = re.search(rf"1 \w+ = ([\d.\u2009e+-]+) \S+ for {what}", axes.get_xlabel())
     return float(found.group(1).replace("\u2009", ""))
 
 
@@ -753,6 +754,100 @@ def test_labels_do_not_hide_each_other(picture, case):
             wide = min(one.x1, other.x1) - max(one.x0, other.x0)
             high = min(one.y1, other.y1) - max(one.y0, other.y0)
             assert min(wide, high) <= 1.0 * point, (axes.texts[i].get_text(), wide, high)
+
+
+def random_crash(rng):
+    """A car struck from the left by another one."""
+    while True:
+        course = rng.uniform(-math.pi, math.pi)
+        cars = [
+            col.Vehicle(
+                mass=rng.uniform(900.0, 2500.0), yaw_inertia=rng.uniform(1500.0, 4500.0), x=side * rng.uniform(1.0, 2.3),
+                y=rng.uniform(-1.5, 1.5), heading=heading, vx=speed * math.cos(heading), vy=speed * math.sin(heading),
+                yaw_rate=rng.choice((0.0, rng.uniform(-2.0, 2.0))),
+            )
+            for side, heading, speed in ((-1, rng.uniform(-0.3, 0.3), rng.uniform(5.0, 30.0)), (1, course, rng.uniform(0.0, 25.0)))
+        ]  # fmt: skip
+        impact = col.eccentric(
+            *cars, rng.uniform(0.0, 0.4), normal=rng.uniform(-0.5, 0.5), point=(0.0, rng.uniform(-0.5, 0.5)),
+            friction=rng.uniform(0.0, 0.8), on_failure="nan",
+        )  # fmt: skip
+        if impact.ok:
+            return impact
+
+
+def strokes(axes):
+    """The ends in pixels of every straight piece of outlines, front edges, ways, marks and arrows."""
+    lines = [one for one in (*axes.patches, *axes.lines) if one.get_linestyle() != "None"]
+    paths = [one.get_transform().transform_path(one.get_path()).vertices for one in lines]
+    paths += [axes.transData.transform(ends) for ends in arrows(axes).values()]
+    return np.concatenate([np.stack([path[:-1], path[1:]], axis=1) for path in paths])
+
+
+def crossed(boxes, pieces):
+    """Which boxes some straight piece passes through: it is clipped to each of them (Liang and Barsky)."""
+    begin, way = pieces[:, 0], pieces[:, 1] - pieces[:, 0] + 1e-12
+    reach = [(boxes[:, None, k : k + 2] - begin) / way for k in (0, 2)]
+    enters = np.minimum(*reach).max(axis=2)
+    leaves = np.maximum(*reach).min(axis=2)
+    return (np.maximum(enters, 0.0) <= np.minimum(leaves, 1.0)).any(axis=1)
+
+
+def on_labels(boxes, others):
+    """Which boxes lie on one of the others."""
+    return ((boxes[:, None, :2] < others[:, 2:]) & (boxes[:, None, 2:] > others[:, :2])).all(axis=2).any(axis=1)
+
+
+def has_room(axes, box, others, pieces):
+    """Whether there is a place within 60 points of where the label stands that is clear of everything by five points."""
+    inside, point = np.array(axes.bbox.extents), axes.figure.dpi / 72.0
+    moves = point * np.stack(np.meshgrid(*2 * [np.arange(-60.0, 60.1, 3.0)]), axis=-1).reshape(-1, 2)
+    tried = box + np.tile(moves, 2) + 5.0 * point * np.array([-1.0, -1.0, 1.0, 1.0])
+    tried = tried[(tried[:, :2] >= inside[:2]).all(axis=1) & (tried[:, 2:] <= inside[2:]).all(axis=1)]
+    tried = tried[~on_labels(tried, others)]
+    return bool((~crossed(tried, pieces)).any())
+
+
+def covering(axes):
+    """How many labels there are, and the texts of those that cover a line or another label although there is room."""
+    axes.figure.draw_without_rendering()
+    texts = [text for text in axes.texts if text.get_text()]
+    boxes, pieces = np.array([text.get_window_extent().extents for text in texts]), strokes(axes)
+    found = []
+    for i, text in enumerate(texts):
+        one, others = boxes[i : i + 1], np.delete(boxes, i, axis=0)
+        if (crossed(one, pieces) | on_labels(one, others)).any() and has_room(axes, boxes[i], others, pieces):
+            found.append(text.get_text())
+    return len(texts), found
+
+
+FIGURES = ((4.5, 4.0), (6.0, 5.0), (7.5, 6.5), (11.0, 5.0))
+OUTLINES = {"outline_a": (4.4, 1.8), "outline_b": (4.2, 1.75)}
+
+
+def test_labels_leave_outlines_fronts_arrows_and_each_other_alone():
+    """Also after the figure has changed its size, when they are placed anew."""
+    figure = Figure((11.0, 5.0), layout="constrained")
+    axes = plot.scene(IMPACTS["sticking"], **OUTLINES, axes=figure.subplots(1, 2)[0], units="metric")
+    assert covering(axes) == (11, [])
+    figure.set_size_inches(6.0, 5.0)
+    assert covering(axes)[1] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(20))
+def test_labels_of_random_scenes_leave_everything_else_alone(seed):
+    """At four sizes of the figure, before and after its layout is settled."""
+    rng = random.Random(seed)
+    for picture in ("scene", "scene", "path"):
+        impact = random_crash(rng)
+        axes = Figure(rng.choice(FIGURES), layout=rng.choice(("constrained", None))).subplots()
+        if picture == "scene":
+            plot.scene(impact, **OUTLINES, axes=axes, units=rng.choice(SYSTEMS))
+        else:
+            ways = [travel.simulate(side.after, friction=0.7, lock=0.4) for side in (impact.a, impact.b)]
+            plot.path(*ways, **OUTLINES, axes=axes, units=rng.choice(SYSTEMS))
+        assert covering(axes)[1] == []
 
 
 # Momentum

@@ -298,6 +298,14 @@ def test_inputs_are_shown_as_given():
     assert ("B", "pivot O (x, y)", "x: 0 m, given as 0 ft; y: 0 m") in rows(report(pinned(), form="markdown"))
 
 
+@pytest.mark.parametrize(("units", "other"), [("metric", False), ("si", True)])
+def test_given_as_is_explained_where_it_stands(units, other):
+    """And nowhere else: every input of this car and wall is in metric units."""
+    car = col.Vehicle(mass="1500 kg", vx="54 km/h")
+    page = report(col.linear_central(car, col.Vehicle.barrier(), 0.1), form="markdown", units=units, figures=False)
+    assert (", given as 54 km/h" in page, "“Given as”" in page) == (other, other)
+
+
 @pytest.mark.parametrize("units", ["si", "metric", "us"])
 @pytest.mark.parametrize("name", ["eccentric", "oblique", "pinned", "example 2", "solve, linear"])
 def test_results_are_those_of_explain(name, units, impacts):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import product
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,15 +14,18 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Place = tuple[float, float]
-_Box = tuple[float, float, float, float]
 
 _FONT = 9.5
-# Of a font size: the mean width of a letter, and the height of a line.
-_LETTER, _LINE = 0.6, 1.45
-_TURNS = tuple(math.radians(angle) for angle in (0, 20, -20, 40, -40, 60, -60, 90, -90, 120, -120, 150, -150, 180))
 # Of the larger extent: what is left free around, and the least there is of the other one.
 _MARGIN, _STRIP = 0.14, 0.42
-_AWAY = (5.0, 14.0, 26.0, 42.0, 60.0)
+# Points: a cell of the map of what is drawn, what stays free around a label, and what is mapped beyond the Axes.
+_CELL, _CLEAR, _BEYOND = 2.0, 3.0, 120.0
+# What a cell costs a label that covers it: of a line, by its width; of another label; beyond the Axes.
+_LINE, _LABEL, _OUTSIDE = 40.0, 100.0, 30.0
+_FOREIGN = 100.0  # what lying wholly on the other vehicle costs
+_LONGEST = 5000.0  # points of a line that are mapped
+_RING = np.stack([np.cos(np.linspace(0.0, math.tau, 13)), np.sin(np.linspace(0.0, math.tau, 13))], axis=1)
+_NEAR, _FAR, _TURN = 5.0, 0.4, 3.0  # points that are too near, and the cost of a point and of a radian away
 # Arrows within this sine of one line hide each other.
 ALONG_ONE_LINE = 0.03
 APART = 0.045  # of the size of the scene: between arrows that would hide each other
@@ -31,21 +34,27 @@ _WIDE = 0.04  # of the size of the scene: anything nearer to an arrow is beneath
 
 class _Label(NamedTuple):
     places: tuple[Place, ...]
-    text: str
     direction: Place
-    colour: str
     of: int | None
+    text: Any
+
+
+class _Spot(NamedTuple):
+    x: float
+    y: float
+    cells: tuple[slice, slice]
 
 
 class Drawing:
-    """The drawing on one Axes in data coordinates; limits and label places are settled at the end."""
+    """The drawing on one Axes in data coordinates; labels go where there is room when it is rendered, at its size then."""
 
     def __init__(self, axes: Axes) -> None:
         self.axes = axes
         self._labels: list[_Label] = []
-        self._taken: list[Any] = []
+        self._arrows: list[tuple[Place, Place, float]] = []
         self._seen: list[Place] = []
         self._areas: dict[int, list[Place]] = {}
+        self._found: tuple[Any, list[Place]] = (None, [])
 
     def arrow(self, tail: Place, tip: Place, gid: str, *, colour: str = INK, width: float = 1.8, style: Any = "-") -> None:
         """An arrow whose ends are exactly these; none without a length."""
@@ -69,21 +78,16 @@ class Drawing:
             zorder=4,
         )
         made.set_gid(gid)
-        self.avoid(tail, tip)
+        self._arrows.append((tail, tip, width))
 
     def line(self, one: Place, other: Place, gid: str, **style: Any) -> None:
         """A straight line."""
         self.include(one, other)
         self.axes.plot([one[0], other[0]], [one[1], other[1]], gid=gid, **style)
-        self.avoid(one, other)
 
     def include(self, *places: Place) -> None:
         """Extend the limits to include these points."""
         self._seen.extend(places)
-
-    def avoid(self, one: Place, other: Place, weight: int = 1) -> None:
-        """No label shall cover the line between these."""
-        self._taken.extend([np.linspace(one, other, 60)] * weight)
 
     def area(self, index: int, corners: list[Place]) -> None:
         """The convex outline of a vehicle, anticlockwise, which no label of the other one shall stand on."""
@@ -99,10 +103,24 @@ class Drawing:
         of: int | None = None,
     ) -> None:
         """A text next to a place, or at an alternative one, in this direction if there is room; ``of`` names the vehicle."""
-        self._labels.append(_Label((place, *others), text, direction, colour, of))
+        made = self.axes.annotate(
+            text,
+            xy=place,
+            xytext=(0.0, 0.0),
+            textcoords=partial(self._where, len(self._labels)),
+            ha="center",
+            va="center",
+            fontsize=_FONT,
+            color=colour,
+            parse_math=False,
+            annotation_clip=False,
+            zorder=6,
+            bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.75},
+        )
+        self._labels.append(_Label((place, *others), direction, of, made))
 
     def finish(self) -> None:
-        """Settle the limits, so that everything is in view, and put the labels where there is room."""
+        """Settle the limits, so that everything is in view."""
         places = np.array(self._seen)
         low, high = places.min(axis=0), places.max(axis=0)
         middle = 0.5 * (low + high)
@@ -112,92 +130,104 @@ class Drawing:
         self.axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
         self.axes.set_aspect("equal", adjustable="box")
         self.axes.apply_aspect()
-        self._place_labels()
 
-    def _place_labels(self) -> None:
-        points = 72.0 / self.axes.figure.dpi
-        in_points = self.axes.transData.transform
-        lines = np.array([in_points(line) * points for line in self._taken])
-        inside = np.array(self.axes.bbox.extents) * points
-        boxes: list[_Box] = []
-        areas = {index: np.array(in_points(corners)) * points for index, corners in self._areas.items()}
-        for label in self._labels:
+    def _where(self, index: int, renderer: Any) -> Any:
+        """Where a label is rendered; all of them are placed anew when the size of the picture or its limits change."""
+        from matplotlib.transforms import Affine2D
+
+        axes = self.axes
+        size = (*axes.bbox.extents, *axes.viewLim.extents, axes.figure.dpi)
+        if self._found[0] != size:
+            self._found = size, self._places(renderer)
+        return Affine2D().translate(*self._found[1][index])
+
+    def _places(self, renderer: Any) -> list[Place]:
+        """The middle of every label in pixels: each where it costs least, in their order."""
+        from matplotlib.text import Text
+
+        pixels = self.axes.figure.dpi / 72.0
+
+        def to_points(places: Any) -> Any:
+            return self.axes.transData.transform(places) / pixels
+
+        room = _Room(np.array(self.axes.bbox.extents) / pixels)
+        for tail, tip, width in self._arrows:
+            room.draw(to_points([tail, tip]), _LINE * width)
+        for artist in (*self.axes.lines, *self.axes.patches):
+            drawn: Any = artist
+            path = drawn.get_transform().transform_path(drawn.get_path()).vertices / pixels
+            if artist in self.axes.lines and drawn.get_marker() not in ("None", "none", "", " ", None):
+                room.draw(path[:, None] + 0.5 * drawn.get_markersize() * _RING, _LINE)
+            if drawn.get_linestyle() not in ("None", "none", "", " "):
+                room.draw(path, _LINE * drawn.get_linewidth())
+        areas = {index: room.within(to_points(corners)) for index, corners in self._areas.items()}
+        found: list[_Spot] = []
+        # Once more, as those placed later leave room that the earlier ones did not know of.
+        for label in 2 * self._labels:
+            if len(found) >= len(self._labels):
+                room.cost[found[-len(self._labels)].cells] -= _LABEL
+            # Of the text alone: the annotation's own extent asks for the place.
+            size = np.array(Text.get_window_extent(label.text, renderer).size) / pixels
             foreign = [area for index, area in areas.items() if label.of not in (None, index)]
-            rows = label.text.split("\n")
-            size = _FONT * _LETTER * max(map(len, rows)), _FONT * _LINE * len(rows)
-            along = math.atan2(label.direction[1], label.direction[0])
-            near = [in_points(place) * points for place in label.places]
-            tried = product(range(len(near)), _AWAY, _TURNS)
-            natural = sorted(
-                (0.4 * away + 3.0 * abs(turn) + 2.0 * which, i, which, away, turn)
-                for i, (which, away, turn) in enumerate(tried)
-            )
-            best, chosen, lowest = _box(near[0], size, along, _AWAY[0]), 0, math.inf
-            # From the most natural on, until none can be better than the best so far.
-            for least, _, which, away, turn in natural:
-                if least >= lowest:
-                    break
-                box = _box(near[which], size, along + turn, away)
-                cost = least + _cost(box, near[which], lines, boxes, inside) + 300.0 * sum(_on(box, area) for area in foreign)
-                if cost < lowest:
-                    best, chosen, lowest = box, which, cost
-            place, at = label.places[chosen], near[chosen]
-            boxes.append(best)
-            self.axes.annotate(
-                label.text,
-                xy=place,
-                xytext=(0.5 * (best[0] + best[2]) - at[0], 0.5 * (best[1] + best[3]) - at[1]),
-                textcoords="offset points",
-                ha="center",
-                va="center",
-                fontsize=_FONT,
-                color=label.colour,
-                parse_math=False,
-                annotation_clip=False,
-                zorder=6,
-                bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.75},
-            )
+            found.append(room.best(size, to_points(label.places), label.direction, foreign))
+        return [(spot.x * pixels, spot.y * pixels) for spot in found[len(self._labels) :]]
 
 
-def _box(at: Any, size: tuple[float, float], angle: float, distance: float) -> _Box:
-    """Where a text of this size lies whose edge is this far away in this direction."""
-    c, s = math.cos(angle), math.sin(angle)
-    away = min(0.5 * size[0] / max(abs(c), 1e-9), 0.5 * size[1] / max(abs(s), 1e-9)) + distance
-    x, y = at[0] + away * c, at[1] + away * s
-    return x - 0.5 * size[0], y - 0.5 * size[1], x + 0.5 * size[0], y + 0.5 * size[1]
+class _Room:
+    """What is drawn on some Axes, as the cost of covering each cell of a map in points."""
+
+    def __init__(self, extent: Any) -> None:
+        self.corner = extent[:2] - _BEYOND
+        shape = np.ceil((extent[2:] - extent[:2] + 2.0 * _BEYOND) / _CELL).astype(int)[::-1]
+        edge = round(_BEYOND / _CELL)
+        self.cost = np.full(shape, _OUTSIDE)
+        self.cost[edge:-edge, edge:-edge] = 0.0
+        self.y, self.x = (self.corner[1 - i] + _CELL * (np.arange(shape[i]) + 0.5) for i in (0, 1))
+
+    def draw(self, path: Any, cost: float) -> None:
+        """A line through these points, or lines if there are several rows of them; gaps where one is not finite."""
+        begin, end = (part.reshape(-1, 2) for part in (path[..., :-1, :], path[..., 1:, :]))
+        whole = np.isfinite(begin + end).all(axis=1)
+        begin, way = begin[whole], (end - begin)[whole]
+        count = np.minimum(np.hypot(*way.T), _LONGEST).astype(int) + 2
+        share = (np.arange(count.sum()) - np.repeat(count.cumsum() - count, count)) / np.repeat(count - 1, count)
+        cells = (np.repeat(begin, count, axis=0) + share[:, None] * np.repeat(way, count, axis=0) - self.corner) // _CELL
+        column, row = cells[((cells >= 0.0) & (cells < self.cost.shape[::-1])).all(axis=1)].T.astype(int)
+        np.maximum.at(self.cost, (row, column), cost)
+
+    def within(self, corners: Any) -> Any:
+        """Which cells lie within a convex area whose corners run anticlockwise."""
+        inside = np.ones(self.cost.shape, dtype=bool)
+        for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            inside &= (x1 - x0) * (self.y[:, None] - y0) - (y1 - y0) * (self.x - x0) > 0.0
+        return inside
+
+    def best(self, size: Any, places: Any, direction: Place, foreign: list[Any]) -> _Spot:
+        """The middle of a label of this size next to one of the places; what it covers is taken."""
+        columns, rows = np.minimum(np.ceil((size + 2.0 * _CLEAR) / _CELL).astype(int), self.cost.shape[::-1])
+        cost = _sums(self.cost, rows, columns)
+        for area in foreign:
+            cost += _FOREIGN * _sums(area, rows, columns) / (rows * columns)
+        x, y = (_sums(part[None], 1, n)[0] / n for part, n in ((self.x, columns), (self.y, rows)))
+        cost += np.min([_away(x - at[0], y[:, None] - at[1], size, direction) + 2.0 * i for i, at in enumerate(places)], axis=0)
+        row, column = np.unravel_index(np.argmin(cost), cost.shape)
+        # Of two labels one keeps clear of the other, not both.
+        cells = slice(row + 1, row + rows - 1), slice(column + 1, column + columns - 1)
+        self.cost[cells] += _LABEL
+        return _Spot(float(x[column]), float(y[row]), cells)
 
 
-def _cost(box: _Box, at: Any, lines: Any, boxes: list[_Box], inside: Any) -> float:
-    """How bad this place for a label is: over lines or other labels, on the far side of a line, or outside."""
-    left, low, right, high = box
-    x, y = lines[..., 0], lines[..., 1]
-    crossed = np.count_nonzero((x > left - 2.0) & (x < right + 2.0) & (y > low - 2.0) & (y < high + 2.0))
-    covered = sum(
-        max(0.0, min(right, other[2]) - max(left, other[0])) * max(0.0, min(high, other[3]) - max(low, other[1]))
-        for other in boxes
-    )
-    over = max(0.0, inside[0] - left) + max(0.0, right - inside[2]) + max(0.0, inside[1] - low) + max(0.0, high - inside[3])
-    behind = np.count_nonzero(_crosses(at, (0.5 * (left + right), 0.5 * (low + high)), lines[:, 0], lines[:, -1]))
-    return 8.0 * int(crossed) + 5.0 * covered + 20.0 * float(over) + 25.0 * int(behind)
+def _sums(cells: Any, rows: int, columns: int) -> Any:
+    """The sums over every window of so many cells."""
+    total = np.pad(cells, ((1, 0), (1, 0))).cumsum(axis=0, dtype=float).cumsum(axis=1)
+    return total[rows:, columns:] - total[:-rows, columns:] - total[rows:, :-columns] + total[:-rows, :-columns]
 
 
-def _on(box: _Box, area: Any) -> float:
-    """The share of a label's area that lies on a convex area with its corners anticlockwise."""
-    across, up = np.meshgrid(np.linspace(box[0], box[2], 7), np.linspace(box[1], box[3], 3))
-    inside = np.ones(across.shape, dtype=bool)
-    for (x0, y0), (x1, y1) in zip(area, np.roll(area, -1, axis=0), strict=True):
-        inside &= (x1 - x0) * (up - y0) - (y1 - y0) * (across - x0) > 0.0
-    return float(np.mean(inside))
-
-
-def _crosses(start: Any, end: Any, tails: Any, tips: Any) -> Any:
-    """Which of the lines the line to a label crosses, except those that begin where it starts."""
-    way, lines, gap = np.subtract(end, start), tips - tails, tails - start
-    turn = way[0] * lines[:, 1] - way[1] * lines[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        on_way = (gap[:, 0] * lines[:, 1] - gap[:, 1] * lines[:, 0]) / turn
-        on_line = (gap[:, 0] * way[1] - gap[:, 1] * way[0]) / turn
-    return (on_way > 0.05) & (on_way < 1.0) & (on_line > 0.0) & (on_line < 1.0)
+def _away(x: Any, y: Any, size: Any, direction: Place) -> Any:
+    """What it costs a label that its middle lies there from its place: too near, far, or in another direction."""
+    far = np.hypot(np.maximum(abs(x) - 0.5 * size[0], 0.0), np.maximum(abs(y) - 0.5 * size[1], 0.0))
+    turn = abs((np.arctan2(y, x) - math.atan2(direction[1], direction[0]) + math.pi) % math.tau - math.pi)
+    return _FAR * far + 20.0 * np.maximum(_NEAR - far, 0.0) + _TURN * turn
 
 
 def covers(start: Place, vector: Place, other: Place, along: Place, longest: float) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -87,8 +88,6 @@ def path(
         # A vehicle takes up some room, wherever it goes.
         room = _ROOM * labels.factor("m")
         picture.drawing.include(*line, *(beside(line[-1], (side, side), room) for side in (-1.0, 1.0)))
-        for one, other in zip(line[::10], line[10::10], strict=False):
-            picture.drawing.avoid(one, other)
         axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.path")
         for x, y in way.marks:
             slid = np.isfinite(x)
@@ -135,4 +134,6 @@ def _stops(way: SimulatedPath) -> list[Vehicle]:
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(way.x), np.diff(way.y)))])
     parts = np.linspace(0.0, along[-1], _BETWEEN + 2)[:-1]
     places = [[float(np.interp(part, along, values)) for part in parts] for values in (way.x, way.y, way.heading)]
-    return [*(way.rest.replace(x=x, y=y, heading=heading) for x, y, heading in zip(*places, strict=True)), way.rest]
+    # Less than a turn, or a vehicle that spun would be asked whether degrees were meant.
+    turned = ((x, y, math.remainder(heading, math.tau)) for x, y, heading in zip(*places, strict=True))
+    return [*(way.rest.replace(x=x, y=y, heading=heading) for x, y, heading in turned), way.rest]

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
-_FRONT = 6  # as many lines the front edge counts, for labels to keep clear of it
 _TITLES = {
     "before": "Before the impact",
     "after": "After the impact, at the place of it",
@@ -133,7 +132,7 @@ def scene(
 
     scales = [("velocities", speed_scale, "m/s"), ("impulses", impulse_scale, "N*s")]
     stated = "; ".join(
-        f"{what}: 1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)}"
+        f"1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)} for {what}"
         for what, scale, unit in scales
         if scale
     )
@@ -227,7 +226,6 @@ class Picture:
             fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1, gid=f"{SIDES[index]}.wall",
         )  # fmt: skip
         self.drawing.include(one, other)
-        self.drawing.avoid(one, other)
         self.drawing.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
 
     def body(self, place: Place, index: int, name: str, corners: list[Place]) -> None:
@@ -237,7 +235,6 @@ class Picture:
             self.outline(index, corners, f"{letter}.outline", 0.08)
             self.drawing.area(index, corners)
         self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
-        self.drawing.avoid(place, place)
         self.drawing.label(place, name, (0.0, 1.0), colour, of=index)
 
     def outline(self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4) -> None:
@@ -248,13 +245,10 @@ class Picture:
         self.axes.fill(*zip(*corners, strict=True), fc=to_rgba(colour, filled), ec=colour, lw=width, zorder=2, gid=gid)
         front: Any = {"color": colour, "lw": 3.0 * width, "solid_capstyle": "butt", "zorder": 3}
         self.axes.plot(*zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front"))
-        for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
-            self.drawing.avoid(one, other, _FRONT if one is corners[0] else 1)
 
     def pivot(self, pin: Place, index: int) -> None:
         """Where a body is pinned."""
         self.axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
-        self.drawing.avoid(pin, pin)
         self.drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
 
     def velocity(self, place: Place, index: int, state: Vehicle, when: str, share: float) -> None:

@@ -90,15 +90,15 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
             rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
-    sheet.table([*rows, *_damage(sheet, evidence)])
-    sheet.say(
-        "“Given as” repeats the text of an input that was given in another unit than that of this page. Of a normal only the "
-        "direction counts. The record at the end has every digit."
-    )
+    rows += _damage(sheet, evidence)
+    sheet.table(rows)
+    known = [] if impact.reconstruction is None else _known(sheet, impact)
+    if any("given as" in text for *_, text in (*rows, *known)):
+        sheet.say("“Given as” repeats the text of an input that was given in another unit than that of this page.")
+    sheet.say("Of a normal only the direction counts. The record at the end has every digit.")
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact.reconstruction)
-        known = _known(sheet, impact)
         if known:
             sheet.table(known)
 
