@@ -1,5 +1,7 @@
-"""Law "stronge": a contact whose slip may stop or turn around, against an integration, the other laws and its own limits."""
+"""Law "stronge": a contact whose slip may stop or turn around, against an integration, worked cases and the other laws."""
 
+import cmath
+import itertools
 import math
 import random
 import warnings
@@ -265,3 +267,137 @@ def test_explained_where_the_slip_goes_on_stops_and_turns():
             page = explain(impact.again(restitution=e, incomplete=True), form="text")
             assert "In this form the numbers cancel" not in page
     assert seen == {"frictionless", "sliding", "sticking", "reversing"}
+
+
+# The worked regimes of Jia, Gardner and Mu, "Batting an in-flight object to the target", International Journal of Robotics Research
+# 38 (2019) 451, figure 3, b to f: an ellipse strikes a polygon. The inputs are those of the program that the authors published with
+# it (xqmu/2D-Frictional-Impact on GitHub). By letter: friction, velocity of the polygon, regime, whether the slip stops before the
+# end of compression, and what the equations in that program give, to 12 digits: normal impulse at the end of compression and in the
+# end, tangential impulse, work absorbed, velocity and yaw rate of the polygon after, yaw rate of the ellipse after.
+POLYGON = ((0.0, 0.0), (0.01, 0.03), (0.07, 0.05), (0.07, 0.0), (0.05, -0.02))
+BATTED = {
+    "b": (
+        0.5,
+        (-1.52, -2.75),
+        "sliding",
+        False,
+        (
+            0.244415066986,
+            0.476609380622,
+            0.238304690311,
+            0.308223367382,
+            1.37525783205,
+            -2.13255687753,
+            -1.55653538955,
+            -8.35260549009,
+        ),
+    ),
+    "c": (
+        0.95,
+        (-1.52, -2.75),
+        "sticking",
+        True,
+        (
+            0.41847050889,
+            0.712709392799,
+            0.474050820068,
+            0.5777981005,
+            2.97350192927,
+            -1.19372707089,
+            -28.8579536291,
+            -34.754179646,
+        ),
+    ),
+    "d": (
+        0.3,
+        (0.0, 7.5),
+        "reversing",
+        True,
+        (
+            0.214373797737,
+            0.440637665981,
+            0.0462474320239,
+            0.354751245081,
+            2.43417443587,
+            7.13469403658,
+            57.5144505981,
+            19.2840573898,
+        ),
+    ),
+    "e": (
+        0.8,
+        (-1.52, -2.75),
+        "sticking",
+        False,
+        (
+            0.358442551386,
+            0.668808601444,
+            0.459030156817,
+            0.452019474756,
+            2.71647438711,
+            -1.21333236226,
+            -33.9149595221,
+            -34.2028437699,
+        ),
+    ),
+    "f": (
+        0.01,
+        (0.0, 7.5),
+        "reversing",
+        False,
+        (
+            0.227785649283,
+            0.445256748734,
+            0.000771422537266,
+            0.412486159331,
+            2.39349552335,
+            6.87539215244,
+            75.1380081239,
+            26.5760903806,
+        ),
+    ),
+}
+
+
+def batted(letter):
+    """The ellipse, the polygon about its centroid, and the contact, at the origin, with a restitution of 0.95."""
+    friction, (vx, vy), *_ = BATTED[letter]
+    area = first_x = first_y = second = 0.0
+    for (x, y), (next_x, next_y) in itertools.pairwise((*POLYGON, POLYGON[0])):
+        twice = x * next_y - next_x * y
+        area += twice / 2.0
+        first_x, first_y = first_x + (x + next_x) * twice / 6.0, first_y + (y + next_y) * twice / 6.0
+        second += (x * x + x * next_x + next_x * next_x + y * y + y * next_y + next_y * next_y) * twice / 12.0
+    x, y = first_x / area, first_y / area
+    polygon = col.Vehicle(
+        mass=0.18, yaw_inertia=0.18 * (second / area - x * x - y * y), vx=vx, vy=vy, yaw_rate="-30 rad/s", x=x, y=y
+    )
+    # The ellipse is turned by -2.944, so that the place struck lies ahead of its centre along x; its normal is that of the outline.
+    wide, high, turn = 0.07, 0.045, -2.944
+    reach = 1.0 / math.hypot(math.cos(turn) / wide, math.sin(turn) / high)
+    outward = cmath.exp(1j * turn) * complex(math.cos(turn) / wide**2, -math.sin(turn) / high**2)
+    ellipse = col.Vehicle(
+        mass=0.252, yaw_inertia=0.252 * (wide**2 + high**2) / 4.0, vx=2.345, vy=4.339, yaw_rate="9.011 rad/s", x=-reach, y=0.0
+    )
+    return ellipse, polygon, 0.95, {"normal": cmath.phase(outward), "point": (0.0, 0.0), "friction": friction}
+
+
+@pytest.mark.parametrize("letter", BATTED)
+def test_published_worked_regimes(letter):
+    """To half of the last digit given; and followed in time."""
+    ellipse, polygon, e, contact = batted(letter)
+    *_, regime, early, wanted = BATTED[letter]
+    impact = col.eccentric(ellipse, polygon, e, **contact, law="stronge")
+    assert impact.regime == regime
+    # The end of compression is that of the plastic impact.
+    assert impact.again(restitution=0.0).regime == (regime if early else "sliding")
+    after = impact.b.after
+    found = (impact.compression_impulse, impact.normal_impulse, abs(impact.tangential_impulse), impact.energy_absorbed)
+    found += (after.vx, after.vy, after.yaw_rate, impact.a.after.yaw_rate)
+    assert found == pytest.approx(wanted, rel=5e-12)
+    assert impact.energy_loss_normal == pytest.approx((1.0 - e**2) * wanted[3], rel=5e-12)
+    # The design's figures for fixed geometry; the force of half a sine is summed up to (w h)^2 / 24, which is 4e-5 and 1e-5 here.
+    for steps, part in ((100, 6e-5), (200, 1.4e-5)):
+        passed = col.time_resolved(ellipse, polygon, e, **contact, geometry="fixed", duration="1 ms", steps=steps)
+        assert passed.regime == regime
+        assert math.hypot(passed.b.after.vx - wanted[4], passed.b.after.vy - wanted[5]) < part * impact.b.delta_v

@@ -10,17 +10,16 @@ import numpy as np
 
 from . import pulse
 from .drag import GRAVITY, read_drag, read_duration
-from .during_contact import Kick, with_motion, with_tyres
+from .during_contact import Pull, finite_mass, with_motion, with_tyres
 from .errors import CollisionsWarning, InputError
 from .impact import Impact, part_of_impact
 from .kernels.batch import flat, precision
 from .kernels.elementwise import select
-from .quantities import Shown, hypot, in_units_of, lock, numeric
+from .quantities import Shown, hypot, in_units_of, lock
 from .reading import ArgumentReader, broadcast, widened
 from .settings import computing
 from .travel.surfaces import out_of_range
 from .units import Input, Value
-from .vehicle import Vehicle
 from .warning import quietly, warn_of_cases
 
 # Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
@@ -247,29 +246,29 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
     return _assembled({name: value if value is None else value.reshape(shape) for name, value in whole.items()}, texts)
 
 
-def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str, Any]:
+def _estimated(impact: Impact, time: Any, drag: Any, unusable: Any) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
     # A refused single case cannot be solved again.
     lost = impact.refused is True
     point = impact.point
     with np.errstate(all="ignore"):
-        most = pull * GRAVITY * time
-        kicks = (Kick.of(impact.a, impact.restitution, point, most), Kick.of(impact.b, impact.restitution, point, most))
-        tyres = [math.nan] * 2 if lost else with_tyres(impact, kicks)
+        most = drag * GRAVITY * time
+        pulls = Pull.of(impact.a, impact.restitution, most), Pull.of(impact.b, impact.restitution, most)
+        tyres = [math.nan] * 2 if lost else with_tyres(impact, pulls)
         moved = with_motion(impact, point, time)
         passed = pulse.mean_passed(impact.restitution)
-        found = {"duration": time, "drag": pull, **_whole(impact, time, passed)}
-        for label, kick, by_tyres, by_motion in zip("ab", kicks, tyres, moved, strict=True):
+        found = {"duration": time, "drag": drag, **_whole(impact, time, passed)}
+        for label, pull, by_tyres, by_motion in zip("ab", pulls, tyres, moved, strict=True):
             side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
-            mass = _finite_mass(before)
+            mass = finite_mass(before)
             of_side = {
                 "tyre_impulse_bound": mass * most,
-                "tyre_delta_v_bound": kick.most,
-                "tyre_share_bound": _share(kick.most, delta_v),
-                "tyre_impulse": mass * hypot(kick.free_x, kick.free_y),
-                "tyre_impulse_x": mass * kick.free_x,
-                "tyre_impulse_y": mass * kick.free_y,
+                "tyre_delta_v_bound": pull.most,
+                "tyre_share_bound": _share(pull.most, delta_v),
+                "tyre_impulse": mass * hypot(pull.x, pull.y),
+                "tyre_impulse_x": mass * pull.x,
+                "tyre_impulse_y": mass * pull.y,
                 "tyre_delta_v": by_tyres,
                 "tyre_share": _share(by_tyres, delta_v),
                 "displacement_x": (before.vx + passed * side.delta_vx) * time,
@@ -283,19 +282,14 @@ def _estimated(impact: Impact, time: Any, pull: Any, unusable: Any) -> dict[str,
         return {name: None if value is None else select(refused, math.nan, value) for name, value in found.items()}
 
 
-def _extent(impact: Impact, time: Any, pull: Any) -> Any:
+def _extent(impact: Impact, time: Any, drag: Any) -> Any:
     """An upper bound of all tyre impulses, distances and rotations; infinite where one may overflow."""
     states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
     with np.errstate(all="ignore"):
-        most = pull * GRAVITY * time
+        most = drag * GRAVITY * time
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
         contact = time * (abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after))
-        return most + reach + contact + most * _finite_mass(impact.a.before) + most * _finite_mass(impact.b.before)
-
-
-def _finite_mass(body: Vehicle) -> Any:
-    """The body's mass, 0 for a fixed body, which tyres do not move."""
-    return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
+        return most + reach + contact + most * finite_mass(impact.a.before) + most * finite_mass(impact.b.before)
 
 
 def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:

@@ -11,36 +11,30 @@ from . import pulse
 from .directions import from_radians
 from .impact import Impact, solve_changed
 from .kernels.contact_laws import BRACH
-from .kernels.elementwise import select, turning_velocity
-from .models import ECCENTRIC
+from .kernels.elementwise import select
+from .models import ECCENTRIC, LINEAR
 from .quantities import hypot, numeric
 from .side import Side
-from .vehicle import moved, needed
+from .vehicle import Vehicle, needed
 
 # Midpoints of equal time intervals, as shares of the duration.
 _MOMENTS = (0.125, 0.375, 0.625, 0.875)
-# Finite-difference step in the tyre impulse, small enough that the regime does not change; a power of 2 to avoid rounding.
+# Part of the tyre impulse that is tried, small enough that the regime does not change; a power of 2 to avoid rounding.
 _LITTLE = 2.0**-6
 
 
-class Kick(NamedTuple):
-    """The effect of one vehicle's tyres alone over the contact: on its centre of mass, its yaw rate and its contact point."""
+class Pull(NamedTuple):
+    """What its own tyres would do to the velocity of a free vehicle over the contact, and the most they can do to this one."""
 
     x: Any
     y: Any
-    yaw: Any
-    contact_x: Any
-    contact_y: Any
-    free_x: Any
-    free_y: Any
     most: Any
 
     @classmethod
-    def of(cls, side: Side, restitution: Any, point: Any, most: Any) -> Kick:
+    def of(cls, side: Side, restitution: Any, most: Any) -> Pull:
         """``most`` is the change of velocity of a free body by tyres that pull one way throughout."""
         before, change_x, change_y = side.before, side.delta_vx, side.delta_vy
-        moves = numeric(before.mass).isfinite(before.mass)
-        most = select(moves, most, 0.0)
+        most = select(numeric(before.mass).isfinite(before.mass), most, 0.0)
         x: Any = 0.0
         y: Any = 0.0
         for moment in _MOMENTS:
@@ -49,44 +43,41 @@ class Kick(NamedTuple):
             speed = hypot(vx, vy)
             speed = select(speed == 0.0, 1.0, speed)
             x, y = x - vx / speed / len(_MOMENTS), y - vy / speed / len(_MOMENTS)
-        x, y = most * x, most * y
         if before.pivot is None:
-            return cls(x, y, 0.0, x, y, x, y, most)
+            return cls(most * x, most * y, most)
         arm_x, arm_y = needed(before, "x", "left_out") - before.pivot[0], needed(before, "y", "left_out") - before.pivot[1]
         square = arm_x * arm_x + arm_y * arm_y
         # A pinned body without an inertia has no result anyway.
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         turning = before.mass / (inertia + before.mass * square)
-        yaw = turning * (arm_x * y - arm_y * x)
-        # Without a point no case has a result, so any place will do.
-        place = before.pivot if point is None else point
-        at_point = turning_velocity(yaw, place[0], place[1], before.pivot[0], before.pivot[1])
         # For wheels at the radius of gyration k from the centre, the mean distance from the pivot is at most hypot(arm, k).
-        return cls(-yaw * arm_y, yaw * arm_x, yaw, *at_point, x, y, most * (turning * square) ** 0.5)
+        return cls(most * x, most * y, most * (turning * square) ** 0.5)
 
 
-def with_tyres(impact: Impact, kicks: tuple[Kick, Kick]) -> list[Any]:
-    """Change of each vehicle's delta-V due to the tyres of both, for the same separation speed as without them."""
-    nx, ny = impact.normal
-    a, b = kicks
-    closing = impact.closing_speed
-    nearer = nx * (a.contact_x - b.contact_x) + ny * (a.contact_y - b.contact_y)
-    # The step is taken in the direction that raises the closing speed, for which the restitution stays below 1.
-    part = select(nearer >= 0.0, _LITTLE, -_LITTLE)
-    faster = closing + part * nearer
-    # The pull need not be along the normal, which the linear model would refuse; without friction the oblique one is the same.
-    carrying = {"model": "oblique_central", "law": BRACH} if impact.inputs.model == "linear_central" else {}
-    moved_a, moved_b = (
-        moved(
-            side.before, side.before.vx + part * kick.x, side.before.vy + part * kick.y, side.before.yaw_rate + part * kick.yaw
-        )
-        for side, kick in zip((impact.a, impact.b), kicks, strict=True)
-    )
-    again = solve_changed(impact, a=moved_a, b=moved_b, restitution=impact.restitution * (closing / faster), **carrying)
+def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
+    """Change of each vehicle's delta-V by the tyres of both, as impulses from outside, which the eccentric model takes."""
+    inputs, point = impact.inputs, impact.point
+    central = impact.model != ECCENTRIC.name
+    changes: dict[str, Any] = {"model": ECCENTRIC.name, "law": inputs.law or BRACH}
+    changes["rule_value"] = select(impact.model == LINEAR.name, 0.0, inputs.rule_value)
+    for label, pull in zip("ab", pulls, strict=True):
+        body, given = getattr(inputs, label), getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
+        mass = _LITTLE * finite_mass(body)
+        changes[f"outside_{label}"] = (given[0] + mass * pull.x, given[1] + mass * pull.y, given[2])
+        if point is not None and body.x is not None and body.y is not None and np.any(central):
+            # A central model knows no levers.
+            x, y = (select(central, *places) for places in zip(point, (body.x, body.y), strict=True))
+            changes[label] = body.replace(x=x, y=y)
+    again = solve_changed(impact, **changes)
     return [
-        hypot(kick.x + (new.delta_vx - old.delta_vx) / part, kick.y + (new.delta_vy - old.delta_vy) / part)
-        for old, new, kick in zip((impact.a, impact.b), (again.a, again.b), kicks, strict=True)
+        hypot((new.delta_vx - old.delta_vx) / _LITTLE, (new.delta_vy - old.delta_vy) / _LITTLE)
+        for old, new in ((impact.a, again.a), (impact.b, again.b))
     ]
+
+
+def finite_mass(body: Vehicle) -> Any:
+    """The body's mass, 0 for a fixed body, which tyres do not move."""
+    return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
 def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
