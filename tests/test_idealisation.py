@@ -1,5 +1,6 @@
 """What the impulse idealisation leaves out: by hand, against a contact that takes time, and every refusal."""
 
+import itertools
 import json
 import math
 import pickle
@@ -141,9 +142,10 @@ def test_oblique_points_slide_along_each_other():
     assert found.contact_slide == pytest.approx(1.0)
     assert found.mutual_crush == pytest.approx(2.0 / math.pi)
     assert (found.b.displacement_x, found.b.displacement_y) == pytest.approx((0.5 * (1.0 - 2.0 / math.pi), 1.0))
-    # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the pull, towards +x.
+    # A slows from 10 to 5 and is pulled back by all its tyres; B turns its course, and with it the pull, from (0, 1) to (1, 2):
+    # the mean of directions within an angle is no shorter than the cosine of its half.
     assert found.a.tyre_impulse == pytest.approx(1500 * MOST)
-    assert 0.9 * 1500 * MOST < found.b.tyre_impulse < 1500 * MOST
+    assert math.cos(0.5 * math.atan(0.5)) < found.b.tyre_impulse / (1500 * MOST) < 1.0
     assert found.b.geometry_delta_v is None
 
 
@@ -155,7 +157,7 @@ def test_t_bone():
     assert found.b.rotation == pytest.approx(0.1 * passed * impact.b.after.yaw_rate, rel=1e-8)
     assert found.a.displacement_x == pytest.approx(0.1 * (20.0 + passed * impact.a.delta_vx), rel=1e-8)
     assert found.a.geometry_share == pytest.approx(found.b.geometry_share)
-    assert found.b.geometry_share == pytest.approx(0.107, abs=0.002)
+    assert found.b.geometry_share == pytest.approx(0.1, abs=0.05)
     assert found.b.geometry_share == pytest.approx(found.b.geometry_delta_v / impact.b.delta_v)
 
 
@@ -209,9 +211,11 @@ def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_
         return MOST * mass * math.fsum(arms) / 4.0 / (inertia + mass * (x * x + y * y)) * math.hypot(x, y)
 
     gyration = math.sqrt(inertia / mass)
+    # The mean distance of two opposite wheels is at least that of their middle, and that of each from it.
+    least = max(math.hypot(x, y), gyration) / math.hypot(x, y, gyration)
     for angle in np.linspace(0.0, 1.5, 7):
         one = by_wheels(gyration * math.cos(angle), gyration * math.sin(angle))
-        assert 0.9 * found.tyre_delta_v_bound < one <= found.tyre_delta_v_bound
+        assert least * found.tyre_delta_v_bound < one <= found.tyre_delta_v_bound
     assert by_wheels(1.35, 0.75) > found.tyre_delta_v_bound
     assert "no bound but an estimate" in " ".join(LeftOutSide.__doc__.split())
 
@@ -289,11 +293,51 @@ def test_the_scene_may_be_turned_and_exchanged(turn):
     "rule", [{"friction": 0.2}, {"friction": math.inf}, {"impulse_ratio": 0.1}, {"critical_fraction": 0.5}]
 )
 def test_every_law_and_rule_is_asked_again(law, rule):
-    """Finite estimates of the size of the bounds."""
-    found = col.left_out(t_bone(law=law, friction=None, **rule) if "friction" not in rule else t_bone(law=law, **rule))
-    for side in (found.a, found.b):
-        assert 0.0 < side.tyre_delta_v < 1.5 * side.tyre_delta_v_bound
-        assert 0.0 < side.geometry_share < 0.5
+    """By hand: with a 1024th of the impulse of the tyres from outside, and with the places of later in the contact.
+
+    The laws are linear in the impulse, for a fraction to the order of what is tried, a 64th of 0.7 of 20 m/s; 1e-8 for the
+    rounding of a change that is scaled up.
+    """
+    rule = {"friction": None, **rule}
+    impact = t_bone(law=law, **rule)
+    found = col.left_out(impact)
+    little = {f"outside_{label}": tuple(part / 1024 for part in getattr(found, f"outside_{label}")) for label in "ab"}
+    pushed = impact.again(**little)
+    turn_a, a, on_a = later(impact.a.before, impact.a, 0.1)
+    turn_b, b, on_b = later(impact.b.before, impact.b, 0.1)
+    point = (0.5 * (on_a[0] + on_b[0]), 0.5 * (on_a[1] + on_b[1]))
+    again = col.eccentric(a, b, 0.1, normal=0.5 * (turn_a + turn_b), point=point, law=law, **rule)
+    for name in "ab":
+        old, side = getattr(impact, name), getattr(found, name)
+        by_tyres, by_motion = (
+            math.hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy)
+            for new in (getattr(pushed, name), getattr(again, name))
+        )
+        within = 1.0 / 64 if "critical_fraction" in rule else 1e-8
+        assert side.tyre_delta_v == pytest.approx(1024 * by_tyres, rel=within)
+        assert side.geometry_delta_v == pytest.approx(by_motion, rel=1e-8)
+
+
+@pytest.mark.parametrize("friction", [0.2, math.inf])
+def test_tyres_shift_the_velocities_first(friction):
+    """By hand, without impulses from outside: velocities shifted, and the restitution for which the points part as they did.
+
+    Under "brach": for "kudlich-slibar" the restitution is that of the slip too.
+    """
+    impact = t_bone(friction=friction)
+    found = col.left_out(impact)
+    part = 1.0 / 1024
+    moved = [
+        side.before.replace(vx=side.before.vx + part * x / side.before.mass, vy=side.before.vy + part * y / side.before.mass)
+        for side, (x, y) in ((impact.a, found.outside_a), (impact.b, found.outside_b))
+    ]
+    closing = moved[0].vx - moved[1].vx
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": friction}
+    again = col.eccentric(*moved, 0.1 * impact.closing_speed / closing, **contact)
+    for name in "ab":
+        old, new = getattr(impact, name).after, getattr(again, name).after
+        change = math.hypot(new.vx - old.vx, new.vy - old.vy)
+        assert getattr(found, name).tyre_delta_v == pytest.approx(change / part, rel=1e-8)
 
 
 # Units and looks
@@ -451,7 +495,7 @@ def test_refused_cases_are_nan_and_their_neighbours_untouched():
         assert np.isnan(value).tolist() == [False, True, False, False, False]
     durations = np.array([0.1, 0.1, -0.1, math.nan, 0.1])
     drags = np.array([0.7, 0.7, 0.7, 0.7, -0.7])
-    with pytest.warns(col.CollisionsWarning, match="3 durations or drags cannot be used") as caught:
+    with pytest.warns(col.CollisionsWarning, match="3 of 5 cases cannot be answered and are NaN") as caught:
         found = numbers(col.left_out(impact, duration=durations, drag=drags))
     assert len(caught) == 1
     assert caught[0].filename == __file__
@@ -652,37 +696,71 @@ def measured(script):
     return script.measure()
 
 
-@pytest.mark.slow
-def test_the_reference_is_the_impulse_where_nothing_is_left_out(measured):
-    """With the geometry of first contact and no tyres: 3e-5 at 100 steps, a quarter of that at 200."""
-    for row in measured["rows"]:
-        assert row["fixed"]["share"] <= 1e-5, row["scene"]
+def hold(script, steps=None):
+    """What locked wheels take of a velocity in one step."""
+    return script.DRAG * GRAVITY * script.DURATION / (steps or script.STEPS)
 
 
 @pytest.mark.slow
-def test_the_reference_has_converged(measured):
-    """Half the step changes a delta-V by 0.2 % at most, where the tyres of a slow car stop during the contact."""
-    assert measured["halving_the_step"] < 2e-3
+def test_the_reference_is_the_impulse_where_nothing_is_left_out(script):
+    """With the geometry of first contact and no tyres it comes to law "stronge", at second order: twice the steps, a quarter."""
+    law = script.changes([scene.impact(law="stronge") for scene in script.SCENES])
+    once, twice = (
+        np.linalg.norm(script.changes([scene.passed("fixed", steps) for scene in script.SCENES]) - law, axis=(0, 1))
+        for steps in (50, 100)
+    )
+    assert np.round(np.log2(once / twice)).tolist() == [2.0] * len(script.SCENES)
+
+
+@pytest.mark.slow
+def test_the_reference_has_converged(script):
+    """At second order where wheels slide throughout, as in the sideswipe. Else to what tyres take in one step.
+
+    A wheel that starts to slide or stops within a step is held for all of it or for none. The contact shares out what both
+    vehicles miss by that, so neither is off by more than one whole step; what is second order is 1e-4 m/s or less beside it.
+    """
+    found = [script.changes([scene.passed("all", steps) for scene in script.SCENES]) for steps in (100, 200, 400)]
+    once, twice = (np.hypot(*(new - old)[:2]) for old, new in itertools.pairwise(found))
+    assert once.max() < hold(script, 100)
+    assert twice.max() < hold(script, 200)
+    sideswipe = [scene.key for scene in script.SCENES].index("sideswipe")
+    assert np.round(np.log2(once[:, sideswipe] / twice[:, sideswipe])).tolist() == [2.0, 2.0]
 
 
 @pytest.mark.slow
 def test_tyres_are_estimated_to_a_factor_of_one_and_a_half(measured):
-    """Sliding with the centre, and at four wheels, which also turn."""
+    """Sliding with the centre, and at four wheels, which also turn; 1.5 is the margin the design asks for on the estimates."""
     for row in measured["rows"]:
         for which in ("tyres", "wheels"):
             assert 1 / 1.5 < row["left_out"]["tyre_delta_v"] / row[which]["delta_v"] < 1.5, (row["scene"], which)
 
 
 @pytest.mark.slow
+def test_no_tyres_take_more_than_they_can_hold(script):
+    """However they turn: drag times weight times the time that the contact took; of the estimate, the time given."""
+    for scene in script.drawn(20):
+        impact, found = scene.passed("wheels", 50), col.left_out(scene.impact(), duration=script.DURATION, drag=script.DRAG)
+        for label in "ab":
+            side, estimate = getattr(impact, label), getattr(found, label)
+            most = script.DRAG * GRAVITY * side.before.mass
+            assert math.hypot(side.tyre_impulse_x, side.tyre_impulse_y) <= most * impact.pulse.duration * (1.0 + 1e-12)
+            assert estimate.tyre_impulse <= estimate.tyre_impulse_bound * (1.0 + 1e-12)
+            assert estimate.tyre_impulse_bound == pytest.approx(most * script.DURATION, rel=1e-12)
+
+
+@pytest.mark.slow
 def test_geometry_is_estimated_to_a_factor_of_one_and_a_half(measured):
-    """Where it matters at all; and the places of maximum engagement leave less of it, as the docstring says."""
+    """Where it matters at all; and the places of maximum engagement leave as much of it as the docstring says, to its digits."""
+    left = []
     for row in measured["rows"]:
         moved = row["moving"]["delta_v"]
         if row["scene"].startswith("rear_end"):
             assert moved == row["left_out"]["geometry_delta_v"] == 0.0
             continue
         assert 1 / 1.5 < row["left_out"]["geometry_delta_v"] / moved < 1.5, row["scene"]
-        assert 0.2 < row["engaged"]["delta_v"] / moved < 0.75, row["scene"]
+        left.append(row["engaged"]["delta_v"] / moved)
+    said = re.search(r"leave (0\.\d\d) to (0\.\d\d) of the effect of geometry", " ".join(col.left_out.__doc__.split()))
+    assert [min(left), max(left)] == pytest.approx([float(text) for text in said.groups()], abs=0.005)
 
 
 @pytest.mark.slow
@@ -691,10 +769,6 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
     file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
     said = " ".join(col.left_out.__doc__.split())
     assert measured["frictions"] == file["frictions"]
-    # Limits set from what was measured against time_resolved (6, 9 and 30 %), not derived: they hold the committed figures.
-    # Where it is more than a factor of 1.5 off, as the nine scenes are not, is rare but for geometry with hardly any friction:
-    # a spring lasts longer there than the force that the estimate assumes.
-    most_outside = {("drawn_with_little_friction", "moving"): 0.30, ("drawn", "moving"): 0.09}
     for key, frictions in file["frictions"].items():
         committed = file[key]
         assert measured[key]["impacts"] == committed["impacts"] == 150
@@ -703,20 +777,87 @@ def test_estimates_over_random_impacts_are_as_the_docstring_says(measured):
         for name in ("tyres", "moving"):
             row = committed[name]
             assert measured[key][name]["quantiles"] == pytest.approx(row["quantiles"], rel=0.006)
-            assert measured[key][name]["vehicles"] == row["vehicles"] > 150
+            assert measured[key][name]["outside_1.5"] == pytest.approx(row["outside_1.5"], rel=0.006)
+            assert measured[key][name]["vehicles"] == row["vehicles"]
             least, low, *_, high, most = row["quantiles"]
             assert re.search(rf"{low:.2f} to {high:.2f} of [\w ]+ in 9 of 10, {least:.2f} to {most:.2f} in all", said)
-            assert 0.0 <= row["outside_1.5"] < most_outside.get((key, name), 0.06)
             assert row["no_estimate"] == 0
 
 
 @pytest.mark.slow
-def test_the_figures_of_the_design(measured):
-    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 5 %."""
+@pytest.mark.parametrize("key", ["drawn", "drawn_with_little_friction"])
+def test_other_random_impacts_are_as_often_within(script, key):
+    """The shares said hold for impacts of another seed, to three standard errors of both samples.
+
+    Both vehicles of an impact go together, so a share of N impacts has a standard error of sqrt(p (1 - p) / N).
+    """
+    file = json.loads((ROOT / "docs" / "_generated" / "time_resolved.json").read_text("utf-8"))
+    count = 80
+    again = script.ratios_of_drawn(count, 50, tuple(file["frictions"][key]), seed=7)
+    for name, (ratio, missing) in again.items():
+        row = file[key][name]
+        _, low, *_, high, _ = row["quantiles"]
+        within = float(np.mean((low <= ratio) & (ratio <= high)))
+        for share, said in ((within, 0.9), (script.outside(ratio), row["outside_1.5"])):
+            error = math.sqrt(said * (1.0 - said) * (1.0 / count + 1.0 / file[key]["impacts"]))
+            assert abs(share - said) <= 3.0 * error, name
+        assert missing == 0
+
+
+def parting_as_given(script, key, variant):
+    """A scene followed with that spring for which it takes 0.1 s and the points part at e times the closing speed."""
+    (scene,) = (one for one in script.SCENES if one.key == key)
+    e, duration = scene.restitution, script.DURATION
+    contact = {"normal": scene.normal, "point": scene.point, "friction": scene.friction, **script.VARIANTS[variant]}
+    for _ in range(60):
+        impact = col.time_resolved(*scene.vehicles(), e, **contact, duration=duration, steps=script.STEPS)
+        parts = impact.separation_speed / (scene.restitution * impact.closing_speed)
+        lasts = impact.pulse.duration / script.DURATION
+        if abs(parts - 1.0) + abs(lasts - 1.0) < 1e-5:
+            break
+        e, duration = e / parts, duration / lasts
+    assert abs(parts - 1.0) + abs(lasts - 1.0) < 1e-5
+    return impact.b.delta_v / scene.impact().b.delta_v - 1.0
+
+
+def braked_in_line(speed, e, duration, count=20_000):
+    """Share of the delta-V of the front of two equal cars that locked wheels of both take: masses on a line, in small steps.
+
+    Energetic restitution: a spring, let go along one that is 1 / e squared as stiff. Tyres take what they can and no more.
+    """
+    stiffness, step, take = 0.5 * ((1.0 + e) * math.pi / (2.0 * duration)) ** 2, duration / count, MOST / 0.1 * duration / count
+    a, b, crush, deepest = speed, 0.0, 0.0, 0.0
+    while True:
+        deepest = max(deepest, crush)
+        force = stiffness * (crush if crush == deepest else deepest - (deepest - crush) / e**2)
+        if force < 0.0:
+            return 1.0 - b / (0.5 * (1.0 + e) * speed)
+        a, b = a - force * step, b + force * step
+        a, b = (math.copysign(max(abs(v) - take, 0.0), v) for v in (a, b))
+        crush += (a - b) * step
+
+
+@pytest.mark.slow
+def test_the_figures_of_the_design(script, measured):
+    """Tyres are half of the delta-V of a rear-end impact at 2 m/s and 5 % at 20 m/s; a T-bone at 20 m/s loses 5 %.
+
+    43 % and 5.2 % are those of a force of 0.1 s after which the points part at e times the closing speed, as with impulses from
+    outside. A spring that gives back the part e squared of its work lets them part otherwise where tyres act or the geometry
+    moves: so 48 % and 4.8 %.
+    """
     rows = {(row["scene"], row["side"]): row for row in measured["rows"]}
-    assert rows["rear_end_2", "b"]["wheels"]["share"] == pytest.approx(0.48, abs=0.01)
-    assert rows["rear_end_20", "b"]["wheels"]["share"] == pytest.approx(0.049, abs=0.001)
-    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.048, abs=0.002)
+    two, twenty = (rows[f"rear_end_{speed}", "b"]["wheels"]["share"] for speed in (2, 20))
+    assert two == pytest.approx(0.5, abs=0.05)
+    assert twenty == pytest.approx(0.05, abs=0.005)
+    assert rows["t_bone", "b"]["moving"]["magnitude"] == pytest.approx(-0.05, abs=0.005)
+    # To what tyres take in a step, and three digits.
+    for share, speed in ((two, 2.0), (twenty, 20.0)):
+        assert share == pytest.approx(braked_in_line(speed, 0.4, 0.1), abs=hold(script) / (0.7 * speed), rel=0.005)
+    # The tyres of A hold it in the end: it keeps none of the (1 - e) / 2 of the speed that it would.
+    assert rows["rear_end_2", "a"]["wheels"]["share"] == pytest.approx(0.6 / 1.4, abs=hold(script) / 1.4)
+    # B leaves it at e c = 0.8 m/s, not at 1.4.
+    assert parting_as_given(script, "rear_end_2", "wheels") == pytest.approx(-0.6 / 1.4, abs=hold(script) / 1.4)
+    assert parting_as_given(script, "t_bone", "moving") == pytest.approx(-0.052, abs=5e-4)
 
 
 @pytest.mark.slow

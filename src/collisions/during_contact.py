@@ -84,7 +84,7 @@ def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
     """Change of delta-V of each vehicle with the geometry of later in the contact; None without a geometry."""
     if point is None:
         return [None] * 2
-    placed = True if impact.choice is None else impact.choice.model == ECCENTRIC.name
+    placed = impact.model == ECCENTRIC.name
     if placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):

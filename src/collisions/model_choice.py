@@ -266,10 +266,7 @@ def solve_least(
     models, numbers = ([in_form(used[0], inputs)], None) if len(used) == 1 else (MODELS, which)
     raw = solve_cases(models, numbers, inputs, shape, threads, report)
     if np.any(late):
-        plastic = None
-        if LAWS[inputs.law or BRACH].energetic:
-            plastic = solve_cases(models, numbers, replace(inputs, restitution=0.0 * inputs.restitution), shape, threads, None)
-        raw = _in_time(inputs, raw, plastic, which == 0, np.broadcast_to(late, shape), threads)
+        raw = _in_time(inputs, raw, replace(choice, _which=which), np.broadcast_to(late, shape), threads)
 
     def one(take: Any) -> Any:
         case = read_again(part_of_inputs(inputs, take))
@@ -280,24 +277,24 @@ def solve_least(
     return raw, choice
 
 
-def _in_time(inputs: Inputs, raw: Any, plastic: Any, linear: Any, late: Any, threads: int) -> Passed:
+def _in_time(inputs: Inputs, raw: Any, choice: ModelChoice, late: Any, threads: int) -> Passed:
     """The answers of a batch with those of its late cases followed in time; the others have no duration, force or crush.
 
-    ``plastic`` are the answers without restitution under an energetic law, which are those at the end of compression.
+    ``choice`` is that of an impulse for all cases, which gave the answers.
     """
     some = part_of_inputs(timed(inputs), lambda value: np.broadcast_to(value, late.shape)[late])
     passed = solve_inputs(TIME_RESOLVED, some, "nan", threads)
-    e, whole = inputs.restitution, 1.0 + inputs.restitution
     found: dict[str, Any] = {
-        "separation_speed": e * raw.closing_speed,
+        "separation_speed": inputs.restitution * raw.closing_speed,
         "energy_absorbed": 0.5 * raw.closing_speed * raw.compression_impulse,
     }
-    for name in ("vx_a", "vy_a", "yaw_rate_a", "vx_b", "vy_b", "yaw_rate_b"):
-        change = f"delta_{name}"
-        found[f"compression_{name}"] = getattr(raw, change) / whole if plastic is None else getattr(plastic, change)
-    if plastic is not None:
-        found["separation_speed"] = select(linear, found["separation_speed"], raw.separation_speed)
-        found |= {"compression_impulse": plastic.normal_impulse, "energy_absorbed": plastic.energy_loss_normal}
+    names = [f"{name}_{label}" for label in "ab" for name in ("vx", "vy", "yaw_rate")]
+    changes = [f"delta_{name}" for name in names]
+    *at_compression, impulse, loss = until_compressed(inputs, raw, choice, [*changes, "normal_impulse", "energy_loss_normal"])
+    found |= {f"compression_{name}": value for name, value in zip(names, at_compression, strict=True)}
+    if LAWS[inputs.law or BRACH].energetic:
+        found["separation_speed"] = select(choice._which == 0, found["separation_speed"], raw.separation_speed)
+        found |= {"compression_impulse": impulse, "energy_absorbed": loss}
     found |= {name: 0.0 * raw.normal_impulse for name in Passed._fields if name.startswith("tyre")}
     for name in Passed._fields[:-1]:
         value = found.get(name, getattr(raw, name, math.nan))

@@ -25,6 +25,7 @@ _STEEPEST_GRADE = 0.5
 _BELOW_ZERO = {
     "distance": "negative_distance",
     "drag": "negative_drag",
+    "duration": "negative_duration",
     "speed": "negative_speed",
     "end_speed": "negative_speed",
     "friction": "bad_friction",
