@@ -245,16 +245,20 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
 
 def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
-    # A refused single case cannot be solved again.
-    lost = impact.refused is True
-    point = impact.point
     with np.errstate(all="ignore"):
-        most = drag * GRAVITY * time
-        pulls = Pull.of(impact.a, impact.restitution, most), Pull.of(impact.b, impact.restitution, most)
-        tyres = [math.nan] * 2 if lost else with_tyres(impact, pulls)
-        moved = with_motion(impact, point, time)
-        passed = pulse.mean_passed(impact.restitution)
-        found = {"duration": time, "drag": drag, **_whole(impact, time, passed)}
+        e, most = impact.restitution, drag * GRAVITY * time
+        pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
+        # A refused single case cannot be solved again.
+        tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
+        moved = with_motion(impact, time)
+        passed, crush = pulse.mean_passed(e), pulse.greatest_crush(e) * (impact.closing_speed * time)
+        found = {
+            "duration": time,
+            "drag": drag,
+            "mutual_crush": crush,
+            "residual_crush": (1.0 - e) * (1.0 + e) * crush,
+            "contact_slide": (impact.slip_before + passed * (impact.slip_after - impact.slip_before)) * time,
+        }
         for label, pull, by_tyres, by_motion in zip("ab", pulls, tyres, moved, strict=True):
             side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
@@ -296,17 +300,6 @@ def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
         for label in "ab"
     )
     return in_units_of(LeftOut(**{name: value for name, value in found.items() if "." not in name}, a=a, b=b), texts)
-
-
-def _whole(impact: Impact, time: Any, passed: Any) -> dict[str, Any]:
-    """The fields about the contact as a whole."""
-    e, way = impact.restitution, impact.closing_speed * time
-    crush = pulse.greatest_crush(e) * way
-    return {
-        "mutual_crush": crush,
-        "residual_crush": (1.0 - e) * (1.0 + e) * crush,
-        "contact_slide": (impact.slip_before + passed * (impact.slip_after - impact.slip_before)) * time,
-    }
 
 
 def _share(part: Any, whole: Any) -> Any:

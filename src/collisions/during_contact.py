@@ -80,12 +80,10 @@ def finite_mass(body: Vehicle) -> Any:
     return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
-def with_motion(impact: Impact, point: Any, time: Any) -> list[Any]:
+def with_motion(impact: Impact, time: Any) -> list[Any]:
     """Change of delta-V of each vehicle with the geometry of later in the contact; None without a geometry."""
-    if point is None:
-        return [None] * 2
-    placed = impact.model == ECCENTRIC.name
-    if placed is False:
+    point, placed = impact.point, impact.model == ECCENTRIC.name
+    if point is None or placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):
         return [math.nan] * 2
