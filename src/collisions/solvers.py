@@ -131,12 +131,8 @@ def oblique_central(
         Coefficient of restitution e along the normal, 0 to 1.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B. An array is taken as angles.
-    friction : float, str, Quantity or array [-]
-        Coulomb bound on the tangential over the normal impulse, >= 0; ``inf`` never slips.
-    impulse_ratio : float, str, Quantity or array [-]
-        Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
-    critical_fraction : float, str, Quantity or array [-]
-        Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
+    friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-]
+        Exactly one of these three, as for ``eccentric``.
     law : {"brach", "kudlich-slibar", "stronge"}, optional
         As for ``eccentric``; without levers "stronge" gives what "brach" does.
     incomplete, on_failure, threads, progress

@@ -178,7 +178,7 @@ def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:
     return Part(list(rows), "All numbers, in SI", folded=True)
 
 
-def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells, columns: tuple[str, str] = ("A", "B")) -> list[Part]:
+def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells) -> list[Part]:
     """The rows of named values: those of the two vehicles side by side, the others below."""
     pairs: dict[str, dict[str, str]] = {}
     single: list[tuple[str, str]] = []
@@ -191,7 +191,7 @@ def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells, columns
             label = found["inner"] or found["stem"] + (found["after"] or "")
             pairs.setdefault(label_of(label), {})[found["lead"] or found["side"]] = text
     both = [(label, *(of.get(side, _NOT_KNOWN) for side in "ab")) for label, of in pairs.items()]
-    return [Part(both, columns=columns), Part(single)]
+    return [Part(both, columns=("A", "B")), Part(single)]
 
 
 def label_of(name: str) -> str:

@@ -144,22 +144,20 @@ def diagnose(
         "crush_energy": crush_energy,
         "units": units,
     }
-    case: Case
+    left = None
     if isinstance(impact, Impact):
         reader.close()
-        # What an impulse leaves out comes with the duration and drag that it was asked for.
         left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
-        given = (
-            (read_duration(reader, duration), read_drag(reader, drag, "drag")) if left is None else (left.duration, left.drag)
-        )
-        time, pull = _single(reader, given[0], "duration"), _single(reader, given[1], "drag")
-        reader.close()
-        case = ImpactCase(answer=impact, duration=time, drag=pull, outlines=outlines, left_out=left, **known)
+    # What an impulse leaves out comes with the duration and drag that it was asked for.
+    time = _single(reader, read_duration(reader, duration) if left is None else left.duration, "duration")
+    pull = _single(reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag")
+    reader.close()
+    known |= {"duration": time, "drag": pull}
+    case: Case
+    if isinstance(impact, Impact):
+        case = ImpactCase(answer=impact, outlines=outlines, left_out=left, **known)
     else:
-        time = _single(reader, read_duration(reader, duration), "duration")
-        pull = _single(reader, read_drag(reader, drag, "drag"), "drag")
-        reader.close()
-        case = MomentumCase(answer=impact, duration=time, drag=pull, **known)
+        case = MomentumCase(answer=impact, **known)
     findings, measured = [], []
     for check in _CHECKS_OF[type(case)]:
         if allowed[check.code] != check.off:
@@ -215,19 +213,17 @@ def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, giv
 
 def _read_damage(reader: ArgumentReader, answer: Impact | MomentumSolution, pdof: Any, delta_v: Any, label: str) -> Damage:
     """The PDOF seen from the vehicle, the delta-V that its damage or recorder shows, and of a pair its direction as a PDOF."""
-    direction = None
+    direction, name = None, f"damage_pdof_{label}"
     if pdof is not None:
-        name = f"damage_pdof_{label}"
         pdof = _single(reader, reader.number(pdof, "rad", name), name)
         _need_heading(reader, answer, name, label)
+    name = f"damage_delta_v_{label}"
     if isinstance(delta_v, (tuple, list)):
-        name = f"damage_delta_v_{label}"
         forward, left = (_single(reader, part, name) for part in reader.pair(delta_v, "m/s", name))
         _need_heading(reader, answer, name, label)
         if not reader.problems:
             delta_v, direction = math.hypot(forward, left), math.atan2(left, -forward)
     elif delta_v is not None:
-        name = f"damage_delta_v_{label}"
         delta_v = _single(reader, amount(reader, delta_v, "m/s", name), name)
     return Damage(pdof, delta_v, direction)
 
