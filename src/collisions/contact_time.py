@@ -14,8 +14,7 @@ from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
 from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, read_inputs
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
-from .kernels.status import Status
-from .kernels.time_resolved import Passed, Settings, block_run, float_run, time_resolved, wheels_of
+from .kernels.status import Passed, Status
 from .quantities import lock
 from .reading import ArgumentReader, is_whole
 from .units import shown
@@ -132,9 +131,12 @@ def _numbers(found: dict[str, Any]) -> list[Any]:
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
     """Step through one case of plain numbers, every step kept; or through one of a batch, which ``cut`` takes from arrays."""
+    # A twentieth of the import of the package, and impulses need none of it.
+    from .kernels import time_resolved as kernel
+
     note: list[tuple[float, ...]] | None = [] if cut is None else None
     try:
-        found = time_resolved(**_arguments(inputs, cut or (lambda value: value)), run=float_run, note=note)
+        found = kernel.time_resolved(**_arguments(inputs, cut or (lambda value: value)), run=kernel.float_run, note=note)
     except ArithmeticError:
         return Passed(Status.OUT_OF_RANGE)
     lock(found.history)
@@ -143,6 +145,7 @@ def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) 
 
 def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
     """Step through the cases of a batch, in blocks or, if they are few, one by one; a refused one is NaN."""
+    from .kernels import time_resolved as kernel
     from .kernels.batch import each_block, flat
 
     shape, size = cases.shape, cases.size
@@ -162,7 +165,7 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
         with np.errstate(all="ignore"):
             faults = [check.fault(*map(cut, check.values)) for check in reversed(cases.checks)]
             if length > 1:
-                found = time_resolved(**_arguments(inputs, cut), run=block_run)
+                found = kernel.time_resolved(**_arguments(inputs, cut), run=kernel.block_run)
             elif any(faults):
                 found = Passed(Status.OK)
             else:
@@ -186,6 +189,8 @@ def solve_cases_in_time(inputs: Inputs, cases: Any, progress: Any) -> Passed:
 
 def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     """The arguments of the kernel; ``cut`` takes those of a block from every array."""
+    from .kernels import time_resolved as kernel
+
     contact = inputs.point or (0.0, 0.0)
     kind = "duration" if inputs.duration is not None else "stiffness" if inputs.stiffness is not None else "crush"
     if kind == "crush":
@@ -203,7 +208,7 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         heading = (None, None) if body.heading is None else from_radians(cut(body.heading))
         numbers = (body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place)
         bodies.append((*map(cut, numbers), *heading))
-    wheels = (wheels_of(body.heading, inputs.drag) for body in (inputs.a, inputs.b))
+    wheels = (kernel.wheels_of(body.heading, inputs.drag) for body in (inputs.a, inputs.b))
     return {
         "restitution": cut(inputs.restitution),
         "normal": tuple(map(cut, inputs.normal)),
@@ -214,5 +219,5 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         "track": cut(inputs.track),
         "stiffness": stiffness,
         "bodies": tuple(bodies),
-        "settings": Settings(inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, kind, *wheels),
+        "settings": kernel.Settings(inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, kind, *wheels),
     }

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from types import MappingProxyType
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -15,11 +15,8 @@ from .errors import InputError, NoSolutionError, Status
 from .inputs import ARGUMENTS, STIFFNESSES, Inputs, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
-from .kernels.time_resolved import Passed
-from .model_choice import ModelChoice, part_of_choice, solve_least, until_compressed, where_answered
+from .kernels.status import Passed
 from .models import model_of, read_again
-from .provenance import Reconstruction, origin_where_answered
-from .pulse import Pulse
 from .quantities import Frozen, Quantities, attributes, derived, hypot, in_units_of, lock, numeric, returns, same, show, unit_of
 from .quantity_names import ImpactQuantities
 from .reading import ArgumentReader, broadcast, widened
@@ -30,6 +27,11 @@ from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
+
+if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
+    from .model_choice import ModelChoice
+    from .provenance import Reconstruction
+    from .pulse import Pulse
 
 _new = object.__new__
 
@@ -165,7 +167,7 @@ class Impact(Frozen, Summarized):
     def compression_impulse(self) -> Value:
         """Normal impulse of the compression period [N*s], the integral of P in eq 10; all of it in an incomplete impact."""
         if self._passed is None and (self._energetic or self.inputs.incomplete):
-            (found,) = until_compressed(self.inputs, self._answer, self.choice, ["normal_impulse"])
+            found = self._until_compressed("normal_impulse")
             value: Value = found
             return value
         return self._output("compression_impulse")
@@ -244,7 +246,7 @@ class Impact(Frozen, Summarized):
         if self._passed is not None:
             found = self._output("energy_absorbed")
         elif self._energetic:
-            (found,) = until_compressed(self.inputs, self._answer, self.choice, ["energy_loss_normal"])
+            found = self._until_compressed("energy_loss_normal")
         else:
             found = 0.5 * (self.closing_speed * self.compression_impulse)
         absorbed: Value = found
@@ -345,6 +347,8 @@ class Impact(Frozen, Summarized):
         passed = self._passed
         if passed is None:
             return None
+        from .pulse import Pulse
+
         curves = () if passed.history is None else passed.history
         names = [f.name for f in fields(Pulse)]
         pulse = Pulse(**{name: getattr(passed, name) for name in names[:5]}, **dict(zip(names[5:], curves, strict=False)))
@@ -380,6 +384,11 @@ class Impact(Frozen, Summarized):
     def _energetic(self) -> bool:
         """Whether restitution is of energy, so that the separation speed is an answer."""
         return self._passed is not None or LAWS[self.inputs.law or BRACH].energetic
+
+    def _until_compressed(self, name: str) -> Any:
+        from .model_choice import until_compressed
+
+        return until_compressed(self.inputs, self._answer, self.choice, [name])[0]
 
     def _reverses(self) -> Any:
         if not self._energetic:
@@ -562,7 +571,7 @@ class Impact(Frozen, Summarized):
     def _rows(self) -> Iterator[tuple[str, str]]:
         for name in attributes(Impact):
             value = getattr(self, name)
-            if isinstance(value, (Side, Pulse)):
+            if name in ("a", "b", "pulse") and value is not None:
                 yield from ((f"{name}.{inner}", text) for inner, text in value._rows())
             elif value is not None:
                 yield name, show(value, unit_of(Impact, name))
@@ -597,6 +606,8 @@ def solved(
     """Solve the inputs; ``choice`` if the model was chosen before."""
     if inputs.model != "solve":
         return build(inputs, solve_inputs(model_of(inputs), inputs, on_failure, threads, progress))
+    from .model_choice import solve_least, where_answered
+
     answer, choice = solve_least(inputs, on_failure, threads, progress, choice)
     impact = build(inputs, answer)
     choice = where_answered(choice, answer.status > Status.ENERGY_GAIN)
@@ -625,13 +636,19 @@ def part_of_impact(impact: Impact, take: Callable[[Any], Any], on_failure: OnFai
     """Some cases of a batch, solved again; ``take`` selects them from every array."""
     origin = impact.reconstruction
     inputs = read_again(part_of_inputs(impact.inputs, take), found=origin is not None)
-    choice = None if impact.choice is None else part_of_choice(impact.choice, take)
+    choice = None
+    if impact.choice is not None:
+        from .model_choice import part_of_choice
+
+        choice = part_of_choice(impact.choice, take)
     part = solved(inputs, on_failure=on_failure, choice=choice)
     return part if origin is None else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
 
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:
     """An Impact that a reverse solver found; where that gave no answer, its status says why."""
+    from .provenance import origin_where_answered
+
     code = raw.status
     if isinstance(code, np.ndarray):
         code = np.where((code > Status.ENERGY_GAIN) & np.not_equal(status, Status.OK), status, code).astype(code.dtype)

@@ -17,8 +17,7 @@ from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
 from .kernels.model_error import ECCENTRIC, LACKING, Known, least_model
-from .kernels.status import EPS, Status
-from .kernels.time_resolved import Passed
+from .kernels.status import EPS, Passed, Status
 from .models import MODELS, TIME_RESOLVED, in_form, model_of, read_again
 from .progress import halves, reporter
 from .quantities import Shown, derived, lock, numeric, same

@@ -10,15 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from .contact_time import DOMAINS, read_contact_time, read_least_time
+from .contact_time import DOMAINS, read_contact_time, read_least_time, solve_case_in_time
 from .errors import InputError
 from .inputs import OUTSIDE, Inputs, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
-from .kernels.floats import compile_for_floats
 from .kernels.status import Answer
-from .kernels.time_resolved import time_resolved
 from .reading import ArgumentReader, amount
 from .settings import in_si
 from .vehicle import Vehicle
@@ -109,7 +107,7 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
 )
 TIME_RESOLVED = Model(
     "time_resolved",
-    time_resolved,
+    solve_case_in_time,
     (),
     lambda *kind: (),
     "Time-resolved: the contact is followed in small steps. A spring along the normal takes up the approach and gives back the "
@@ -142,6 +140,9 @@ def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], An
 
 @cache
 def _compiled(model: Model, settings: tuple[Any, ...]) -> Callable[[Mapping[str, Any]], Answer | None]:
+    # Like all that not every caller needs, loaded at its first use.
+    from .kernels.floats import compile_for_floats
+
     return compile_for_floats(model.kernel, model.takes, settings)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from types import MappingProxyType
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -13,14 +13,16 @@ from .directions import Angle, angle_of
 from .errors import MissingInputError, Status
 from .inputs import Inputs
 from .kernels.elementwise import select
-from .kernels.time_resolved import Passed
-from .model_choice import ModelChoice, until_compressed
+from .kernels.status import Passed
 from .quantities import Frozen, Quantities, attributes, derived, hypot, numeric, returns, show, unit_of
 from .quantity_names import SideQuantities
 from .reading import ArgumentReader, broadcast, widened
 from .summary import Cells, Part, Summarized, Summary, all_numbers
 from .units import Pair, Texts, Value
 from .vehicle import Vehicle, missing, moved, turn_at, with_name, without_turning
+
+if TYPE_CHECKING:
+    from .model_choice import ModelChoice
 
 
 class Side(Frozen, Summarized):
@@ -51,6 +53,8 @@ class Side(Frozen, Summarized):
         """The part of the change that has passed at the end of compression."""
         if isinstance(self._answer, Passed):
             return self._passed("compression_vx"), self._passed("compression_vy"), self._passed("compression_yaw_rate")
+        from .model_choice import until_compressed
+
         names = [f"delta_{name}_{'ab'[self._index]}" for name in ("vx", "vy", "yaw_rate")]
         dvx, dvy, dw = until_compressed(self._inputs, self._answer, self._choice, names)
         return dvx, dvy, dw

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from inspect import signature
-from typing import Any, Never
+from typing import TYPE_CHECKING, Any, Never
 
 from .contact_time import Geometry, read_contact_time
 from .hints import hinted, no_argument, open_to_hints
 from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, plain_inputs, read_inputs
 from .kernels.contact_laws import FRICTION
-from .model_choice import ModelChoice, choose
 from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read
 from .progress import Progress
 from .quantities import in_units_of
 from .solving import solve_inputs
 from .units import Impulse, Input, Pair
 from .vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from .model_choice import ModelChoice
 
 _FRICTIONLESS = 0.0, None, None
 # Where an argument is that a solver does not have.
@@ -461,6 +463,8 @@ def required_model(
     tangential = friction, impulse_ratio, critical_fraction
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
     inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
+    from .model_choice import choose
+
     return in_units_of(choose(inputs)[0], inputs.texts)
 
 

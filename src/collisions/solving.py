@@ -24,8 +24,7 @@ from .kernels.elementwise import (
     rounding,
     without_length,
 )
-from .kernels.status import Answer, Status
-from .kernels.time_resolved import Passed
+from .kernels.status import Answer, Passed, Status
 from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
 from .progress import reporter
 from .units import shown

@@ -1,6 +1,7 @@
-"""What a kernel answers: the outcome of a case as a ``Status``, and its numbers by name as an ``Answer``."""
+"""What a kernel answers: the outcome of a case as a ``Status``, and its numbers by name as an ``Answer`` or a ``Passed``."""
 
 from enum import IntEnum
+from math import nan
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 EPS = 2.0**-52
@@ -173,3 +174,54 @@ class Answer(NamedTuple):
     delta_yaw_rate_b: Any = 0.0
     # Of a law with a separation speed of its own.
     separation_speed: Any = 0.0
+
+
+class Passed(NamedTuple):
+    """The answer of a contact that took time: that of an ``Answer``, what tyres did, and the state at maximum engagement."""
+
+    status: Any
+    closing_speed: Any = nan
+    slip_before: Any = nan
+    slip_after: Any = nan
+    normal_impulse: Any = nan
+    tangential_impulse: Any = nan
+    compression_impulse: Any = nan
+    no_slip_normal: Any = nan
+    no_slip_tangential: Any = nan
+    sticks: Any = False
+    effective_mass: Any = nan
+    coupling: Any = nan
+    energy_loss_normal: Any = nan
+    energy_loss_tangential: Any = nan
+    energy_loss: Any = nan
+    impulse_x: Any = nan
+    impulse_y: Any = nan
+    delta_vx_a: Any = nan
+    delta_vy_a: Any = nan
+    delta_yaw_rate_a: Any = nan
+    delta_vx_b: Any = nan
+    delta_vy_b: Any = nan
+    delta_yaw_rate_b: Any = nan
+    separation_speed: Any = nan
+    energy_absorbed: Any = nan
+    common_velocity: Any = nan
+    compression_vx_a: Any = nan
+    compression_vy_a: Any = nan
+    compression_yaw_rate_a: Any = nan
+    compression_vx_b: Any = nan
+    compression_vy_b: Any = nan
+    compression_yaw_rate_b: Any = nan
+    tyre_impulse_x_a: Any = nan
+    tyre_impulse_y_a: Any = nan
+    tyre_moment_a: Any = nan
+    tyre_loss_a: Any = nan
+    tyre_impulse_x_b: Any = nan
+    tyre_impulse_y_b: Any = nan
+    tyre_moment_b: Any = nan
+    tyre_loss_b: Any = nan
+    duration: Any = nan
+    peak_force: Any = nan
+    peak_acceleration_a: Any = nan
+    peak_acceleration_b: Any = nan
+    max_crush: Any = nan
+    history: Any = None

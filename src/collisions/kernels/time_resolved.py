@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import inf, nan, pi
+from math import inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,8 +24,7 @@ from .contact_step import (
     place_of,
 )
 from .elementwise import first_status, select
-from .floats import compile_loop
-from .status import EPS, Status
+from .status import EPS, Passed, Status
 
 # How often the start is corrected, and how near the last correction has to be, in closing speed times duration and in radians.
 _CORRECTIONS, _NEAR = 20, 1e-6
@@ -53,57 +52,6 @@ class Settings(NamedTuple):
     stiffness: str
     wheels_a: Wheels
     wheels_b: Wheels
-
-
-class Passed(NamedTuple):
-    """The answer of a contact that took time: that of an ``Answer``, what tyres did, and the state at maximum engagement."""
-
-    status: Any
-    closing_speed: Any = nan
-    slip_before: Any = nan
-    slip_after: Any = nan
-    normal_impulse: Any = nan
-    tangential_impulse: Any = nan
-    compression_impulse: Any = nan
-    no_slip_normal: Any = nan
-    no_slip_tangential: Any = nan
-    sticks: Any = False
-    effective_mass: Any = nan
-    coupling: Any = nan
-    energy_loss_normal: Any = nan
-    energy_loss_tangential: Any = nan
-    energy_loss: Any = nan
-    impulse_x: Any = nan
-    impulse_y: Any = nan
-    delta_vx_a: Any = nan
-    delta_vy_a: Any = nan
-    delta_yaw_rate_a: Any = nan
-    delta_vx_b: Any = nan
-    delta_vy_b: Any = nan
-    delta_yaw_rate_b: Any = nan
-    separation_speed: Any = nan
-    energy_absorbed: Any = nan
-    common_velocity: Any = nan
-    compression_vx_a: Any = nan
-    compression_vy_a: Any = nan
-    compression_yaw_rate_a: Any = nan
-    compression_vx_b: Any = nan
-    compression_vy_b: Any = nan
-    compression_yaw_rate_b: Any = nan
-    tyre_impulse_x_a: Any = nan
-    tyre_impulse_y_a: Any = nan
-    tyre_moment_a: Any = nan
-    tyre_loss_a: Any = nan
-    tyre_impulse_x_b: Any = nan
-    tyre_impulse_y_b: Any = nan
-    tyre_moment_b: Any = nan
-    tyre_loss_b: Any = nan
-    duration: Any = nan
-    peak_force: Any = nan
-    peak_acceleration_a: Any = nan
-    peak_acceleration_b: Any = nan
-    max_crush: Any = nan
-    history: Any = None
 
 
 def wheels_of(heading: Any, drag: Any) -> Wheels:
@@ -414,6 +362,8 @@ def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[C
 
 @lru_cache(maxsize=64)
 def _loop(settings: tuple[Any, ...]) -> Callable[..., tuple[float, ...]]:
+    from .floats import compile_loop
+
     return compile_loop(advance, _FIXED, _MOVING, settings)
 
 

@@ -11,13 +11,14 @@ import numpy as np
 
 from ..errors import InputError, NoSolutionError
 from ..hints import hinted
+from ..kernels.batch import in_order
 from ..progress import reporter
 from ..quantities import lock
 from ..reading import ArgumentReader
 from ..uncertainty.distributions import Distribution, Normal, range_hint
 from ..uncertainty.model import Model, check_names
 from ..uncertainty.propagation import check_options
-from ..uncertainty.sampling import Correlation, Joint, in_order
+from ..uncertainty.sampling import Correlation, Joint
 from ..units import shown
 from .fit_result import residual_of, warn_of
 from .islands import Island, Islands, UnreachableError

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, TypeAlias, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ..errors import InputError
+from ..kernels.batch import in_order
 from ..reading import is_whole
 from ..units import shown
 from . import angles, normal
@@ -19,9 +20,6 @@ from .result import Shares, average, deviation
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
 Correlation: TypeAlias = Mapping[tuple[str, str], float]
-
-T = TypeVar("T")
-R = TypeVar("R")
 
 BLOCK = 16384
 FIRST_BLOCK = 1024
@@ -216,21 +214,6 @@ class Sample:
         with np.errstate(all="ignore"):
             values = self.joint.values(points[:, offset : offset + stop - start])
         return self.model(values, stop - start, check=start == 0)
-
-
-def in_order(work: Callable[[T], R], items: Sequence[T], threads: int) -> Iterator[R]:
-    """What becomes of each item, in order, with so many threads at work."""
-    if threads == 1 or len(items) < 2:
-        yield from map(work, items)
-        return
-    from concurrent.futures import ThreadPoolExecutor
-
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            yield from pool.map(work, items)
-        except BaseException:
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
 
 
 def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
