@@ -162,7 +162,8 @@ def test_a_fit_and_findings_are_tables():
         {"delta_v": ("20 mph", "1 mph")},
     )
     assert re.search(r"speed +40\.0 mph +2\.0 mph +36\.1 to 43\.9 mph", str(fit.summary("us")))  # twice 20 +- 1, 1.96 sigma
-    assert fit._repr_html_().count("<table>") == 2
+    assert fit._repr_html_().count("<table>") == 1
+    assert repr(fit) == str(fit.summary())
     found = diagnose(col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.8), units="us")
     assert found[0].code == "restitution"
     assert re.search(r"restitution +restitution 0\.8 at a closing speed of 44\.7 mph.* 0\.80 +0\.30\n", repr(found))

@@ -91,7 +91,7 @@ def spoken_system(texts: Iterable[Any]) -> str:
 
 
 class Summary:
-    """A result as a table. ``print`` writes it as plain text, a notebook shows it as HTML, with all numbers folded below.
+    """A result as a table. ``print`` writes it as plain text, a notebook shows it as HTML, the folded part below.
 
     Attributes
     ----------

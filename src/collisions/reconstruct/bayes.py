@@ -217,10 +217,8 @@ class _Problem:
         if not self.answered:
             return refused_everywhere(self.model, problem.draws, at, "priors within which the impact happens")
         sharp = [row.name for row in self.rows if not row.sigma] if math.isfinite(problem.missed) else []
-        what = "fits within numbers that a float holds"
-        if problem.missed == 0.0:
-            what = "comes near what was observed"
-        elif sharp:
+        what = "comes near what was observed" if problem.missed == 0.0 else "fits within numbers that a float holds"
+        if problem.missed and sharp:
             what = f"meets the bounds observed of {', '.join(sharp)}: the nearest misses them by {problem.missed:.3g} (SI)"
         return NoSolutionError(
             f"the evidence contradicts the priors: no point of them {what}. Look for a slipped digit or a wrong unit, or give "
@@ -248,8 +246,7 @@ class _Problem:
             squares += (apart / row.sigma) ** 2 if row.sigma else 0.0
             middle = float(np.mean(apart))
             computed = row.value.given_mean - middle if isinstance(row.value, Normal) else float(np.mean(column))
-            over = middle / row.sigma if row.sigma else 0.0
-            residuals[row.name] = residual_of(row, self.model.units[row.name], computed, middle, over)
+            residuals[row.name] = residual_of(row, self.model.units[row.name], computed, middle)
         units = {name: prior.unit for name, prior in self.joint.inputs.items()}
         return Posterior(
             priors=dict(self.joint.inputs),

@@ -293,7 +293,7 @@ def _answer(found: _Candidate) -> Fit:
     computed = inputs.computed(point[np.newaxis])[0]
     residuals = {
         f"prior of {row.name}" if row.is_prior else row.name: residual_of(
-            row, inputs.model.units.get(row.name), value, sigmas * row.sigma, sigmas
+            row, inputs.model.units.get(row.name), value, sigmas * row.sigma
         )
         for row, value, sigmas in zip(inputs.rows, computed.tolist(), over_sigma.tolist(), strict=True)
     }

@@ -121,17 +121,16 @@ class Residual(WithUnit):
     _title = "Residual"
 
 
-def residual_of(row: Observation, unit: str | None, computed: float, apart: float, over_sigma: float) -> Residual:
+def residual_of(row: Observation, unit: str | None, computed: float, apart: float) -> Residual:
     """An observation or prior beside what is computed of it; of a censored reading the bound that is missed, if any."""
-    observed = row.value.given_mean if isinstance(row.value, Normal) else computed + apart
     return Residual(
         name=row.name,
         unit=row.value.unit or unit or "",
-        observed=observed,
+        observed=row.value.given_mean if isinstance(row.value, Normal) else computed + apart,
         computed=computed,
         residual=apart,
         sigma=row.sigma,
-        over_sigma=over_sigma,
+        over_sigma=apart / row.sigma if row.sigma else 0.0,
         is_prior=row.is_prior,
     )
 
