@@ -569,6 +569,22 @@ def test_a_bound_within_two_errors_is_looked_at_too():
     assert found["a"].standard_error == pytest.approx(0.5, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("model", "unknown", "observed", "code"),
+    [
+        (square, Interval(0, 1), (0.01, 0.1), "not_linear"),
+        (lambda a: {"o": np.where(a > 0.9, a, np.nan)}, Interval(0, 3), (1.0, 0.1), "not_linear"),
+        (lambda a: {"o": a}, Interval(0, 1), (0.4, 5.0), "told_by_bounds"),
+        (lambda a: {"o": a}, Interval(0, 1), (1.1, 0.1), "told_by_bounds"),
+        (lambda a: {"o": 0.0 * a}, Interval(0, 1), (0.0, 0.1), "undetermined"),
+    ],
+)
+def test_every_warning_of_rough_errors_names_the_posterior(model, unknown, observed, code):
+    with pytest.warns(col.IllConditionedWarning, match=r"reconstruct\.posterior") as given:
+        fit(model, {"a": unknown}, {"o": observed})
+    assert [one.message.code for one in given] == [code]
+
+
 def test_an_error_wider_than_the_bounds_is_said():
     """A straight model that gives 0.4 to 5 within 0 and 1: nothing bends, but the bounds say more than the evidence."""
     found, codes = fitted(linear([[1.0]], "a"), {"a": Interval(0, 1)}, {"o0": (0.4, 5.0)})

@@ -187,7 +187,8 @@ class _Candidate:
         within = np.clip(points, self.problem.low, self.problem.high)
         outputs, slopes = self.problem.with_slopes(within)
         fixed = ~self.free | (within != points) | np.tile(np.arange(len(self.point)) == which[:, np.newaxis], (2, 1))
-        slopes = np.where(fixed[:, np.newaxis] | np.isnan(slopes), 0.0, slopes * self.problem.scale)
+        slopes = slopes * self.problem.scale
+        slopes = np.where(fixed[:, np.newaxis] | ~np.isfinite(slopes), 0.0, slopes)
         misfit = self.problem.misfit(outputs)[..., np.newaxis]
         misfit = misfit - slopes @ (np.linalg.pinv(slopes, _FLAT_SHARE) @ misfit)
         rise = np.sum(misfit**2, axis=(1, 2)) - self.chi_squared
@@ -200,7 +201,7 @@ class _Candidate:
         Of a straight model the misfit rises by as many sigma as an unknown is moved in standard errors.
         """
         far, risen = self.moves
-        compared = ~(np.fmax(far, risen) <= _LEAST_MOVE)
+        compared = ~(np.maximum(far, risen) <= _LEAST_MOVE)
         return float(np.max(abs(far / risen - 1.0)[compared], initial=0.0))
 
     def turns_round(self, ends: Ends) -> bool:
