@@ -13,8 +13,9 @@ import collisions as col
 from collisions import reconstruct, travel
 from collisions.__main__ import main
 from collisions.case_answers import answers
-from collisions.case_file import DISTRIBUTIONS, SOLVERS, STUDIES, CaseError, parameters, read, read_text, stated
+from collisions.case_file import SOLVERS, STUDIES, CaseError, parameters, read, read_text, stated, vehicles
 from collisions.case_schema import case_schema
+from collisions.case_words import DISTRIBUTIONS, in_file_words
 from collisions.reporting import replay
 from collisions.uncertainty import Interval, Normal, Triangular, Uniform, propagate
 
@@ -264,8 +265,26 @@ def test_two_answers_are_told_apart():
         ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
         ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass [m/s]"),
         ("1100 kg", "1100 kgg", "a.mass: '1100 kgg' cannot be taken as kg"),
-        ('"1100 kg"', "1100 kg", ": is not TOML: "),
-        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart"),
+        ('"1100 kg"', "1100 kg", "a.mass: is not TOML: Expected newline or end of document after a statement (at line 2, column 13), 'mass = 1100 kg'; write mass = \"1100 kg\""),
+        ("0.4", "0,4", "linear_central.restitution: is not TOML: Expected newline or end of document after a statement (at line 9, column 16), 'restitution = 0,4'; a decimal has a point: write restitution = 0.4"),
+        ('"1100 kg"', "9" * 5000, "a.mass: is not TOML: Too many digits (at line 2), 'mass = 9999"),
+        ("1100 kg", "1e400 kg", "a.mass: '1e400 kg' cannot be taken as kg (1e400 is larger than 1.7e308)"),
+        ('"950 kg"', "1e400", ": has the number 1e400, which is larger than 1.7e308; look for a slipped digit, or write inf"),
+        ('"950 kg"', "2024-05-01", 'b.mass: is a date or a time, 2024-05-01; write a number, or a text in quotes: "2024-05-01"'),
+        ('"950 kg"', "true", "b.mass: mass must be a number or a text, such as 1100 (kg), '1100 kg' or '2425 lb'; got true"),
+        ("0.4\n", "0.4\nanswer = 1\n", "linear_central.answer: stands inside the table [linear_central]; move this line above the first table of the file"),
+        ("0.4\n", '0.4\n[report]\ndate = "1 May"\n', "report.date: is not known here; write one of title, units, "),
+        ("[a]", "[A]", "A: is not known here; did you mean a?"),
+        ("80 km/h", "50 mph .. 40 mph", "a.vx: low and high must be in rising order, got 50 mph and 40 mph"),
+        ("0.4", "{ Censored = { low = 0.1 } }", "linear_central.restitution: is a reading with one bound, which only an observation may be"),
+        ("0.4", "{ Censored = {} }", "linear_central.restitution.Censored.low: a censored reading needs a bound; write { Censored = { low = ... } } for at least"),
+        ("0.4", "{ Normal = { mean = 0.1, sd = 0.1, truncate = 3 } }", "linear_central.restitution.Normal.truncate: truncate must be a pair [low, high], where -inf or inf leaves a side open"),
+        ("0.4", '"1 .. 2 (150 %)"', "linear_central.restitution: coverage must be more than 0 and less than 1, such as 0.95, got '150 %'; a range that cannot be left is \"low .. high\", or { Interval = { low = ..., high = ... } }"),
+        ("0.4\n", '0.4\n[fit.observed]\n"a.delta_v" = 3\n', "fit: has nothing to find; write what is sought as a range"),
+        ("0.4\n", '"0.1 .. 0.3"\n[fit.observed]\n"a.delta_v" = 3\n', 'fit.observed."a.delta_v": observed."a.delta_v" is a number without its error; give "value +/- error" or the pair [value, error]'),
+        ("restitution = 0.4", "restitution = 0.1\nnormal = [1, 2, 3]", "linear_central: normal must be an angle or a list [x, y], got 3 components"),
+
+        ("80 km/h", "-80 km/h", "linear_central: no impact: the bodies move apart along the normal, closing speed -22.2222 m/s; the normal must point from A into B, given [1, 0]; if A and B were meant the other way round, exchange them or write normal = [-1, 0]"),
         ("0.4", "1.4", "linear_central.restitution: restitution must be from 0 to 1, got 1.4"),
         ("0.4", "[0.4, 0.5]", "linear_central.restitution: takes one value"),
         ("0.4", "{ travel.sped = { distance = 1 } }", "linear_central.restitution: is a table that names no function"),
@@ -287,8 +306,8 @@ def test_two_answers_are_told_apart():
         ("0.4", '"0.4 to 0.7"', "linear_central.restitution: cannot read '0.4 to 0.7'; a range has two dots: write \"0.4 .. 0.7\""),
         ("vx", 'speed = "50 km/h"\ncourse = 0\nvx', "a: has its velocity in two ways; leave vx and vy, or speed and course"),
         ('vx = "80 km/h"', 'speed = "80 km/h"', "a.course: is missing; give it: Direction of motion of the centre of mass [rad], such as 1.57 (rad) or '90 deg'"),
-        ('"80 km/h"', "\u201c80 km/h\u201d", ": is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 km/h\u201d'; write straight quotes"),
-        ("[b]", "[a]", ": is not TOML: Cannot declare ('a',) twice (at line 5, column 3), '[a]'; a file is of one case"),
+        ('"80 km/h"', "\u201c80 km/h\u201d", "a.vx: is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 km/h\u201d'; write straight quotes"),
+        ("[b]", "[a]", ": is not TOML: Cannot declare [a] twice (at line 5, column 3), '[a]'; a file is of one case"),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
     ],
 )  # fmt: skip
@@ -318,8 +337,8 @@ def test_a_point_is_two_numbers():
 def test_a_vehicle_that_lacks_something_is_named():
     """The key is that of the file, not of the function."""
     assert problems(ECCENTRIC.replace("yaw_inertia = 1700\n", "").replace("x = -2.0\n", "")) == [
-        "a.x: a has no x, which eccentric needs; give x='2.5 m' (the centre of mass at the moment of impact)",
-        "b.yaw_inertia: b has no yaw_inertia, which eccentric needs; give yaw_inertia='1800 kg*m**2', or inf for a body that does not rotate",
+        "a.x: a has no x, which eccentric needs; give x = '2.5 m' (the centre of mass at the moment of impact)",
+        "b.yaw_inertia: b has no yaw_inertia, which eccentric needs; give yaw_inertia = '1800 kg*m**2', or inf for a body that does not rotate",
     ]
 
 
@@ -433,6 +452,177 @@ def test_the_text_is_that_of_any_editor():
     for data in (text.encode("latin-1"), text.encode("utf-16")[:-1]):
         with pytest.raises(CaseError, match="is no text in UTF-8; save it with this encoding"):
             read_text(data)
+
+
+@pytest.mark.parametrize(
+    ("said", "in_a_file"),
+    [
+        ("write friction=0, or give impulse_ratio=", "write friction = 0, or give impulse_ratio"),
+        ("write normal=(-1, 0), got (1, 0)", "write normal = [-1, 0], got [1, 0]"),
+        ("got 'a=(1, 2), None' and incomplete=True", "got 'a=(1, 2), None' and incomplete = true"),
+        ("give crush_a=('60 kN/m', '1 m') or duration='9 ms'", "give crush_a = ['60 kN/m', '1 m'] or duration = '9 ms'"),
+        ("bound them, as by Normal(mean, sd, truncate=(low, high))", "bound them, as by { Normal = { mean = ..., sd = ..., truncate = [low, high] } }"),
+        ("write Normal.between(low, high, 0.95)", 'write "low .. high (95 %)"'),
+        ("such as Normal('50 km/h', '10 km/h')", 'such as "50 km/h +/- 10 km/h"'),
+        ("such as {'tyre_impulse': 0.2}, got {'a': {'b': 1}}", "such as {tyre_impulse = 0.2}, got {a = {b = 1}}"),
+        ("is weighed by reconstruct.posterior (infinite masses, or a line)", "is weighed by [posterior] (infinite masses, or a line)"),
+    ],
+)  # fmt: skip
+def test_messages_speak_of_files(said, in_a_file):
+    """What Python writes as calls, arguments and tuples are tables, keys and lists; texts that were given stay."""
+    assert in_file_words(said) == in_a_file
+
+
+def test_the_cures_of_messages_work_in_a_file():
+    """What is to be written is read: a truncation with one open end, in the place of None, and a pair in brackets."""
+    cured = REAR_END.replace("0.4", "{ Normal = { mean = 0.1, sd = 0.2, truncate = [0, inf] } }")
+    (found,) = read_text(cured.encode()).uncertain.values()
+    assert found.stated.truncate == (0.0, None)
+    assert problems(cured.replace("[0, inf]", "[inf, 1]"))[0].startswith(
+        "linear_central.restitution.Normal.truncate[0]: truncate[0] must be finite, got inf; write -inf for a lower end"
+    )
+    whole = answers(read_text((REAR_END + "[report]\nlimits = 3\n").encode()))
+    with pytest.raises(
+        CaseError, match=re.escape("report.limits: limits must be a table from code to limit, such as {tyre_impulse = 0.2}")
+    ):
+        whole.text()
+    least = REAR_END.replace("linear_central", "solve")
+    assert "solve.normal: is missing; give it: Direction from A into B at the contact" in problems(least)[0]
+
+
+def test_a_study_warns_once_with_the_number_of_its_cases():
+    """A speed that comes out backwards in each call of the study is one line; without a study it has the units of the file."""
+    text = (
+        '[reconstruct.momentum]\nmass_a = "3400 lb"\nmass_b = "2900 lb"\ncourse_a = "0 deg"\ncourse_b = "20 deg .. 60 deg"\n'
+        'course_a_after = "25 deg +/- 3 deg"\ncourse_b_after = "-40 deg +/- 10 deg"\nspeed_a_after = "20 mph"\n'
+        'speed_b_after = "25 mph +/- 4 mph"\n'
+    )
+    whole = answers(read_text(text.encode()))
+    whole.text()
+    negative = int((whole.propagation["speed_b"].values < 0.0).sum())
+    assert 0 < negative < 8192
+    assert [line for line in whole.warnings if "backwards" in line] == [
+        f"{negative} of 8192 cases: speed_b is below 0, backwards along its course; check the courses, or turn this one by 180 deg"
+    ]
+    alone = re.sub(r"20 deg \.\. 60", "40", re.sub(r" \+/- [^\"]*", "", text))
+    (line,) = answers(read_text(alone.encode())).warnings
+    speed = solved(alone).q.speed_b.m_as("mph")
+    assert line.startswith(f"speed_b = {speed:.6g} mph: backwards along its course")
+
+
+def test_a_range_of_directions_in_degrees_is_no_suspect_number():
+    """What the study hands on in radians was written with its unit."""
+    text = (
+        ECCENTRIC.replace('normal = "0 deg"', 'normal = "358 deg .. 370 deg"')
+        + "[propagate]\nmethod = 'quasi_random'\nsamples = 64\n"
+    )
+    assert answers(read_text(text.encode())).warnings == []
+
+
+@pytest.mark.parametrize(
+    ("file", "wanted"),
+    [
+        ("intersection_with_recorder.toml", ["| A (Saloon) | mass | 1500 kg. Stated as 1500 ± 50 kg |", "2364.147 kg·m². Worked out by reference.yaw_inertia from mass 1500 kg; length 4.6 m; wheelbase 2.7 m |", "| contact | restitution e | 0.125. Stated as 0.05 to 0.2, all values equally likely |", "| known | delta-V of A | 20.9 km/h. Stated as 20.9 ± 1 km/h |", "| known | course of B before | 90°. Stated as 90 ± 2 deg |"]),
+        ("run_out.toml", ["| A | speed after | 46.21 km/h. Worked out by travel.speed from distance 12 m; drag 0.6 to 0.8, all values equally likely |", "| B | course after | 40°. Stated as 40 ± 3 deg |"]),
+    ],
+)  # fmt: skip
+def test_a_report_states_the_inputs_as_the_file_does(file, wanted):
+    """The middle of a range is no exact input: its range stands beside it, and beside evidence what it was worked out from."""
+    page = answers(read(CASES / file)).report("markdown").replace("\\_", "_")
+    for line in wanted:
+        assert line in page, line
+
+
+def test_a_velocity_that_a_reverse_solver_finds_is_not_passed_over():
+    """Of ``speeds`` the vehicles have none; what is known of their motion stands in its table."""
+    text = (
+        (CASES / "intersection_with_recorder.toml")
+        .read_text(encoding="utf-8")
+        .replace("[b]\n", '[b]\nspeed = "40 km/h"\ncourse = 1.5\nvx = 3\n')
+    )
+    lines = problems(text)
+    assert (
+        "b.speed: is what reconstruct.speeds finds; leave it out, and write speed_b in [reconstruct.speeds] if it is known"
+        in lines
+    )
+    assert (
+        "b.vx: is what reconstruct.speeds finds; leave it out, and write course_b in [reconstruct.speeds] if it is known"
+        in lines
+    )
+
+
+def test_the_page_says_which_solver_takes_vehicles():
+    """The row of the tables of vehicles names each solver that has none, or has others."""
+    (row,) = [
+        line
+        for line in (ROOT / "docs" / "case_files.md").read_text(encoding="utf-8").splitlines()
+        if line.startswith("| `[a]`, `[b]` |")
+    ]
+    none = {name for name, solver in SOLVERS.items() if vehicles(solver) == []}
+    others = {name for name, solver in SOLVERS.items() if vehicles(solver) not in ([], ["a", "b"])}
+    assert (none, others) == ({"reconstruct.central", "reconstruct.momentum"}, {"reconstruct.planar"})
+    assert all(f"`{name}`" in row for name in none | others)
+
+
+def test_notes_of_the_file_stand_beside_what_it_states():
+    """Both, of the same input and in paragraphs; what the page has no row for is a paragraph too."""
+    text = (
+        REAR_END.replace("80 km/h", "80 km/h +/- 2 km/h")
+        .replace("vx", "course = 0\nspeed")
+        .replace("[b]", '[b]\nyaw_inertia = "1 kg*m**2 .. 2 kg*m**2"')
+    )
+    text += '[report]\nnotes = ["Own words.", { restitution = "From tests", "a.speed" = "By the recorder" }]\n'
+    page = answers(read_text(text.encode())).report("markdown")
+    assert "| A | speed | 80 km/h. Stated as 80 ± 2 km/h. By the recorder |" in page
+    assert "| contact | restitution e | 0.4. From tests |" in page
+    assert "\nOwn words.\n" in page
+    evidence = (
+        "[a]\nmass = 1100\ncourse = 0\nspeed = { travel.speed = { distance = 12, drag = 0.7 } }\n"
+        + REAR_END[REAR_END.index("[b]") :]
+    )
+    assert "a.speed: Worked out by travel.speed from distance 12 m; drag 0.7." in answers(read_text(evidence.encode())).report(
+        "markdown"
+    )
+
+
+def test_both_pages_or_none(tmp_path, capsys):
+    """A page that cannot be made or written leaves neither, says so, and the results are printed all the same."""
+    file, page, sliders = tmp_path / "case.toml", tmp_path / "page.md", tmp_path / "sliders.html"
+    file.write_text(REAR_END, encoding="utf-8")
+    code, said, complaints = run(capsys, file, "--report", page, "--what-if", sliders)
+    assert (code, said.startswith("Impact of A")) == (2, True)
+    assert complaints.startswith(f"{file}: what_if.ranges: is not there")
+    code, said, _ = run(capsys, file, "--report", page, "--what-if", sliders, "--json")
+    assert (code, json.loads(said)["errors"][0]["key"], len(json.loads(said)["results"])) == (2, "what_if.ranges", 1)
+    file.write_text(REAR_END + "[what_if.ranges]\nrestitution = [0.1, 0.5]\n", encoding="utf-8")
+    sliders.mkdir()
+    code, said, complaints = run(capsys, file, "--report", page, "--what-if", sliders)
+    assert (code, said.startswith("Impact of A")) == (2, True)
+    assert f"cannot write {sliders} (Is a directory), and nothing was written" in complaints
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "sliders.html"]
+    sliders.rmdir()
+    assert run(capsys, file, "--report", page, "--what-if", sliders)[0] == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "page.md", "sliders.html"]
+
+
+def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
+    """In US units no metric one, in the same tables with the same keys; other options are refused."""
+    file, texts = tmp_path / "case.toml", {}
+    for units in ("metric", "si", "us"):
+        code, texts[units], _ = run(capsys, "new", "--units", units)
+        assert code == 0
+        file.write_text(texts[units], encoding="utf-8")
+        case = read(file)
+        assert case.report["units"] == units
+        assert len(case.uncertain) == 5
+        assert answers(case).warnings == []
+    assert texts["metric"] == run(capsys, "new")[1]
+    assert not re.search(r"\d (km/h|kg|m)\b", texts["us"])
+    keys = [[line.partition(" =")[0] for line in text.splitlines() if line[:1] != "#"] for text in texts.values()]
+    assert keys[0] == keys[1] == keys[2]
+    assert max(map(len, texts["us"].splitlines())) < 80
+    assert run(capsys, "new", "--report", "page.html") == (2, "", "new: takes --units alone; leave out --report\n")
+    assert run(capsys, "schema", "--units", "us") == (2, "", "schema: takes no options; leave out --units\n")
 
 
 def test_nothing_is_evaluated():

@@ -58,6 +58,13 @@ LINES = (
 )  # fmt: skip
 
 
+# What no case file has: calls and arguments as Python writes them, outside of texts that were given.
+PYTHON = re.compile(
+    r"[a-z_]=\S|\b(None|True|False|dict|tuple|numpy|Quantity)\b|\b(Normal|Uniform|Interval|Censored|Samples)(\.between)?\(|\.solutions"
+)
+GIVEN = re.compile(r"'[^']*'|\"[^\"]*\"")
+
+
 def seeds():
     """The files of a run."""
     first, _, last = os.environ.get("COLLISIONS_FUZZ_CASES", str(_FEW)).rpartition(":")
@@ -124,10 +131,14 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
             lines = [f"{key}: {text}" for key, text in error.problems]
             if not lines or any("\n" in line or len(line) < 12 for line in lines):
                 pytest.fail(f"seed {seed} is refused by {lines}")
+            if any(PYTHON.search(GIVEN.sub("", text)) for _, text in error.problems if not text.startswith("is not TOML")):
+                pytest.fail(f"seed {seed} speaks of Python: {lines}")
         except Exception as error:
             pytest.fail(f"seed {seed}: {type(error).__name__}: {error}\n{data.decode('utf-8', 'replace')}")
         else:
             answered += 1
+            if any(PYTHON.search(GIVEN.sub("", text)) for text in found.warnings):
+                pytest.fail(f"seed {seed} speaks of Python: {found.warnings}")
     assert min(answered, refused) > 0.05 * len(seeds()), (answered, refused)
 
 

@@ -1,18 +1,20 @@
 """The page solves what Python solves: its JavaScript is run, and every number compared; the page itself asks for nothing."""
 
 import html
+import json
 import math
 import re
 import shutil
 import subprocess
 from operator import attrgetter
+from pathlib import Path
 
 import numpy as np
 import pint
 import pytest
 
 import collisions as col
-from collisions import what_if
+from collisions import what_if, what_if_page
 from collisions.__main__ import main
 from collisions.kernels.contact_laws import LAWS
 from collisions.what_if_page import results
@@ -242,6 +244,22 @@ def test_from_a_case_file(tmp_path):
     assert main([str(file), "--what-if", str(page)]) == 2
 
 
+def test_outlines_are_drawn_as_given(tmp_path):
+    """From Python and from a file; of a vehicle without one the page says what it draws."""
+    page = what_if(IMPACT, RANGES, outline_a=("19 ft", "6.7 ft"))
+    outlines = json.loads(re.search(r"^const data = (.*);$", page, re.MULTILINE)[1])["outlines"]
+    assert outlines["b"] is None
+    assert outlines["a"][0] == pytest.approx([0.5 * 19 * 0.3048, 0.5 * 6.7 * 0.3048], rel=1e-14)
+    with pytest.raises(col.InputError, match="outline_b must be"):
+        what_if(IMPACT, RANGES, outline_b="4 m")
+    template = Path(what_if_page.__file__).with_name("case_template.toml")
+    assert main([str(template), "--what-if", str(tmp_path / "page.html")]) == 0
+    outlines = json.loads(
+        re.search(r"^const data = (.*);$", (tmp_path / "page.html").read_text(encoding="utf-8"), re.MULTILINE)[1]
+    )["outlines"]
+    assert (outlines["a"][0], outlines["b"][0]) == ([2.1, 0.9], [2.0, 0.85])
+
+
 @pytest.mark.slow
 def test_moved_in_a_browser(tmp_path):
     """The page in Chromium with its sliders moved by events: the texts in its table are the numbers of Python."""
@@ -277,7 +295,7 @@ def test_moved_in_a_browser(tmp_path):
     assert re.search(r'id="speed_a-value"[^>]*>70.0 km/h<', page)
     assert 'aria-valuetext="70.0 km/h"' in page
     assert "<small>30 to 80 km/h</small>" in page
-    assert len(re.findall(r'<rect x="-2.25"[^>]*></rect>', page)) == 2
+    assert page.count('<polygon points="2.25,-0.9 -2.25,-0.9 -2.25,0.9 2.25,0.9"') == 2
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from .case_file import CaseError, read
 from .case_schema import case_schema
 from .formatting import SYSTEMS
 
-_TEMPLATE = Path(__file__).with_name("case_template.toml")
+_TEMPLATE, _US_TEMPLATE = (Path(__file__).with_name(name) for name in ("case_template.toml", "case_template_us.toml"))
 _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command
@@ -28,40 +28,80 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     options = _parser().parse_args(arguments)
-    if options.case == "new":
-        print(_TEMPLATE.read_text(encoding="utf-8"), end="")
-        return 0
-    if options.case == "schema":
-        print(json.dumps(case_schema(), indent=1))
-        return 0
+    if options.case in ("new", "schema"):
+        return _printed(options)
     try:
         _check_names(options)
         found = answers(read(options.case))
-        text = json.dumps(found.to_dict(), indent=1, allow_nan=False) + "\n" if options.json else found.text(options.units)
-        _write(options, found)
+        whole = found.to_dict() if options.json else found.text(options.units)
     except CaseError as error:
-        return _refused(options, error)
+        return _refused(options, error, {})
+    code = 0
+    try:
+        _write(_pages(options, found))
+    except CaseError as error:
+        code = _refused(options, error, whole)
     for warning in found.warnings:
         print(f"{options.case}: warning: {warning}", file=sys.stderr)
+    if isinstance(whole, str):
+        print(whole, end="")
+    elif not code:
+        print(json.dumps(whole, indent=1, allow_nan=False))
+    return code
+
+
+def _printed(options: Any) -> int:
+    """Print a case to start from, in the units that were asked for, or the schema; gives the exit code."""
+    others = {"--report": options.report, "--what-if": options.what_if, "--json": options.json or None}
+    others |= {"--units": options.units} if options.case == "schema" else {}
+    given = [name for name, value in others.items() if value is not None]
+    if given:
+        takes = "takes --units alone" if options.case == "new" else "takes no options"
+        print(f"{options.case}: {takes}; leave out {' and '.join(given)}", file=sys.stderr)
+        return 2
+    if options.case == "schema":
+        print(json.dumps(case_schema(), indent=1))
+        return 0
+    text = (_US_TEMPLATE if options.units == "us" else _TEMPLATE).read_text(encoding="utf-8")
+    if options.units == "si":
+        text = text.replace('"metric"               # or "si"', '"si"                   # or "metric"')
     print(text, end="")
     return 0
 
 
-def _write(options: Any, found: Answers) -> None:
-    """Write the files that were asked for."""
-    pages: dict[str, Callable[[], str]] = {}
+def _pages(options: Any, found: Answers) -> dict[Path, str]:
+    """The pages that were asked for, by the file that they go into."""
+    pages = {}
     if options.report is not None:
-        form = "html" if options.report.lower().endswith(_HTML) else "markdown"
-        pages[options.report] = lambda: found.report(form, options.units)
+        pages[Path(options.report)] = found.report(
+            "html" if options.report.lower().endswith(_HTML) else "markdown", options.units
+        )
     if options.what_if is not None:
-        pages[options.what_if] = lambda: found.what_if(options.units)
-    for path, page in pages.items():
-        text = page()
-        try:
-            Path(path).write_text(text, encoding="utf-8", newline="\n")
-        except (OSError, ValueError) as error:
-            why = getattr(error, "strerror", None) or error
-            raise CaseError(("", f"cannot write {path} ({why}); give the path of a file that may be written")) from None
+        pages[Path(options.what_if)] = found.what_if(options.units)
+    return pages
+
+
+def _write(pages: dict[Path, str]) -> None:
+    """Write all of these files, or none: beside their places first."""
+    parts: dict[Path, Path] = {}
+    try:
+        for path, text in pages.items():
+            target = path.resolve()
+            if target.is_dir():
+                raise IsADirectoryError(0, "Is a directory")
+            if target.exists():
+                target.open("a").close()  # whether it may be written
+            parts[target] = target.with_name(f"{target.name}.part")
+            parts[target].write_text(text, encoding="utf-8", newline="\n")
+        for target, part in parts.items():
+            part.replace(target)
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        text = f"cannot write {path} ({why}), and nothing was written; give the path of a file that may be written"
+        raise CaseError(("", text)) from None
+    finally:
+        for part in parts.values():
+            part.unlink(missing_ok=True)
 
 
 def _check_names(options: Any) -> None:
@@ -75,11 +115,11 @@ def _check_names(options: Any) -> None:
             taken.add(Path(name).absolute())
 
 
-def _refused(options: Any, error: CaseError) -> int:
-    """Say what is wrong, a line each, or as JSON; gives the exit code."""
+def _refused(options: Any, error: CaseError, whole: Any) -> int:
+    """Say what is wrong, a line each, or as JSON beside the results; gives the exit code."""
     if options.json:
         problems = [{"file": options.case, "key": key, "text": text} for key, text in error.problems]
-        print(json.dumps({"code": error.code, "errors": problems}, indent=1))
+        print(json.dumps({"code": error.code, "errors": problems, **whole}, indent=1, allow_nan=False))
     for key, text in error.problems:
         print(": ".join(filter(None, (options.case, key, text))), file=sys.stderr)
     return 1 if error.refused else 2
@@ -95,8 +135,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "case",
-        help="a case file; or 'new', which prints one to start from (collisions new > case.toml), or 'schema', for the "
-        "JSON schema of case files for editors",
+        help="a case file; or 'new', which prints one to start from (collisions new > case.toml; with --units us in mph, ft "
+        "and lb), or 'schema', for the JSON schema of case files for editors",
     )
     parser.add_argument("--report", metavar="FILE", help="write a report: .html with figures, or .md")
     parser.add_argument("--what-if", metavar="FILE", help="write an HTML page with a slider for each uncertain number")

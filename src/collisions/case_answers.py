@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,22 @@ from typing import Any
 
 import numpy as np
 
-from .case_file import FORWARD, SOLVERS, STUDIES, Call, Case, CaseError, Uncertain, ends, nearest, parameters
+from .case_file import (
+    FORWARD,
+    FUNCTIONS,
+    SOLVERS,
+    STUDIES,
+    Call,
+    Case,
+    CaseError,
+    Uncertain,
+    descriptions,
+    ends,
+    nearest,
+    parameters,
+    vehicles,
+)
+from .case_words import as_in_file, in_file_words
 from .diagnostics import diagnose
 from .errors import CollisionsWarning, InputError
 from .formatting import percent
@@ -22,9 +38,10 @@ from .impact import Impact
 from .quantities import unit_of
 from .reconstruct import MomentumSolution, Posterior
 from .reporting import report
+from .reporting.making import inputs_of
 from .reporting.record import record
 from .summary import spoken_system
-from .units import shown, to_quantity
+from .units import to_quantity
 from .what_if_page import starts, what_if
 
 
@@ -40,12 +57,15 @@ class Answers:
     def report(self, form: str, units: str | None = None) -> str:
         """The report of the one result; ``units`` in place of those of the file."""
         options = {**self.case.report, "units": self._units(units), "form": form, "uncertainty": self.propagation}
-        notes = options.get("notes", ())
-        if not isinstance(self._one(), (Impact, MomentumSolution)) and isinstance(notes, (str, tuple)):
-            # Of a study the result holds neither the solver nor what is known exactly.
-            known = f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}."
-            options["notes"] = (*((notes,) if isinstance(notes, str) else notes), known)
-        whole: str = self._made(report, {**options, "impact": self._one()})
+        notes, one = options.get("notes", ()), self._one()
+        if isinstance(notes, (str, tuple, dict)):
+            own = notes if isinstance(notes, tuple) else (notes,)
+            if isinstance(one, (Impact, MomentumSolution)):
+                options["notes"] = (*own, *_stated(self.case.call, inputs_of(one), own))
+            else:
+                # Of a study the result holds neither the solver nor what is known exactly.
+                options["notes"] = (*own, f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}.")
+        whole: str = self._made(report, {**options, "impact": one})
         return whole
 
     def what_if(self, units: str | None = None) -> str:
@@ -61,7 +81,8 @@ class Answers:
             if not found:
                 text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
                 raise CaseError(("what_if.ranges", text))
-        whole: str = self._made(what_if, {"impact": one, "ranges": found, "units": self._units(units)}, "what_if")
+        drawn = {name: outline for name, outline in self.case.report.items() if name.startswith("outline_")}
+        whole: str = self._made(what_if, {"impact": one, "ranges": found, "units": self._units(units), **drawn}, "what_if")
         return whole
 
     def _one(self) -> Any:
@@ -107,6 +128,46 @@ class Answers:
             return Call(key, function, arguments)({})
 
 
+def _stated(call: Call, inputs: list[str], own: tuple[Any, ...]) -> Iterator[str | dict[str, str]]:
+    """What a file states of inputs other than a number: beside the inputs of a page, or in a paragraph each."""
+    beside = {name: text for one in own if isinstance(one, dict) for name, text in one.items()}
+    for key, value in call.arguments.items():
+        if isinstance(value, Call) and key in vehicles(call.function):
+            yield from _stated(value, inputs, own)
+            continue
+        text = _in_words(value)
+        name = key if call.key in SOLVERS else f"{call.key}.{key}"
+        on_page = next((one for one in (name, name.replace("_after.", ".")) if one in inputs), None)
+        if text and on_page:
+            yield {on_page: f"{text}. {beside[on_page]}" if isinstance(beside.get(on_page), str) else text}
+        elif text:
+            yield f"{name}: {text}."
+
+
+def _in_words(value: Any, given: bool = False) -> str:
+    """What a value is stated as, or worked out from; "" of a number, unless it is ``given`` to a function."""
+    if isinstance(value, Uncertain):
+        return str(value.stated) if given else f"Stated as {value.stated}"
+    if isinstance(value, Call):
+        name = next(name for name, function in FUNCTIONS.items() if function == value.function)
+        parts = [
+            f"{key} {_in_words(part, given=True)}{_unit_of(value, key, part)}"
+            for key, part in value.arguments.items()
+            if part is not None
+        ]
+        return f"{'' if given else 'Worked out by '}{name} from {'; '.join(parts)}"
+    if isinstance(value, tuple):
+        parts = [_in_words(part, given) for part in value]
+        return ", ".join(part or str(one) for part, one in zip(parts, value, strict=True)) if any(parts) else ""
+    return str(value) if given else ""
+
+
+def _unit_of(call: Call, name: str, value: Any) -> str:
+    """The unit in which an argument takes a plain number, to stand behind it; "" of anything else."""
+    unit = re.search(r"\[(\S+)\]$", descriptions(call.function).get(name, ""))
+    return f" {unit[1]}" if unit and isinstance(value, (int, float)) else ""
+
+
 def _known(call: Call) -> Iterator[str]:
     """What a call is given that is known exactly, each with its key."""
     for name, value in call.arguments.items():
@@ -114,7 +175,7 @@ def _known(call: Call) -> Iterator[str]:
         if isinstance(value, Call):
             yield from _known(value)
         elif value is not None and not any(isinstance(part, Uncertain) for part in parts):
-            yield f"{call.key}.{name} = {value}"
+            yield f"{call.key}.{name} = {value}{_unit_of(call, name, value)}"
 
 
 def _shares(output: Any) -> str:
@@ -141,15 +202,17 @@ def _slider(key: str) -> str:
 def answers(case: Case) -> Answers:
     """Solve a case, and do what it asks of its uncertain numbers."""
     noted: list[str] = []
-    with _noting(noted):
-        if case.study in ("", "propagate"):
+    if case.study in ("", "propagate"):
+        with _noting(noted) as of_the_case:
             roots = _roots(case.call({}))
-            results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
-            if not results:
-                text = f"is {shown(case.answer)}, and {len(roots)} fit; write a number from 1 to {len(roots)}"
-                raise CaseError(("answer", text))
+        results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
+        if not results:
+            text = f"is {as_in_file(case.answer)}, and {len(roots)} fit; write a number from 1 to {len(roots)}"
+            raise CaseError(("answer", text))
+        with _noting(noted, of_the_case):
             propagation = _propagated(case, results, len(roots)) if case.uncertain else None
-        else:
+    else:
+        with _noting(noted):
             model = _model(case, case.options["observed"], 0, 1)
             unknowns = {name: one.stated for name, one in case.uncertain.items()}
             study = Call(case.study, STUDIES[case.study], {"model": model, "unknowns": unknowns, **case.options})
@@ -158,14 +221,30 @@ def answers(case: Case) -> Answers:
 
 
 @contextmanager
-def _noting(texts: list[str]) -> Iterator[None]:
-    """Within this context warnings are no warnings, but are added to the texts, each once."""
+def _noting(texts: list[str], before: list[CollisionsWarning] | None = None) -> Iterator[list[CollisionsWarning]]:
+    """Within this context warnings are no warnings, but are added to the texts, each once.
+
+    Of a study of a case that was warned of ``before``, those that count its cases stand in place of the case's own of the same
+    code; of others one a code is added where the case has none. That a number needs a unit the case itself has shown.
+    """
+    found: list[CollisionsWarning] = []
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", CollisionsWarning)
-        yield
-    found = dict.fromkeys(" ".join(str(one.message).split()) for one in caught)
-    texts += [text for text in found if text not in texts]
+        yield found
+    found += [one.message for one in caught if isinstance(one.message, CollisionsWarning)]
+    codes = {one.code for one in before or ()} | ({"suspect_units"} if before is not None else set())
+    counted = {one.code for one in found if "cases" in one.fields} if before is not None else set()
+    texts[:] = [text for text in texts if text not in {_line(one) for one in before or () if one.code in counted}]
+    for one in found:
+        if (one.code not in codes or "cases" in one.fields) and _line(one) not in texts:
+            texts.append(_line(one))
+        if before is not None:
+            codes.add(one.code)
+
+
+def _line(warning: CollisionsWarning) -> str:
+    return " ".join(in_file_words(str(warning)).split())
 
 
 def _roots(found: Any) -> tuple[Any, ...]:

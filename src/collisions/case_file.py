@@ -8,6 +8,7 @@ import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from datetime import date, time
 from difflib import get_close_matches
 from functools import cache
 from inspect import Parameter, getdoc, signature
@@ -15,9 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from . import reconstruct, reference, solvers, travel, uncertainty
+from .case_words import DISTRIBUTIONS, as_in_file, in_file_words
 from .errors import CollisionsError, InputError
 from .reporting import report
-from .units import example, shown, unit_as_written
+from .units import example, unit_as_written
 from .vehicle import Vehicle
 
 # The functions of which a file calls one, by the name of its table.
@@ -33,10 +35,6 @@ STUDIES: dict[str, Callable[..., Any]] = {
     "propagate": uncertainty.propagate, "fit": reconstruct.fit, "posterior": reconstruct.posterior,
 }  # fmt: skip
 # Functions that may stand in place of a number: speed_a_after = { travel.speed = { distance = "12 m", drag = 0.7 } }
-DISTRIBUTIONS = {
-    name: getattr(uncertainty, name)
-    for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval", "Censored")
-}
 FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "travel.speed": travel.speed,
     "reference.yaw_inertia": reference.yaw_inertia,
@@ -56,6 +54,7 @@ _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
 _UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
 # What people write for a range: "40-50 mph", "0.4 to 0.7".
 _RANGE = re.compile(r"\s*(-?\d+\.?\d*)\s*((?![eE]-)[^\d\s*^]*?)\s*(?:-|–|to)\s*(\d+\.?\d*)\s*([a-zA-Z°%].*?)?\s*")
+_TOO_MANY = re.compile(r"\d[\d_]{4300}")  # digits in a row, which Python does not read
 _PAIR = '["1.2 m", "-0.4 m"]'
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -64,7 +63,9 @@ class CaseError(Exception):
     """What is wrong with a case, as pairs of key and text; ``refused`` if it was read, but has no answer."""
 
     def __init__(self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case") -> None:
-        self.problems = [(key, " ".join(text.split())) for key, text in problems]
+        self.problems = [
+            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split())) for key, text in problems
+        ]
         self.refused = refused
         self.code = code
         super().__init__("; ".join(f"{key}: {text}" for key, text in self.problems))
@@ -101,7 +102,10 @@ class Call:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
         name = str(error.fields.get("argument", ""))
         body = error.fields.get("vehicle") or name.partition(".")[0]
-        if isinstance(self.arguments.get(body), Call):
+        for own, value in self.arguments.items():
+            if isinstance(value, dict) and name in value:
+                return f"{self.key}.{own}.{name}"
+        if isinstance(self.arguments.get(body), Call) or "vehicle" in error.fields:
             return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
         return f"{self.key}.{name}" if name.partition("[")[0] in parameters(self.function) else self.key
 
@@ -142,26 +146,50 @@ def read_text(data: bytes) -> Case:
     try:
         # Some shells write UTF-16 where the output of a command is sent to a file.
         text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
-        document = tomllib.loads(text)
+        document = tomllib.loads(text, parse_float=_float)
     except UnicodeDecodeError:
         raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
     except RecursionError:
         raise CaseError(("", "is nested too deeply; a value is a number, a text, a pair or a table of these")) from None
     except ValueError as error:
-        raise CaseError(("", _not_toml(text, str(error)))) from None
+        raise CaseError(_not_toml(text, str(error))) from None
     return _Reader(document).case()
 
 
-def _not_toml(text: str, error: str) -> str:
-    """What is wrong with a text that is not TOML, with the line and what to write."""
-    at = re.search(r"at line (\d+)", error)
-    line = "".join(text.split("\n")[int(at[1]) - 1 : int(at[1])]).strip() if at else ""
+def _float(text: str) -> float:
+    """A number of a file; one too large for a float is refused, as it would be infinite."""
+    found = float(text)
+    if math.isinf(found) and "inf" not in text:
+        raise CaseError(
+            ("", f"has the number {text[:40]}, which is larger than 1.7e308; look for a slipped digit, or write inf")
+        )
+    return found
+
+
+def _not_toml(text: str, error: str) -> tuple[str, str]:
+    """The key of a text that is not TOML, and what is wrong with it, with the line and what to write."""
+    at, lines = re.search(r"at line (\d+)", error), re.split(r"\r\n|\n|\r(?!\n)", text)
+    number = int(at[1]) - 1 if at else next((i for i, line in enumerate(lines) if _TOO_MANY.search(line)), 0)
+    line = lines[number].strip() if number < len(lines) else ""
+    key, equals, value = (part.strip() for part in line.partition("#")[0].partition("="))
+    table = next((found[1] for one in lines[number::-1] if (found := re.match(r"\s*\[([\w. -]+)\]", one))), "")
+    if not re.fullmatch(r"[\w.-]+", key):
+        key = ""
     cure = 'write key = value, with every text in quotes, such as mass = "1500 kg"'
-    if "twice" in error or "overwrite" in error:
+    if "digits" in error:
+        error, cure = f"Too many digits (at line {number + 1})", "write a large number with a point, such as 1.0e30"
+    elif "twice" in error or "overwrite" in error:
         cure = "a file is of one case, with each table and each key once"
     elif set(line) & set("“”„‘’"):
         cure = 'write straight quotes, "'
-    return f"is not TOML: {error}{f', {shown(line)}' if line else ''}; {cure}"
+    elif "\r" in text and "\n" not in text:
+        cure = "save the file with line ends that TOML knows, LF or CRLF"
+    elif key and re.fullmatch(r"[-+]?\d+,\d+", value):
+        cure = f"a decimal has a point: write {key} = {value.replace(',', '.')}"
+    elif key and equals and re.fullmatch(r"[^\"'\[{]+", value):
+        cure = f'write {key} = "{value}", with every text in quotes'
+    error = re.sub(r"\(('[^()]*),?\)", lambda name: "[" + ".".join(re.findall(r"'(.*?)'", name[1])) + "]", error)
+    return f"{table}.{key}".strip(".") if equals and key else "", f"is not TOML: {error}, {as_in_file(line)}; {cure}"
 
 
 @cache
@@ -188,6 +216,9 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
         moving = {name: (getdoc(getattr(Vehicle, name)) or "").partition(",")[0].rstrip(".") for name in ("speed", "course")}
         found = descriptions(Vehicle) | moving
     for names, kind, text in re.findall(r"^(\w[\w, ]*?)(?: : (.*))?\n((?: {4}.*\n?)+)", section, re.MULTILINE):
+        if (as_for := re.match(r"\s*As for ``(\w+)``", text)) and as_for[1] in FORWARD:
+            found = found | {name: descriptions(FORWARD[as_for[1]])[name] for name in names.split(", ")}
+            continue
         unit = (re.search(r" ?\[\S+?\]", kind) or [""])[0].replace(" [1]", "").replace(" [-]", "")
         found = found | dict.fromkeys(names.split(", "), f"{' '.join(text.split()).rstrip('.')}{unit}")
     return found
@@ -196,7 +227,7 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
 def nearest(given: str, names: Iterable[str]) -> str:
     """What to write in place of a name that is not known."""
     listed = list(names)
-    near = get_close_matches(given, listed, 1, 0.5)
+    near = get_close_matches(given.lower(), listed, 1, 0.7)
     return f"did you mean {near[0]}?" if near else f"write one of {', '.join(listed)}"
 
 
@@ -215,7 +246,7 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     if re.match(r"[^\W\d]|[%°]", max(units)) and (shares[0] != shares[1] or (units[0] != units[1] and "" in units)):
         both = [part if unit else f"{part} {max(units)}" for part, unit in zip((one, other), units, strict=True)]
         cure = "'50 km/h +/- 3 km/h'" if any(shares) else repr(f" {sign} ".join(both))
-        text = f"cannot read {shown(text)}: both numbers need the same unit; write for example {cure}"
+        text = f"cannot read {as_in_file(text)}: both numbers need the same unit; write for example {cure}"
         raise InputError(text, code="bad_units", argument="")
     if sign == "..":
         return uncertainty.Normal.between(one, other, coverage) if coverage else bounds(one, other)
@@ -236,6 +267,12 @@ def ends(stated: Any, least: float, most: float) -> tuple[str, str]:
         low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
     low, high = max(low, least), min(high, most)
     return f"{low!r} {stated.unit}".rstrip(), f"{high!r} {stated.unit}".rstrip()
+
+
+def _open(name: str, value: Any) -> Any:
+    """A value of a distribution; an end of a truncation that is infinite, as a file writes it, is open."""
+    ends = value if name == "truncate" and isinstance(value, tuple) and len(value) == 2 else None
+    return tuple(None if end == side * math.inf else end for end, side in zip(ends, (-1, 1), strict=True)) if ends else value
 
 
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
@@ -261,11 +298,20 @@ class _Reader:
     def plain(self, node: Any, key: str = "") -> Any:
         """A part of the document with its lists as tuples; whole numbers that TOML has not are refused."""
         if isinstance(node, dict):
-            return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in node.items()}
+            if key and "answer" in node:
+                self.refuse(
+                    f"{key}.answer", f"stands inside the table [{key}]; move this line above the first table of the file"
+                )
+            parts = {name: part for name, part in node.items() if name != "answer" or not key}
+            return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()}
         if isinstance(node, list):
             return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
         if type(node) is int and not -(2**63) <= node < 2**63:
             self.refuse(key, "is a whole number of more than 64 bits, which TOML has not; write it with a point: 1.0e30")
+        if isinstance(node, (date, time)):
+            self.refuse(
+                key, f'is a date or a time, {as_in_file(node)}; write a number, or a text in quotes: "{as_in_file(node)}"'
+            )
         return node
 
     def refuse(self, key: str, text: str) -> None:
@@ -284,6 +330,14 @@ class _Reader:
             raise CaseError(*self.problems)
         (name,) = solvers_of
         call = self.call(name, SOLVERS[name], self.document[name], {label: self.vehicle(label) for label in bodies})
+        if studies and studies[0] != "propagate" and not self.uncertain:
+            self.refuse(
+                studies[0], 'has nothing to find; write what is sought as a range, such as speed = "20 km/h .. 90 km/h"'
+            )
+        for label in bodies if name == "reconstruct.speeds" else ():
+            for key in {"vx", "vy", "speed", "course"} & self.table(label).keys():
+                own = f"course_{label}" if key in ("vx", "vy") else f"{key}_{label}"
+                self.refuse(f"{label}.{key}", f"is what {name} finds; leave it out, and write {own} in [{name}] if it is known")
         if len(studies) > 1:
             self.refuse(studies[1], f"stands beside [{studies[0]}]; leave out one of these tables")
         study = studies[0] if studies else "propagate" if self.uncertain else ""
@@ -291,7 +345,7 @@ class _Reader:
         answer = self.document.get("answer")
         if answer is not None and not (type(answer) is int and answer > 0):
             self.refuse(
-                "answer", f"must be a whole number from 1, which of several answers to take, got {shown(answer)}; write 1"
+                "answer", f"must be a whole number from 1, which of several answers to take, got {as_in_file(answer)}; write 1"
             )
         page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
@@ -313,7 +367,7 @@ class _Reader:
             found = found.get(part, {}) if isinstance(found, dict) else found
         if isinstance(found, dict):
             return found
-        self.refuse(name, f"must be a table, got {shown(found)}; write [{name}] on a line of its own, and its keys below")
+        self.refuse(name, f"must be a table, got {as_in_file(found)}; write [{name}] on a line of its own, and its keys below")
         return {}
 
     def vehicle(self, label: str) -> Call:
@@ -335,7 +389,7 @@ class _Reader:
         """
         takes = {name: one for name, one in parameters(function).items() if name not in (beside or {})}
         if not isinstance(given, dict):
-            self.refuse(key, f"must be a table of arguments, got {shown(given)}; write {{ {next(iter(takes))} = ... }}")
+            self.refuse(key, f"must be a table of arguments, got {as_in_file(given)}; write {{ {next(iter(takes))} = ... }}")
             given = {}
         self.known(given, key, takes)
         for name, one in takes.items():
@@ -347,7 +401,7 @@ class _Reader:
                 self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
         prefix, before = "" if key in SOLVERS else f"{key}.", len(self.problems)
         read = {
-            name: value if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
+            name: _open(name, value) if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
             for name, value in given.items()
             if name in takes
         }
@@ -361,18 +415,18 @@ class _Reader:
         if not any(name in kind for name in ("Input", *SEVERAL)):
             return value
         if kind.removesuffix(" | None") == "Pair" and not (isinstance(value, tuple) and len(value) == 2):
-            self.refuse(key, f"takes two numbers in brackets, got {shown(value)}; write for example {_PAIR}")
+            self.refuse(key, f"takes two numbers in brackets, got {as_in_file(value)}; write for example {_PAIR}")
         elif isinstance(value, dict):
             return self.function(key, value)
         elif isinstance(value, tuple):
             if any(name in kind for name in SEVERAL):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
-            self.refuse(key, f"takes one value, got {shown(value)}; write a file for each case")
+            self.refuse(key, f"takes one value, got {as_in_file(value)}; write a file for each case")
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             return self.stated(key, Call(key, stated, {"text": value}))
         elif isinstance(value, str) and (found := _RANGE.fullmatch(value)):
             low, high = (f"{found[at]} {found[4] or ''}".strip() for at in (1, 3))
-            self.refuse(key, f'cannot read {shown(value)}; a range has two dots: write "{low} .. {high}"')
+            self.refuse(key, f'cannot read {as_in_file(value)}; a range has two dots: write "{low} .. {high}"')
         return value
 
     def function(self, key: str, table: Any) -> Any:
@@ -386,7 +440,7 @@ class _Reader:
                 call = self.call(f"{key}.{name}", function, inside, plain=name in DISTRIBUTIONS)
                 return self.stated(key, call) if name in DISTRIBUTIONS and len(self.problems) == count else call
         cure = nearest(".".join(table), FUNCTIONS)
-        self.refuse(key, f"is a table that names no function which may stand for a number, got {shown(table)}; {cure}")
+        self.refuse(key, f"is a table that names no function which may stand for a number, got {as_in_file(table)}; {cure}")
         return None
 
     def stated(self, key: str, call: Call) -> Any:
@@ -397,7 +451,11 @@ class _Reader:
             self.problems.extend(error.problems)
             return None
         middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else getattr(found, "mean", None)
-        if middle is not None and hasattr(found.unit, "written"):
+        if middle is None and ".observed." not in key:
+            self.refuse(
+                key, 'is a reading with one bound, which only an observation may be; write a range, such as "0.4 .. 0.7"'
+            )
+        elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
         self.uncertain[key] = Uncertain(key, found, middle)
         return self.uncertain[key]
@@ -418,7 +476,7 @@ class _Reader:
             found |= {"correlation": {row[:2]: row[2] for row in rows}} if rows else {}
         else:
             self.refuse(
-                f"{name}.correlation", f'takes rows such as [["a.mass", "b.mass", 0.5]], got {shown(rows)}; write them so'
+                f"{name}.correlation", f'takes rows such as [["a.mass", "b.mass", 0.5]], got {as_in_file(rows)}; write them so'
             )
         if "observed" in takes:
             rows = given.get("observed")

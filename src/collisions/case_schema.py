@@ -7,7 +7,8 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Any, get_args
 
-from .case_file import DISTRIBUTIONS, FUNCTIONS, OTHERS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
+from .case_file import FUNCTIONS, OTHERS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
+from .case_words import DISTRIBUTIONS
 from .reporting import report
 from .vehicle import Vehicle
 from .what_if_page import what_if

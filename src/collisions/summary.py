@@ -85,6 +85,12 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
     return Cells(units)
 
 
+def said(value: float, kind: str, texts: Iterable[Any], figures: int = 6) -> str:
+    """A number in a sentence, in the units that the inputs were given in."""
+    system = cells(None, texts)
+    return f"{system.converted(value, kind):.{figures}g}{system.unit(kind)}"
+
+
 def spoken_system(texts: Iterable[Any]) -> str:
     """The system for sentences about inputs given as these texts: "us" if they are in US units, else "metric"."""
     return "us" if cells(None, texts).name == "us" else "metric"

@@ -7,12 +7,14 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
+from typing import Any, TypeAlias
 
 from .errors import CollisionsWarning
 
+# Of samples of one: what a warning says without its numbers, its class and code, and how many cases it is of.
+Noted: TypeAlias = tuple[str, type[CollisionsWarning], str, int]
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
-_sampling: ContextVar[bool] = ContextVar("sampling", default=False)
+_sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
 
 def warn(warning: CollisionsWarning) -> None:
@@ -20,22 +22,25 @@ def warn(warning: CollisionsWarning) -> None:
     warnings.warn(warning, stacklevel=callers_level())
 
 
-def warn_of_cases(warning: CollisionsWarning) -> None:
-    """Warn of refused cases or energy gains, unless within ``quietly``."""
+def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = "") -> None:
+    """Warn of what some cases show, unless within ``quietly``; of samples of one, their number and a sentence are noted."""
+    noted = _sampling.get()
     if not _quiet.get():
         warn(warning)
+    elif sentence and noted is not None:
+        noted.append((sentence, type(warning), warning.code, count))
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
-    """Warn of what matters only where the cases are samples of one: within ``quietly(samples=True)``."""
-    if _sampling.get():
+    """Warn of what matters only where the cases are samples of one: within ``quietly(noted)``."""
+    if _sampling.get() is not None:
         warn(warning)
 
 
 @contextmanager
-def quietly(samples: bool = False) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``samples`` the cases are samples of one."""
-    token, sampled = _quiet.set(True), _sampling.set(samples)
+def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the cases are samples of one."""
+    token, sampled = _quiet.set(True), _sampling.set(noted)
     try:
         yield
     finally:

@@ -22,6 +22,7 @@ from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
 from .kernels.javascript import javascript
 from .models import BY_NAME, MODELS, model_of
+from .outlines import read_outline
 from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
@@ -63,7 +64,14 @@ class Slider(NamedTuple):
 
 
 @hinted
-def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units: UnitSystem | None = None) -> Document:
+def what_if(
+    impact: Impact,
+    ranges: Mapping[str, tuple[Input, Input]],
+    *,
+    outline_a: Any = None,
+    outline_b: Any = None,
+    units: UnitSystem | None = None,
+) -> Document:
     """One offline HTML page with a slider for each of these inputs: the scene, delta-V, PDOF, yaw and energy as they move.
 
     The page solves the impact anew at every move, by the model of this one: the kernel itself, recorded and printed as
@@ -81,6 +89,8 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
         ``yaw_inertia_a``, ``x_a``, ``y_a``, ``heading_a``, and the same with ``_b``. Of the contact: ``restitution``,
         ``normal``, ``point_x``, ``point_y``, and whichever was given of ``friction``, ``impulse_ratio`` and
         ``critical_fraction``.
+    outline_a, outline_b
+        As for ``diagnose``, to draw; without one a vehicle with a heading is drawn 4.5 m by 1.8 m, and the page says so.
     units : {"si", "metric", "us"}, optional
         Of what the page shows; by default those that the inputs were given in, where they agree, else SI.
 
@@ -111,11 +121,15 @@ def what_if(impact: Impact, ranges: Mapping[str, tuple[Input, Input]], *, units:
             f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
         )
     sliders = _sliders(impact, ranges)
+    reader, given = ArgumentReader(), {"a": outline_a, "b": outline_b}
+    read = {label: None if one is None else read_outline(reader, one, f"outline_{label}") for label, one in given.items()}
+    reader.close()
+    outlines = {label: None if corners is None else corners.tolist() for label, corners in read.items()}
 
     def page(*values: Any) -> dict[str, Any]:
         return results(impact, dict(zip((slider.name for slider in sliders), values, strict=True)))
 
-    return Document(_written(impact, sliders, javascript(page, len(sliders)), system), "html")
+    return Document(_written(impact, sliders, outlines, javascript(page, len(sliders)), system), "html")
 
 
 def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -237,7 +251,7 @@ def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
     return reader.number(given, SI_UNITS[kind], name, domain)
 
 
-def _written(impact: Impact, sliders: list[Slider], printed: str, system: str) -> str:
+def _written(impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: str) -> str:
     """The page: its sliders as HTML, what else the script needs as JSON, and the printed kernel."""
     from . import __version__
 
@@ -268,6 +282,7 @@ def _written(impact: Impact, sliders: list[Slider], printed: str, system: str) -
         "units": units,
         "sentences": {int(status): status.sentence for status in Status},
         "names": names,
+        "outlines": outlines,
         "fixed": {label: math.isinf(body.mass) for label, body in bodies.items()},
     }
     text = _PAGE.read_text(encoding="utf-8")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,8 +26,9 @@ from ..kernels.status import EPS, Status
 from ..quantities import hypot, in_units_of, show
 from ..reading import ArgumentReader, amount
 from ..solving import check_options
+from ..summary import said
 from ..units import Input, Pair, is_quantity, magnitude, shown, texts_of
-from ..warning import warn, warn_of_cases
+from ..warning import warn_of_cases
 from .common import NEARLY_COLLINEAR, Cases, exactly, input_faults, raise_or_warn, read_masses
 from .momentum_solution import MomentumSolution, Sensitivity
 
@@ -361,50 +363,49 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
 
 def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution: MomentumSolution, rounding: Any) -> None:
     """Warn where the solution is ill-conditioned or not a possible impact."""
+    texts = (solution.given or {}).values()
 
-    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, **field: Any) -> None:
+    def say(kind: type[CollisionsWarning], where: Any, text: str, code: str, of: str, sentence: str, **field: Any) -> None:
         if np.any(where):
             ((name, values),) = field.items()
             values = np.broadcast_to(values, np.shape(where))[where]
             worst = float(values[np.argmax(abs(values))])
-            give = warn_of_cases if kind is EnergyGainWarning else warn
-            give(kind(known.cases.how_many(where) + text.format(worst), code=code, **{name: worst}))
+            number = said(worst, of, texts) if of else worst
+            warning = kind(known.cases.how_many(where) + text.format(number), code=code, **{name: worst})
+            warn_of_cases(warning, int(np.count_nonzero(where)), sentence)
 
     one, other = (known.terms[name].course for name in solution.unknowns)
     sine = abs(between(one, other)[1])
     near = sure & (sine < math.sin(NEARLY_COLLINEAR))
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
-        numbers = "; ".join(_largest_by_degree(answer, row, near) for answer, row in solution.sensitivity.items())
-        text = (
-            f"the courses of {' and '.join(solution.unknowns)} are {degrees:.2g} degrees from one line (condition {{:.3g}}): "
-            f"{numbers}; an in-line method may tell more"
-        )
-        say(IllConditionedWarning, near, text, "nearly_collinear", condition=found["condition"])
+        numbers = "; ".join(_largest_by_degree(answer, row, near, texts) for answer, row in solution.sensitivity.items())
+        courses = f"the courses of {' and '.join(solution.unknowns)} are"
+        sentence = f"{courses} within 10 degrees of one line, and small errors of a course move both far"
+        text = f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an in-line method may tell more"
+        say(IllConditionedWarning, near, text, "nearly_collinear", "", sentence, condition=found["condition"])
     for name in solution.unknowns:
-        text = f"{name} = {{:.6g}} m/s: backwards along its course; check the courses, or turn this one by 180 deg"
+        cure = "backwards along its course; check the courses, or turn this one by 180 deg"
+        text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
         # A negative speed within rounding of 0 is not a backward motion.
-        say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", value=found[name])
-    text = "the vehicles leave with {:.6g} J more than they came with, which no impact gives; check courses and speeds"
-    say(EnergyGainWarning, gains, text, "energy_gain", gain=-found["translational_energy_loss"])
+        say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", "speed", sentence, value=found[name])
+    text = "the vehicles leave with {} more than they came with, which no impact gives; check courses and speeds"
+    say(EnergyGainWarning, gains, text, "energy_gain", "energy", "", gain=-found["translational_energy_loss"])
     closing, e = found["closing_speed"], found["restitution"]
     if closing is None:
         return
-    text = (
-        "the centres do not approach along the normal, which must point from A into B: closing speed {:.6g} m/s, so there is "
-        "no restitution"
-    )
-    say(OutOfRangeWarning, closing <= 0.0, text, "separating", closing_speed=closing)
+    sentence = "the centres do not approach along the normal, which must point from A into B"
+    text = f"{sentence}: closing speed {{}}, so there is no restitution"
+    say(OutOfRangeWarning, closing <= 0.0, text, "separating", "speed", sentence, closing_speed=closing)
     slack = rounding / closing
-    text = (
-        "the restitution of the centres along the normal is {:.4g}, outside 0 to 1: check the normal, courses and speeds, or "
-        "ask reconstruct.restitution with the contact point"
-    )
-    say(OutOfRangeWarning, (e < -slack) | (e > 1.0 + slack), text, "observed_restitution", value=e)
+    what = "the restitution of the centres along the normal is"
+    cure = "outside 0 to 1: check the normal, courses and speeds, or ask reconstruct.restitution with the contact point"
+    wrong = (e < -slack) | (e > 1.0 + slack)
+    say(OutOfRangeWarning, wrong, f"{what} {{:.4g}}, {cure}", "observed_restitution", "", f"{what} {cure}", value=e)
 
 
-def _largest_by_degree(answer: str, row: dict[str, Any], near: Any) -> str:
+def _largest_by_degree(answer: str, row: dict[str, Any], near: Any, texts: Collection[Any]) -> str:
     """The course to which a speed is most sensitive, and the sensitivity per degree."""
     moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
     name = max(moves, key=moves.__getitem__)
-    return f"{answer} moves by {moves[name] * math.pi / 180.0:.3g} m/s per degree of {name}"
+    return f"{answer} moves by {said(moves[name] * math.pi / 180.0, 'speed', texts, 3)} per degree of {name}"

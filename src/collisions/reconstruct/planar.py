@@ -14,7 +14,14 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, CollisionsError, IllConditionedWarning, InputError, OutOfRangeWarning
+from ..errors import (
+    AmbiguousSolutionError,
+    CollisionsError,
+    CollisionsWarning,
+    IllConditionedWarning,
+    InputError,
+    OutOfRangeWarning,
+)
 from ..hints import hinted
 from ..impact import Impact
 from ..inputs import Inputs, Law, OnFailure, part_of, read_inputs
@@ -25,7 +32,7 @@ from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, moved
-from ..warning import warn
+from ..warning import warn_of_cases
 from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .origins import End, Origin
 
@@ -269,11 +276,11 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
     """Warn where the result depends on the last digits of the measured motion."""
     if np.any(pressed):
         most = float(np.max(np.where(pressed, end.approach, 0.0)))
-        text = (
-            f"{cases.how_many(pressed)}the contact points still approach after the impact, by up to {most:.3g} m/s: taken "
-            f"as 0, a plastic impact, and the motions after changed by as much"
-        )
-        warn(OutOfRangeWarning(text, code="nearly_plastic", approach=most))
+        what = "the contact points still approach after the impact"
+        taken = "taken as 0, a plastic impact, and the motions after changed by as much"
+        text = f"{cases.how_many(pressed)}{what}, by up to {most:.3g} m/s: {taken}"
+        warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
+        warn_of_cases(warning, int(np.count_nonzero(pressed)), f"{what}, by no more than rounding: {taken}")
     if np.any(nearly):
         low, high = end.slip_range()
         single = cases.shape is None
@@ -285,7 +292,11 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
             f"contact stuck, and the slip before was anything {where}. The answer {which}; carry all digits, or decide with "
             f"impulse_ratio= of either sign"
         )
-        warn(IllConditionedWarning(text, code="nearly_sticking", slip_after=least))
+        warning = IllConditionedWarning(text, code="nearly_sticking", slip_after=least)
+        sentence = (
+            "the slip after the impact is so small that it may be none: then the contact stuck, and the slip before is open"
+        )
+        warn_of_cases(warning, int(np.count_nonzero(nearly)), sentence)
 
 
 def _interval(low: float, high: float, unit: str = "") -> str:

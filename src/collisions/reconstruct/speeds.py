@@ -20,9 +20,10 @@ from ..kernels.status import EPS, Status
 from ..quantities import show
 from ..reading import ArgumentReader
 from ..solving import error_of, warn_of_refusals
+from ..summary import said
 from ..units import Input, Pair
 from ..vehicle import Vehicle, missing, moved
-from ..warning import warn, warn_of_samples
+from ..warning import warn_of_cases, warn_of_samples
 from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
@@ -402,7 +403,7 @@ def _answers(
     nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
     count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
     impacts: list[Impact] = []
-    backward, whose = 0.0, ""
+    backward, whose, turned = 0.0, "", np.zeros(cases.shape or (), dtype=bool)
     for root, there in found or [nothing]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
@@ -412,6 +413,7 @@ def _answers(
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             backward, whose = min((backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label))
+            turned = turned | np.less(speed, 0.0)
         impacts.append(impact)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
@@ -419,14 +421,10 @@ def _answers(
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused))
     if backward < 0.0:
-        warn(
-            OutOfRangeWarning(
-                f"the speed of {whose} came out as {backward:.4g} m/s: backwards along its course; check the courses, and the "
-                f"normal, which must point from A into B",
-                code="negative_speed",
-                value=backward,
-            )
-        )
+        cure = "backwards along its course; check the courses, and the normal, which must point from A into B"
+        text = f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: {cure}"
+        warning = OutOfRangeWarning(cases.how_many(turned) + text, code="negative_speed", value=backward)
+        warn_of_cases(warning, int(np.count_nonzero(turned)), f"a speed comes out below 0, {cure}")
     return tuple(impacts)
 
 

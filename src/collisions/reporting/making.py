@@ -73,7 +73,7 @@ def report(
     damage_delta_v_a: Input | Pair | None = None,
     damage_delta_v_b: Input | Pair | None = None,
     share_a: Input | None = None,
-    notes: str | Sequence[str] | Mapping[str, str] | None = None,
+    notes: str | Mapping[str, str] | Sequence[str | Mapping[str, str]] | None = None,
     figures: bool = True,
     derivation: bool = False,
 ) -> Document:
@@ -106,7 +106,7 @@ def report(
         What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity, optional
         A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
-    notes : str, sequence of str or dict, optional
+    notes : str, dict or sequence of these, optional
         Your own words, each in a paragraph of its own; or by input, beside which they stand, such as where its value is from:
         ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``.
     figures : bool
@@ -147,8 +147,7 @@ def report(
     system: Any = cells(units, impact._texts()).name
     given["units"] = system
     options = plain_options(given)
-    paragraphs, outlines = _checked(impact, options, uncertainty)
-    by_input = options["notes"] if isinstance(options["notes"], Mapping) else {}
+    paragraphs, by_input, outlines = _checked(impact, options, uncertainty)
     evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
     spread = Spread(impact, uncertainty)
@@ -207,8 +206,8 @@ def _is_usual(name: str, value: Any) -> bool:
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 
-def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple[list[str], dict[str, Any]]:
-    """The paragraphs of the notes and the outlines by vehicle; one error names every option that cannot be used."""
+def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple[list[str], dict[str, str], dict[str, Any]]:
+    """The notes, as paragraphs and by input, and the outlines by vehicle; one error names every option that cannot be used."""
     reader = ArgumentReader()
 
     def refuse(argument: str, text: str, code: str = "bad_option") -> None:
@@ -217,10 +216,11 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     form, title, notes, share_a = (options[name] for name in ("form", "title", "notes", "share_a"))
     if not isinstance(form, str) or form not in get_args(Form):
         refuse("form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}")
-    paragraphs = [notes] if isinstance(notes, str) else list(notes) if isinstance(notes, (list, tuple)) else []
-    beside = notes if isinstance(notes, Mapping) else {}
-    for name in [name for name in beside if name not in _inputs_of(impact)]:
-        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(_inputs_of(impact))}")
+    parts = notes if isinstance(notes, (list, tuple)) else [notes] if isinstance(notes, (str, Mapping)) else []
+    paragraphs = [part for part in parts if not isinstance(part, Mapping)]
+    beside = {name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()}
+    for name in [name for name in beside if name not in inputs_of(impact)]:
+        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(inputs_of(impact))}")
     texts = [] if title is None else [("title", title)]
     for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
@@ -257,13 +257,16 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     if share_a is not None and isinstance(reader.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
         reader.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
     reader.close()
-    return [plain(paragraph) for paragraph in paragraphs], outlines
+    return [plain(paragraph) for paragraph in paragraphs], {name: plain(text) for name, text in beside.items()}, outlines
 
 
-def _inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
+def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
     """The inputs that a note can stand beside, by name."""
     if isinstance(impact, Impact):
-        return [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+        found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
+        for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
+            found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
+        return [*found, *(impact.inputs.given or {}).keys() - set(found)]
     rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
     return [name.partition("[")[0] for _, _, name, _, _ in rows]
 

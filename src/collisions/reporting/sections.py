@@ -84,15 +84,17 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
         name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
         note = notes.get(key_of(of, names))
         value = _input(sheet, impact, vehicle, names, numbers, kind, texts)
-        rows.append((name, quantity, f"{value}. {plain(note)}" if note else value))
+        rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
-            rows += [(name, what, text) for what, text in _speed(sheet, vehicle, texts)]
+            for what, number in speed_rows(vehicle):
+                text = plain(texts[what]) if number is None else _as_text(sheet, what, number, texts)
+                rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution and no slip", impact.law or ""))
     rows += _damage(sheet, evidence)
     sheet.table(rows)
-    known = [] if impact.reconstruction is None else _known(sheet, impact)
+    known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
     if any("given as" in text for *_, text in (*rows, *known)):
         sheet.say("“Given as” repeats the text of an input that was given in another unit than that of this page.")
     sheet.say("Of a normal only the direction counts. The record at the end has every digit.")
@@ -107,6 +109,11 @@ def key_of(of: str, names: Sequence[str]) -> str:
     """The name of an input in ``notes``, such as "a.mass" or "restitution"; of both parts of a place one."""
     name = names[0].partition("[")[0]
     return name if of == "contact" else f"{of.lower()}.{name}"
+
+
+def _with(value: str, note: str | None) -> str:
+    """What is printed of an input, and the note beside it."""
+    return f"{value}. {note}" if note else value
 
 
 def _published(impact: Impact, name: str) -> Iterator[tuple[str, str]]:
@@ -143,23 +150,29 @@ def _input(
     return "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
 
 
-def _speed(sheet: Sheet, vehicle: Vehicle, texts: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """Rows of speed and course if the velocity was given by them; at rest, the course only if it was given."""
-    for name, value, kind in (("speed", vehicle.speed, "speed"), ("course", vehicle.course, "angle")):
+def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
+    """Speed and course if the velocity was given by them; at rest there is no course but as a text, if it was given."""
+    texts: Mapping[str, Any] = vehicle.given or {}
+    for name, value in (("speed", vehicle.speed), ("course", vehicle.course)):
         if not math.isnan(value) and texts.keys() & {"speed", "course"}:
-            number = sheet.number(value, kind)
-            yield name, given_as(number, texts.get(name, number))
+            yield name, value
         elif name in texts:
-            yield name, plain(texts[name])
+            yield name, None
 
 
-def _known(sheet: Sheet, impact: Impact) -> list[tuple[str, str, str]]:
+def _as_text(sheet: Sheet, name: str, value: float, texts: Mapping[str, str]) -> str:
+    number = sheet.number(value, "speed" if name == "speed" else "angle")
+    return given_as(number, texts.get(name, number))
+
+
+def _known(sheet: Sheet, impact: Impact, notes: Mapping[str, str]) -> list[tuple[str, str, str]]:
     """Table rows with the texts of a reverse solver's known inputs."""
     rows = []
     for name, text in (impact.inputs.given or {}).items():
         if name in KNOWN:
             known = KNOWN[name]
-            rows.append(("known", known.what, sheet.as_given(_read(text, name), known.kind, text)))
+            value = sheet.as_given(_read(text, name), known.kind, text)
+            rows.append(("known", known.what, _with(value, notes.get(name))))
     return rows
 
 
@@ -206,7 +219,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
     for of, what, name, number, kind in momentum_inputs(solution):
         text, note = given.get(name), notes.get(name.partition("[")[0])
         value = sheet.as_given(number, kind, text if isinstance(text, str) else None)
-        rows.append((of, what, f"{value}. {plain(note)}" if note else value))
+        rows.append((of, what, _with(value, note)))
     sheet.table([*rows, *_damage(sheet, evidence)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""

@@ -13,7 +13,7 @@ from ..errors import CollisionsError, InputError, ShapeError
 from ..reading import ArgumentReader
 from ..settings import in_si
 from ..units import is_quantity, shown, si_unit
-from ..warning import quietly
+from ..warning import Noted, quietly
 from . import angles
 from .distributions import pair_hints
 
@@ -37,30 +37,31 @@ class Model:
         self.function = function
         self.fixed = dict(fixed)
         self.units: dict[str, str | None] = {}
+        self.noted: list[Noted] = []
         self._checked = False
 
     def at(self, place: Mapping[str, float]) -> Model:
         """The model with more inputs fixed."""
         found = Model(self.function, {**self.fixed, **place})
-        found._checked = self._checked
+        found._checked, found.noted = self._checked, self.noted
         return found
 
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
         """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
         The first time, a few cases are asked again by themselves. ``check=False`` leaves that to another call: of calls from
-        several threads always the same one is to do it.
+        several threads always the same one is to do it. What is said of cases is kept in ``noted``.
         """
-        found = self._answers(values, count)
+        found = self._answers(values, count, self.noted)
         if check and not self._checked:
-            self._checked = check_elementwise(self._answers, values, found)
+            self._checked = check_elementwise(lambda cases, count: self._answers(cases, count, []), values, found)
         return found
 
-    def _answers(self, values: Mapping[str, Any], count: int) -> dict[str, Any]:
+    def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> dict[str, Any]:
         for value in values.values():
             value.setflags(write=False)
         try:
-            with quietly(samples=True), in_si(), np.errstate(all="ignore"):
+            with quietly(noted), in_si(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
         except Exception as error:
             called = (

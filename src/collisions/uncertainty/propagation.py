@@ -16,7 +16,7 @@ from ..hints import hinted
 from ..progress import reporter
 from ..reading import ArgumentReader, is_whole
 from ..units import shown
-from ..warning import warn
+from ..warning import Noted, warn
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
@@ -189,7 +189,7 @@ def propagate(
             )
         outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
-    _warn(method, runs, len(places), count, failed)
+    _warn(method, runs, len(places), count, failed, whole.noted)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
     return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted)
 
@@ -364,19 +364,23 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
     }
     outputs: dict[str, Output] = {name: Bounds(name, model.units[name], cases) for name, cases in ends.items()}
     run = Run({name: cases[0] for name, cases in ends.items()}, found.samples, found.failed, wrapped=found.wrapped)
-    _warn("interval", [run], 1, found.samples, found.failed)
+    _warn("interval", [run], 1, found.samples, found.failed, model.noted)
     return Propagation("interval", dict(stated), outputs, found.samples, found.failed)
 
 
-def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int) -> None:
-    """Warn of cases left out, of a tolerance not reached, and of the limits of a local method."""
+def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int, noted: Sequence[Noted]) -> None:
+    """Warn of what was noted of cases, of cases left out, of a tolerance not reached, and of the limits of a local method."""
+    for about in dict.fromkeys(one[:3] for one in noted):
+        sentence, kind, code = about
+        cases = min(sum(one[3] for one in noted if one[:3] == about), count)
+        warn(kind(f"{cases} of {count} cases: {sentence}", code=code, cases=cases))
     if method in LOCAL:
         _warn_if_not_local(method, runs, failed)
     elif failed:
         warn(
             OutOfRangeWarning(
                 f"{failed} of {count} cases had no answer ({failed / count:.2%}) and are left out: the figures hold given "
-                f"that there is one. If such inputs cannot be, say so with truncate=",
+                f"that there is one. If some inputs cannot be, bound them, as by Normal(mean, sd, truncate=(low, high))",
                 code="failed_cases",
                 failed=failed,
             )
