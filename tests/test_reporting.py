@@ -1316,3 +1316,20 @@ def test_an_outline_of_momentum_is_refused_whatever_it_is(outline):
     )
     with pytest.raises(col.InputError, match="outline_a is for an Impact"):
         report(found, outline_a=outline)
+
+
+def test_each_vehicle_has_one_table_and_the_evidence_is_not_called_stated():
+    """Rows of A and B may alternate; the evidence is computed."""
+    found = col.reconstruct.momentum(
+        1500, 1300, course_a=0.0, course_b="90 deg", course_a_after="35 deg", course_b_after="50 deg",
+        speed_a_after=10.0, speed_b_after=11.0,
+    )  # fmt: skip
+    page = report(found)
+    inputs = page[page.index("Inputs</h2>") : page.index("Assumptions</h2>")]
+    assert re.findall("<caption>(.*?)</caption>", inputs) == ["A", "B"]
+    priors, seen = {"x": col.uncertainty.Uniform(0.0, 1.0)}, {"x": col.uncertainty.Normal(0.5, 0.1)}
+    text = report(
+        col.reconstruct.posterior(lambda x: {"x": x}, priors, seen, samples=512, seed=1), form="markdown", figures=False
+    )
+    (row,) = [row for row in rows(text) if row[0] == "log evidence"]
+    assert "stated" not in row[1]

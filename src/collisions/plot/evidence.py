@@ -109,7 +109,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
 
 
 def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
-    """Each observation less what is computed of it, over its stated error: where the evidence pulls against the model.
+    """Each observation less its computed value, over its stated error: where the evidence pulls against the model.
 
     Within the dark band lie two of three observations whose errors are as stated, within the light one nineteen of twenty. Of a
     posterior the line holds 95 percent of what is computed; a censored reading has none, and a point off the middle only where

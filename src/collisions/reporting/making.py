@@ -309,7 +309,7 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
             _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
         _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
     if isinstance(impact, Posterior):
-        _draw(sheet, "residuals", "Each observation less what is computed of it.", plot.residuals, impact)
+        _draw(sheet, "residuals", "Each observation less its computed value, in stated errors.", plot.residuals, impact)
     outputs = impact.unknowns if isinstance(impact, Posterior) else {} if uncertainty is None else uncertainty.outputs
     for number, output in enumerate(outputs.values(), 1):
         name = plain(output.name)

@@ -7,7 +7,6 @@ import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from itertools import groupby
 
 from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
@@ -136,7 +135,10 @@ class Html(Sheet):
     def table(self, rows: Iterable[tuple[str, str, str]]) -> None:
         """One table per subject of the rows, side by side where there is room."""
         lines = ['<div class="tables">']
-        for of, parts in groupby(rows, key=lambda row: row[0]):
+        subjects: dict[str, list[tuple[str, str, str]]] = {}
+        for row in rows:
+            subjects.setdefault(row[0], []).append(row)
+        for of, parts in subjects.items():
             lines += ["<div><table>", f"<caption>{escape(of)}</caption>", "<tbody>"]
             lines += [f'<tr><th scope="row">{escape(what)}</th><td>{escape(value)}</td></tr>' for _, what, value in parts]
             lines += ["</tbody>", "</table></div>"]

@@ -405,8 +405,9 @@ def posterior(sheet: Sheet, found: Posterior) -> None:
     sheet.listed([plain(note) for note in summary.notes])
     for part in summary.parts:
         if not part.folded:
-            sheet.heading(part.heading)
-            heads = part.columns or ("stated",)
+            # The evidence has no heading of its own in the summary.
+            sheet.heading(part.heading or "How well model and priors predict the observations")
+            heads = part.columns or ("stated" if part.heading else "natural logarithm ± error of sampling",)
             sheet.table([(plain(name), *row) for name, *texts in part.rows for row in zip(heads, texts, strict=True)])
     sheet.say(f"{summary.title}, seed {found.seed}.")
 
