@@ -655,6 +655,18 @@ def test_refusals(arguments, code, said):
     assert caught.value.code == code
 
 
+def test_a_mass_too_small_for_its_reciprocal_is_refused():
+    """Alone; in a batch it is NaN beside an answered case."""
+    struck = col.Vehicle(mass=1200.0)
+    with pytest.raises(col.InputError, match="too large or too small") as caught:
+        col.left_out(col.linear_central(col.Vehicle(mass=5e-324, vx=3.0), struck, 0.3))
+    assert caught.value.code == "out_of_range"
+    impact = col.linear_central(col.Vehicle(mass=np.array([5e-324, 1500.0]), vx=3.0), struck, 0.3)
+    with pytest.warns(col.CollisionsWarning, match="1 of 2 cases cannot be answered and are NaN .1 out_of_range"):
+        found = col.left_out(impact)
+    assert np.isnan(found.a.tyre_delta_v).tolist() == [True, False]
+
+
 def test_all_wrong_arguments_are_named_at_once():
     """One error, one line for each."""
     with pytest.raises(col.InputError, match="3 arguments cannot be used") as caught:

@@ -283,13 +283,14 @@ def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:
 
 
 def _extent(impact: Impact, time: Any, drag: Any) -> Any:
-    """An upper bound of all tyre impulses, distances and rotations; infinite where one may overflow."""
+    """An upper bound of tyre impulses, distances, rotations and 1 over a mass; infinite where one may overflow."""
     states = (impact.a.before, impact.a.after, impact.b.before, impact.b.after)
     with np.errstate(all="ignore"):
         most = drag * GRAVITY * time
         reach = sum(time * (abs(state.vx) + abs(state.vy) + abs(state.yaw_rate)) for state in states)
         contact = time * (abs(impact.closing_speed) + abs(impact.slip_before) + abs(impact.slip_after))
-        return most + reach + contact + most * finite_mass(impact.a.before) + most * finite_mass(impact.b.before)
+        held = sum(most * finite_mass(side.before) + 1.0 / side.before.mass for side in (impact.a, impact.b))
+        return most + reach + contact + held
 
 
 def _assembled(found: dict[str, Any], texts: tuple[str, ...]) -> LeftOut:
