@@ -4,15 +4,13 @@ A new law or a new tangential rule is an entry of the tables below; every solver
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from math import inf
 from typing import Any, NamedTuple
 
 from .elementwise import FINITE, NOT_NEGATIVE, UNIT_INTERVAL, Domain, safe_divisor, select
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Law:
+class Law(NamedTuple):
     """How restitution acts, and what no slip means.
 
     Parameters
@@ -29,12 +27,6 @@ class Law:
     energetic : bool
         Whether restitution gives back a part of the work of compression, as in ``energetic_contact``, and not of the impulse
         or the closing speed. Such a law takes friction only, and has its own separation speed.
-
-    Attributes
-    ----------
-    compression_limit : bool
-        Whether that slip is -e, so that a sticking contact is at rest at the end of compression and restitution multiplies that
-        whole impulse by 1 + e. Then the energy lost with friction is a sum of terms that are >= 0.
     """
 
     name: str
@@ -43,11 +35,14 @@ class Law:
     derivation: str
     assumption: str
     energetic: bool = False
-    compression_limit: bool = field(init=False)
 
-    def __post_init__(self) -> None:
-        at_rest = all(self.sticking_slip(e) == -e for e in (0.0, 0.1, 0.3, 0.7, 1.0))
-        object.__setattr__(self, "compression_limit", at_rest)
+    @property
+    def compression_limit(self) -> bool:
+        """Whether a sticking contact ends with -e of its slip: at rest in between, its impulse until then multiplied by 1 + e.
+
+        Then the energy lost with friction is a sum of terms that are >= 0.
+        """
+        return all(self.sticking_slip(e) == -e for e in (0.0, 0.1, 0.3, 0.7, 1.0))
 
 
 class Tangent(NamedTuple):
@@ -62,8 +57,7 @@ class Tangent(NamedTuple):
     pulls: Any
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """One way to say what happens along the tangent.
 
     Parameters
