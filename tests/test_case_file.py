@@ -605,6 +605,26 @@ def test_both_pages_or_none(tmp_path, capsys):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "page.md", "sliders.html"]
 
 
+def test_one_file_by_two_names_and_a_key_that_stops(tmp_path, capsys, monkeypatch):
+    """Neither page is written over the other or over the case; Ctrl-C ends with a line."""
+    file, page, link = tmp_path / "case.toml", tmp_path / "page.html", tmp_path / "link.html"
+    file.write_text(REAR_END + "[what_if.ranges]\nrestitution = [0.1, 0.5]\n", encoding="utf-8")
+    link.symlink_to(page)
+    for other in (link, tmp_path / "none" / ".." / "page.html"):
+        code, _, complaints = run(capsys, file, "--report", page, "--what-if", other)
+        assert (code, complaints.startswith(f"{file}: --what-if cannot write {other}; give a name of its own")) == (2, True)
+    over = tmp_path / "over.html"
+    over.symlink_to(file)
+    assert run(capsys, file, "--report", over)[0] == 2
+    assert "linear_central" in file.read_text(encoding="utf-8")
+
+    def stopped(case):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("collisions.__main__.answers", stopped)
+    assert run(capsys, file) == (130, "", "stopped; nothing more was written\n")
+
+
 def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
     """In US units no metric one, in the same tables with the same keys; other options are refused."""
     file, texts = tmp_path / "case.toml", {}

@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
+from os.path import realpath
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ _TEMPLATE, _US_TEMPLATE = (Path(__file__).with_name(name) for name in ("case_tem
 _HTML, _MARKDOWN = (".html", ".htm"), (".md", ".markdown")
 _ENDS = """\
 exit codes: 0 answered; 1 the case was read, but has no answer, or more than one where one is needed; 2 the file or the command
-cannot be used. What is wrong is one line each: the file, the key in it, and what to write."""
+cannot be used; 130 stopped by Ctrl-C. What is wrong is one line each: the file, the key in it, and what to write."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,7 +28,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-    options = _parser().parse_args(arguments)
+    try:
+        return _run(_parser().parse_args(arguments))
+    except KeyboardInterrupt:
+        print("stopped; nothing more was written", file=sys.stderr)
+        return 130  # as shells have it
+
+
+def _run(options: Any) -> int:
+    """Do what the command line asks for; gives the exit code."""
     if options.case in ("new", "schema"):
         return _printed(options)
     try:
@@ -86,7 +95,7 @@ def _write(pages: dict[Path, str]) -> None:
     parts: dict[Path, Path] = {}
     try:
         for path, text in pages.items():
-            target = path.resolve()
+            target = Path(realpath(path))
             if target.is_dir():
                 raise IsADirectoryError(0, "Is a directory")
             if target.exists():
@@ -106,13 +115,13 @@ def _write(pages: dict[Path, str]) -> None:
 
 def _check_names(options: Any) -> None:
     """Refuse to write over the case file, one page over the other, or a page under a name that says something else."""
-    taken = {Path(options.case).absolute()}
+    taken = {realpath(options.case)}
     for option, name, endings in (("--report", options.report, _HTML + _MARKDOWN), ("--what-if", options.what_if, _HTML)):
         if name is not None:
-            if Path(name).absolute() in taken or not name.lower().endswith(endings):
+            if realpath(name) in taken or not name.lower().endswith(endings):
                 listed = " or ".join(endings[::2])
                 raise CaseError(("", f"{option} cannot write {name}; give a name of its own, which ends in {listed}"))
-            taken.add(Path(name).absolute())
+            taken.add(realpath(name))
 
 
 def _refused(options: Any, error: CaseError, whole: Any) -> int:
