@@ -409,7 +409,10 @@ def test_momentum_and_energy_balance(geometry, drag):
 
 @pytest.mark.slow
 def test_a_short_contact_is_the_impulse():
-    """With tyres and motion it comes to energetic restitution in proportion to the duration: 20 % at 0.1 s, 0.2 % at 1 ms."""
+    """With tyres and motion it comes to energetic restitution in proportion to the duration.
+
+    The design has 21 % at 0.1 s and 0.22 % at 1 ms; these scenes, which do not turn before, are nearer.
+    """
     far = []
     for a, b, e, contact in scenes(25, 8):
         wanted, _ = by_events(a, b, e, **contact)
@@ -421,7 +424,7 @@ def test_a_short_contact_is_the_impulse():
     tenth, hundredth, thousandth = np.median(far, axis=0)
     assert hundredth == pytest.approx(tenth / 10.0, rel=0.25)
     assert thousandth == pytest.approx(hundredth / 10.0, rel=0.25)
-    assert hundredth < 5e-3
+    assert hundredth < 2.2e-3
 
 
 def test_tyres_by_hand():
