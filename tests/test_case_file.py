@@ -465,6 +465,7 @@ def test_the_text_is_that_of_any_editor():
         ("write Normal.between(low, high, 0.95)", 'write "low .. high (95 %)"'),
         ("such as Normal('50 km/h', '10 km/h')", 'such as "50 km/h +/- 10 km/h"'),
         ("such as {'tyre_impulse': 0.2}, got {'a': {'b': 1}}", "such as {tyre_impulse = 0.2}, got {a = {b = 1}}"),
+        ("name must be a text, got dict", "name must be a text, got a table"),
         ("is weighed by reconstruct.posterior (infinite masses, or a line)", "is weighed by [posterior] (infinite masses, or a line)"),
     ],
 )  # fmt: skip

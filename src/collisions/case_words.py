@@ -55,6 +55,8 @@ _PYTHON = [
         (r"\bwrite None for an end that is open\b", "write -inf for a lower end that is open, inf for an upper one"),
         (r", or None\b", ""),
         (r", an array or a Quantity\b", " or a text"),
+        (r"\bgot dict\b", "got a table"),
+        (r"\bgot (?:tuple|list)\b", "got a list"),
         (r" of type (?:bool|str|int|float|list|tuple|dict|date|time|datetime)\b", ""),
         (r"\ba dict (from|of|by|such)\b", r"a table \1"),
         (r"\ba (?:dict|tuple)\b", "a list"),

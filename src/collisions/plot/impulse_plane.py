@@ -137,7 +137,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
     how = (
-        "" if plain else "\nThe impulse ends on the solid line: at the diamond if the contact sticks, on the cone if it slides."
+        "" if plain else "\nThe impulse ends on the solid line:\nat the diamond if the contact sticks, on the cone if it slides."
     )
     axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
