@@ -1519,6 +1519,13 @@ def test_the_way_to_rest_is_drawn_where_it_was(units):
     assert axes.get_xlabel() == f"x [{SHOWN[units]['length']}]"
 
 
+def test_a_way_is_drawn_in_the_units_of_its_vehicle():
+    car = col.Vehicle(mass="3300 lb", yaw_inertia="57000 lb*ft**2", x="0 ft", y="0 ft", heading=0, vx="30 mph")
+    way = travel.simulate(car, friction=0.7, lock=0.3)
+    assert plot.path(way).get_xlabel() == "x [ft]"
+    assert plot.path(way, units="metric").get_xlabel() == "x [m]"
+
+
 def test_a_way_that_cannot_be_drawn_and_one_without_length():
     """Another object, a batch, an outline without a path; a vehicle that stands is shown with room about it."""
     still = travel.simulate(A.replace(vx=0.0), friction=0.7, lock=1.0)

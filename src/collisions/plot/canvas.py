@@ -30,7 +30,7 @@ SMALLEST, LARGEST = 1e-100, 1e100
 class Units:
     """The units a picture is labelled in, by kind of quantity or by SI unit; units of no known kind stay as they are."""
 
-    def __init__(self, system: Any, of: Any = None) -> None:
+    def __init__(self, system: Any, of: Summarized | None = None) -> None:
         self._system: str = cells(system, of._texts() if isinstance(of, Summarized) else ()).name
 
     def factor(self, unit: str) -> float:

@@ -70,7 +70,7 @@ def path(
     >>> axes.get_xlabel()
     'x [m]'
     """
-    labels = Units(units, path)
+    labels = Units(units, path_a)
     if path_b is None and outline_b is not None:
         raise InputError("outline_b has no path_b to go with; give both", code="bad_option", argument="outline_b")
     given = {"a": (path_a, outline_a)} | ({} if path_b is None else {"b": (path_b, outline_b)})
