@@ -50,7 +50,8 @@ _PYTHON = [
         (r"\bor use Vehicle\.barrier\(\)", "or leave out the pivot"),
         (r"\bis written into the model\b", "is written as a number"),
         (r"\ban array or a list\b", "a list"),
-        (r"; all are in \.solutions\b|\.solutions holds [^.]*\. ", ""),
+        (r"; (?:all|both) are in \.solutions\b|\bAll are in \.solutions; |\.solutions holds .*?\. (?=[A-Z])", ""),
+        (r"; many cases go in a numpy array\b", ""),
         (r"\bNone leaves a side open\b", "-inf or inf leaves a side open"),
         (r"\bwrite None for an end that is open\b", "write -inf for a lower end that is open, inf for an upper one"),
         (r", or None\b", ""),
@@ -72,6 +73,8 @@ def as_in_file(value: Any, longest: int = 80) -> str:
         text = f"[{', '.join(map(as_in_file, value))}]"
     elif isinstance(value, str):
         text = shown(value, longest)
+    elif isinstance(value, int) and abs(value) >= 2**64:
+        text = hex(value)  # Python writes no more than 4300 decimal digits.
     elif isinstance(value, (datetime, date, time)):
         text = value.isoformat()
     else:

@@ -136,10 +136,8 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
-    how = (
-        "" if plain else "\nThe impulse ends on the solid line:\nat the diamond if the contact sticks, on the cone if it slides."
-    )
-    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
+    how = "\nThe impulse ends on the solid line:\nat the diamond if the contact sticks, on the cone if it slides."
+    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + ("" if plain else how))
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
     without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside"
