@@ -267,7 +267,7 @@ def test_two_answers_are_told_apart():
         ("1100 kg", "1100 kgg", "a.mass: '1100 kgg' cannot be taken as kg"),
         ('"1100 kg"', "1100 kg", "a.mass: is not TOML: Expected newline or end of document after a statement (at line 2, column 13), 'mass = 1100 kg'; write mass = \"1100 kg\""),
         ("0.4", "0,4", "linear_central.restitution: is not TOML: Expected newline or end of document after a statement (at line 9, column 16), 'restitution = 0,4'; a decimal has a point: write restitution = 0.4"),
-        ('"1100 kg"', "[0x" + "f" * 5000 + "]", "a.mass: takes one value, got [0xfff"),
+        ('"1100 kg"', "[0x" + "f" * 5000 + "]", "a.mass[0]: is a whole number of more than 64 bits"),
         ('"1100 kg"', "9" * 5000, "a.mass: is not TOML: Too many digits (at line 2), 'mass = 9999"),
         ("1100 kg", "1e400 kg", "a.mass: mass is too large: '1e400 kg'"),
         ('"950 kg"', "1e400", ": has the number 1e400, which is larger than 1.7e308; look for a slipped digit, or write inf"),
