@@ -1480,9 +1480,8 @@ def test_every_other_law_is_tried(monkeypatch):
 def test_an_outline_of_dates_is_refused():
     """Two columns of what is no number: the error is that of the array, not of a float made of it."""
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0, x=0.0, y=0.0, heading=0.0), col.Vehicle(mass=1200.0), 0.1)
-    dates = "outline_a is an array of"
-    for kind, said in (("M8[s]", dates), ("m8[s]", dates), ("U3", "outline_a is a .* with '' in it; give numbers")):
-        with pytest.raises(col.InputError, match=said):
+    for kind in ("M8[s]", "m8[s]", "U3"):
+        with pytest.raises(col.InputError, match="outline_a is an array of"):
             diagnose(impact, outline_a=np.zeros((2, 2), dtype=kind))
 
 
