@@ -43,9 +43,9 @@ def routes(found: dict[str, Any]) -> str:
     for name, row in found["routes"].items():
         plain, warned = row["plain"], row["warned"]
         counts = [str(row["crashes"]), str(plain["intervals"]), held(plain), str(plain["above"]), str(plain["below"])]
-        low, middle, high = row["half_width"]
+        widths = "{1:.1f} ({0:.1f} to {2:.1f})".format(*row["half_width"]) if row["half_width"] else "none"
         of_warned = f"{held(warned)} of {warned['intervals']}" if warned["intervals"] else "none"
-        rows.append([name, *counts, f"{middle:.1f} ({low:.1f} to {high:.1f})", of_warned, str(row["refused"])])
+        rows.append([name, *counts, widths, of_warned, str(row["refused"])])
     return table(head, rows)
 
 

@@ -385,3 +385,12 @@ def test_the_pulse_of_an_incomplete_impact_ends_on_the_way_up():
         assert pulse.mean_passed(e) == pytest.approx(passed.mean(), rel=1e-9)
         assert pulse.mean_square_passed(e) == pytest.approx((passed**2).mean(), rel=1e-9)
         assert pulse.mean_passed(np.array([e, 0.3])).tolist() == pytest.approx([pulse.mean_passed(e), pulse.mean_passed(0.3)])
+
+
+def test_an_impulse_from_outside_beyond_all_measure_is_refused_under_stronge():
+    """Infinite friction stops the slip on no way at all, by which nothing may be divided."""
+    a = col.Vehicle(mass=1500.0, vx=-15.0, vy=-17.0, yaw_rate=-1.0, yaw_inertia=2500.0, x=0.7, y=0.3)
+    b = col.Vehicle(mass=1200.0, vx=2.0, vy=4.0, yaw_inertia=1900.0, x=-1.1, y=-1.2)
+    contact = {"normal": -2.0, "point": (4.8, -1.0), "friction": math.inf, "law": "stronge"}
+    with pytest.raises(col.CollisionsError):
+        col.eccentric(a, b, 0.38, outside_a=(-33.0, 1e200), **contact)

@@ -205,10 +205,11 @@ def energetic_contact(
     absorbed = select(compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c))))
     lost = (1.0 - restitution) * (1.0 + restitution) * absorbed
 
-    # An incomplete impact may end before the slip has stopped.
+    # An incomplete impact may end before the slip has stopped, but not where infinite friction stops it at once.
     early = compressing & (rest <= 0.0)
-    still = select(early, w * w + yields * (rest * (parting - w)) / select(early, along, 1.0), 0.0) ** 0.5
-    to_end = select(early, 2.0 * lost / select(early, along * (c + still), 1.0), (1.0 + restitution) * (c / per_c))
+    sliding = early & (along > 0.0)
+    still = select(early, w * w + yields * (rest * (parting - w)) / select(sliding, along, 1.0), 0.0) ** 0.5
+    to_end = select(early, 2.0 * lost / select(sliding, along * (c + still), 1.0), (1.0 + restitution) * (c / per_c))
     slides = slides | early
     moves = moves & (slides ^ True)
     to_stop = select(slides, to_end, stops)
