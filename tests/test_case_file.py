@@ -291,9 +291,16 @@ def test_two_answers_are_told_apart():
         ("0.4", "{ travel.sped = { distance = 1 } }", "linear_central.restitution: is a table that names no function"),
         ("0.4", "{ Uniform = { low = 1 } }", "linear_central.restitution.Uniform.high: is missing"),
         ("0.4\n", '0.4\n[report]\nunit = "us"\n', "report.unit: is not known here; did you mean units?"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "a.deltav: is no number of the answer; did you mean a.delta_v?"),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "a.pdof: is not known: "),
-        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n', "normal: is no number of the answer"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.deltav"]\n', "propagate.outputs: 'a.deltav' is no number of the answer; did you mean a.delta_v?"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.before.name"]\n', "propagate.outputs: 'a.before.name' is no number of the answer; did you mean a.before.mass?"),
+        ("0.4\n", '"0.2 +/- 0.01"\n[propagate]\nmethod = "interval"\n', "restitution: restitution = { Normal = { mean = 0.2, sd = 0.01 } } has no bounds"),
+        ("0.4\n", '"0.1 .. 0.3"\n[posterior.observed]\na.delta_v = "20 km/h +/- 1 km/h"\n', 'posterior.observed."a": has its name without quotes; write "a.delta_v" = '),
+        ("0.4\n", '0.4\n[what_if.ranges]\nsped_a = [1, 40]\n', "what_if.ranges.sped_a: is not known here; did you mean speed_a?"),
+        ('vx = "80 km/h"', 'speed = "80 km/h +/- 60 km/h"\ncourse = 0', "a.speed: speed must be >= 0, got -"),
+        ('vx = "80 km/h"', 'vx = "80 km/h"\nheading = "N"', "a.heading: cannot read 'N': angles are counted"),
+        ('mass = "1100 kg"', 'name = 3\nmass = "1100 kg"', "a.name: name must be a text, got a number; put it in quotes"),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["a.pdof"]\n', "propagate.outputs: 'a.pdof' is not known: "),
+        ("0.4\n", '"0.1 .. 0.4"\n[propagate]\noutputs = ["normal"]\n', "propagate.outputs: 'normal' is no number of the answer"),
         ("0.4\n", '"0.1 .. 0.4"\n[propagate]\ncorrelation = [1]\n', "propagate.correlation: takes rows such as"),
         ("0.4\n", '0.4\n[eccentric]\n', ": has the tables [linear_central], [eccentric]; leave one of them"),
         ("0.4\n", f"0.4\n[propagate]\nseed = {2**63}\n", "propagate.seed: is a whole number of more than 64 bits"),
@@ -471,6 +478,8 @@ def test_the_text_is_that_of_any_editor():
         ("two impacts fit: x, y; both are in .solutions, and a velocity decides", "two impacts fit: x, y, and a velocity decides"),
         ("duration is a list, and takes one value; many cases go in a numpy array", "duration is a list, and takes one value"),
         ("is weighed by reconstruct.posterior (infinite masses, or a line)", "is weighed by [posterior] (infinite masses, or a line)"),
+        ("takes [length, width], or (length, width, how far it is ahead); got ('4 m',)", "takes [length, width], or [length, width, how far it is ahead]; got ['4 m']"),
+        ("around 50 km/h, got ('60 km/h', '80 km/h')", "around 50 km/h, got ['60 km/h', '80 km/h']"),
     ],
 )  # fmt: skip
 def test_messages_speak_of_files(said, in_a_file):
@@ -682,3 +691,55 @@ def test_sliders_of_what_is_uncertain_stay_where_the_solver_can_go():
     low, high = re.search('id="restitution" min="(.*?)" max="(.*?)"', page).groups()
     assert float(low) == 0.0
     assert float(high) == pytest.approx(0.55)
+
+
+def test_the_share_of_a_normal_distribution_leaves_its_unit():
+    """What is stated in lb is given back in lb; two standard deviations are 95.45 percent (tables of the normal)."""
+    found = stated("3300 lb +/- 90 lb (95 %)")
+    assert str(found) == "3300 ± 45.92 lb"  # 90 / 1.95996
+    assert found.sd == pytest.approx(90 / 1.959964 * 0.45359237, rel=1e-6)
+
+
+@pytest.mark.parametrize("study", ["", '[posterior.observed]\n"a.delta_v" = "20 km/h +/- 2 km/h"\n'])
+def test_directions_about_a_turn_with_their_unit_are_not_suspected(study):
+    """360 deg is no bare number, however it is drawn from; the variances are drawn of it too."""
+    text = ECCENTRIC.replace('vy = "40 km/h"', 'speed = "2 km/h"\ncourse = "350 deg .. 370 deg"').replace('"90 deg"', "0.0")
+    found = answers(read_text((text + study).encode()))
+    found.text()
+    assert not [one for one in found.warnings if "is read as" in one]
+
+
+def test_a_bare_range_of_directions_is_suspected_once():
+    """Of the stated value alone, not of those that are drawn."""
+    found = answers(read_text(ECCENTRIC.replace('vx = "50 km/h"', 'speed = 14.0\ncourse = "6.5 .. 7"').encode()))
+    found.text()
+    assert len([one for one in found.warnings if "is read as rad" in one]) == 1
+
+
+def test_a_slider_for_what_an_impact_leaves_as_it_was(tmp_path, capsys):
+    """The mass of [a_after] is that before; its speed is not."""
+    impact = solved(ECCENTRIC)
+    text = ECCENTRIC.replace("[eccentric]", "[reconstruct.planar]").replace("[a]", "[a_after]").replace("[b]", "[b_after]")
+    a, b = impact.a.after, impact.b.after
+    text = text.replace("mass = 1500", 'mass = "1500 kg +/- 40 kg"').replace(
+        'vx = "50 km/h"', f"vx = {a.vx!r}\nvy = {a.vy!r}\nyaw_rate = {a.yaw_rate!r}"
+    )
+    text = text.replace('vy = "40 km/h"', f'vx = {b.vx!r}\nvy = "{b.vy!r} m/s +/- 0.1 m/s"\nyaw_rate = {b.yaw_rate!r}')
+    page = answers(read_text(text.encode())).what_if()
+    assert re.findall(r'<input type="range" id="(\w+)"', page) == ["mass_a"]
+
+
+def test_what_is_wrong_with_the_command_is_one_line(capsys):
+    """As with every mistake."""
+    for arguments in ([], ["case.toml", "--units", "imperial"], ["case.toml", "other.toml"]):
+        with pytest.raises(SystemExit) as caught:
+            main(arguments)
+        assert caught.value.code == 2
+        assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_the_schema_knows_the_sliders():
+    """Those that the reader takes, as pairs."""
+    ranges = case_schema()["properties"]["what_if"]["properties"]["ranges"]
+    assert ranges["additionalProperties"] is False
+    assert {"speed_a", "heading_b", "normal", "point_x", "friction"} <= ranges["properties"].keys()

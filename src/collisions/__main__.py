@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from os.path import realpath
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from . import __version__
 from .case_answers import Answers, answers
@@ -134,8 +134,14 @@ def _refused(options: Any, error: CaseError, whole: Any) -> int:
     return 1 if error.refused else 2
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """One line, as of every mistake."""
+        self.exit(2, f"{self.prog}: {message}; write for example: {self.prog} case.toml --report report.html; see --help\n")
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="collisions",
         description="Answers a case file: one vehicle impact as a page of text, forwards or backwards, with its uncertainty.",
         epilog=_ENDS,

@@ -41,7 +41,7 @@ from .reporting import report
 from .reporting.making import inputs_of
 from .reporting.record import record
 from .summary import spoken_system
-from .units import to_quantity
+from .units import shown, to_quantity
 from .what_if_page import starts, what_if
 
 
@@ -72,7 +72,8 @@ class Answers:
         """The page with sliders: over the ranges of the file, or over what it says of its uncertain numbers."""
         one, found = self._one(), self.case.ranges
         if not isinstance(one, Impact):
-            text = "moves the inputs of an impact, and this file has none; ask for it in a file with [eccentric] or the like"
+            text = "moves the inputs of an impact, and this file gives none; ask for it in a file with [eccentric] or the like"
+            text += f", and without [{self.case.study}]" if self.case.study not in ("", "propagate") else ""
             raise CaseError(("what_if", text))
         if not found:
             known = starts(one)
@@ -105,7 +106,7 @@ class Answers:
             found += [self._made(part.summary, {"units": system}) for part in parts]
         if self.propagation is not None:
             shares = [self._made(_shares, {"output": output}, "propagate") for output in self.propagation.outputs.values()]
-            found += [self.propagation.summary(system), "\n".join(shares)]
+            found += [self.propagation.summary(system), "\n".join(filter(None, shares))]
         return "\n\n".join(str(part).strip() for part in found if str(part).strip()) + "\n"
 
     def to_dict(self) -> dict[str, Any]:
@@ -124,7 +125,7 @@ class Answers:
 
     def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
         """What a function makes of the results; its warnings are kept, and a refusal names the table of its options."""
-        with _noting(self.warnings):
+        with _noting(self.warnings, [] if key == "propagate" else None):
             return Call(key, function, arguments)({})
 
 
@@ -183,7 +184,7 @@ def _shares(output: Any) -> str:
     with suppress(InputError):
         shares = sorted(output.contributions.items(), key=lambda one: -one[1])
         listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
-        return f"Variance of {output.name}: {listed}"
+        return f"Variance of {output.name}: {listed}" if listed else ""
     return ""
 
 
@@ -193,9 +194,15 @@ def _limits(name: str) -> tuple[float, float]:
     return least, 1.0 if name in ("restitution", "critical_fraction") else math.inf
 
 
+# What an impact changes of a vehicle.
+_MOVING = ("vx", "vy", "speed", "course", "yaw_rate")
+
+
 def _slider(key: str) -> str:
     """The name by which ``what_if`` knows a key of the file."""
     label, _, name = key.rpartition(".")
+    if name not in _MOVING:
+        label = label.removesuffix("_after")  # what an impact leaves as it was
     return f"{name}_{label}" if label else key.replace("[0]", "_x").replace("[1]", "_y")
 
 
@@ -269,6 +276,7 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
 def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
     """The case as a function of its uncertain numbers, which gives these outputs as Quantities."""
     takes = signature(SOLVERS[case.solver]).parameters
+    place = "outputs" if case.study == "propagate" else "observed"
     options = {"on_failure": "nan"} if "on_failure" in takes else {}
 
     def model(**values: Any) -> dict[str, Any]:
@@ -279,22 +287,29 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
         # Where roots have met and gone, those left cannot be told apart.
         all_there = True if count == 1 else np.False_ if len(roots) < count else ~roots[count - 1].refused
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
-        return {name: _output(roots[min(which, len(roots) - 1)], name, all_there, shape) for name in outputs}
+        found = roots[min(which, len(roots) - 1)]
+        return {name: _output(found, name, f"{case.study}.{place}", all_there, shape) for name in outputs}
 
     return model
 
 
-def _output(result: Any, name: str, there: Any, shape: tuple[int, ...]) -> Any:
-    """A number of a result by its path, as a Quantity for each case; NaN where the result is not there."""
+def _found(result: Any, name: str) -> tuple[Any, str, Any, str | None]:
+    """What has the number of a path, its own name, the number, and its unit; None of what is no number."""
     path, _, last = name.rpartition(".")
     owner = reduce(lambda whole, part: getattr(whole, part, None), filter(None, path.split(".")), result)
-    value, unit = getattr(owner, last, None), unit_of(type(owner), last)
+    return owner, last, getattr(owner, last, None), unit_of(type(owner), last)
+
+
+def _output(result: Any, name: str, place: str, there: Any, shape: tuple[int, ...]) -> Any:
+    """A number of a result by its path, as a Quantity for each case; NaN where the result is not there."""
+    owner, last, value, unit = _found(result, name)
     if unit is None or isinstance(value, tuple):
         names = result.to_columns() if isinstance(result, Impact) else result.__dataclass_fields__
-        raise CaseError((name, f"is no number of the answer; {nearest(name, names)}"))
+        names = [one for one in names if _found(result, one)[3] is not None]
+        raise CaseError((place, f"{shown(name)} is no number of the answer; {nearest(name, names)}"))
     if value is None:
         why = owner._missing(last) if hasattr(owner, "_missing") else "this case has none"
-        raise CaseError((name, f"is not known: {why}"))
+        raise CaseError((place, f"{shown(name)} is not known: {why}"))
     return to_quantity(np.broadcast_to(np.where(there, value, np.nan), shape), unit)
 
 

@@ -19,8 +19,9 @@ from . import reconstruct, reference, solvers, travel, uncertainty
 from .case_words import DISTRIBUTIONS, as_in_file, in_file_words
 from .errors import CollisionsError, InputError
 from .reporting import report
-from .units import example, unit_as_written
+from .units import example, to_quantity, unit_as_written
 from .vehicle import Vehicle
+from .what_if_page import SLIDERS
 
 # The functions of which a file calls one, by the name of its table.
 FORWARD = {
@@ -104,7 +105,7 @@ class Call:
         body = error.fields.get("vehicle") or name.partition(".")[0]
         for own, value in self.arguments.items():
             if isinstance(value, dict) and name in value:
-                return f"{self.key}.{own}.{name}"
+                return name if own in ("inputs", "unknowns") else f"{self.key}.{own}.{name}"
         if isinstance(self.arguments.get(body), Call) or "vehicle" in error.fields:
             return f"{body}.{name.rpartition('.')[2]}".rstrip(".")
         return f"{self.key}.{name}" if name.partition("[")[0] in parameters(self.function) else self.key
@@ -253,7 +254,8 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     whole = uncertainty.Normal(one, other)
     if not coverage:
         return whole
-    low, high = (f"{whole.given_mean + side * whole.given_sd!r} {whole.unit}" for side in (-1.0, 1.0))
+    factor, unit = getattr(whole.unit, "factor", 1.0), getattr(whole.unit, "written", whole.unit)
+    low, high = (f"{(whole.given_mean + side * whole.given_sd) / factor!r} {unit}".strip() for side in (-1.0, 1.0))
     return uncertainty.Normal.between(low, high, coverage)
 
 
@@ -277,7 +279,11 @@ def _open(name: str, value: Any) -> Any:
 
 def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
-        return values.get(node.key, node.nominal)
+        if node.key not in values:
+            return node.nominal
+        # Of what is stated with a unit a bare angle of more than a turn would be warned of.
+        given = values[node.key]
+        return to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
     if isinstance(node, Call):
         return node(values)
     return tuple(_filled(part, values) for part in node) if isinstance(node, tuple) else node
@@ -350,6 +356,7 @@ class _Reader:
         page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
         self.known(self.table("what_if"), "what_if", ["ranges"])
+        self.known(ranges, "what_if.ranges", SLIDERS)
         if self.problems:
             raise CaseError(*self.problems)
         return Case(name, call, self.uncertain, study, options, page, ranges, answer)
@@ -451,7 +458,7 @@ class _Reader:
             self.problems.extend(error.problems)
             return None
         middle = 0.5 * found.low + 0.5 * found.high if isinstance(found, uncertainty.Interval) else getattr(found, "mean", None)
-        if middle is None and ".observed." not in key:
+        if middle is None and ".observed[" not in key:
             self.refuse(
                 key, 'is a reading with one bound, which only an observation may be; write a range, such as "0.4 .. 0.7"'
             )
@@ -483,7 +490,7 @@ class _Reader:
             if not isinstance(rows, dict) or not rows:
                 self.refuse(f"{name}.observed", 'must be a table of what was found; write "a.delta_v" = "20 km/h +/- 1 km/h"')
                 rows = {}
-            found["observed"] = {key: self._observed(f"{name}.observed.{key}", value) for key, value in rows.items()}
+            found["observed"] = {key: self._observed(f"{name}.observed['{key}']", value) for key, value in rows.items()}
         return found
 
     def _observed(self, key: str, value: Any) -> Any:
@@ -493,6 +500,8 @@ class _Reader:
         found = value
         if isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             found = self.stated(key, call)
+        elif isinstance(value, dict) and not value.keys() & {name.partition(".")[0] for name in FUNCTIONS}:
+            self.refuse(key, 'has its name without quotes; write "a.delta_v" = "20 km/h +/- 1 km/h", the name in quotes too')
         elif isinstance(value, (str, dict)):
             found = self.value(key, value, "Input")
         self.uncertain.pop(key, None)

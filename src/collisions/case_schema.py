@@ -11,7 +11,7 @@ from .case_file import FUNCTIONS, OTHERS, SEVERAL, SOLVERS, STUDIES, description
 from .case_words import DISTRIBUTIONS
 from .reporting import report
 from .vehicle import Vehicle
-from .what_if_page import what_if
+from .what_if_page import SLIDERS, what_if
 
 _NUMBER = {"$ref": "#/$defs/number"}
 _PLAIN = {"str": "string", "bool": "boolean", "int": "integer"}
@@ -25,10 +25,13 @@ def case_schema() -> dict[str, Any]:
         module, _, own = name.rpartition(".")
         (reverse if module else tables)[own] = _arguments(function, vehicles(function))
     tables["propagate"]["properties"]["outputs"] = {"type": "array", "items": {"type": "string"}}
+    pair = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 2, "maxItems": 2}
     tables |= {
         "reconstruct": _object(reverse),
         "report": _arguments(report),
-        "what_if": _object({"ranges": {"type": "object", "description": descriptions(what_if)["ranges"]}}),
+        "what_if": _object(
+            {"ranges": _object(dict.fromkeys(SLIDERS, pair)) | {"description": descriptions(what_if)["ranges"]}}
+        ),
         "answer": {"type": "integer", "minimum": 1, "description": OTHERS["answer"]},
     }
     moving = {name: _argument(one, Vehicle.from_speed) for name, one in parameters(Vehicle.from_speed).items()}

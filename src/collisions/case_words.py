@@ -22,8 +22,9 @@ _ARGUMENT = re.compile(r"(?:(\w+)=)?('[^']*'|\([^()]*\)|\[[^\]]*\]|[^,]+)(?:, |$
 _WITH_TEXTS = [
     (re.compile(pattern), file)
     for pattern, file in (
-        (r"'([\w.]+)': ", r"\1 = "),
+        (r"(?:(?<=\{)|(?<=, ))'([\w.]+)': ", r"\1 = "),
         (r"=\(((?:'[^']*'(?:, )?)+)\)", r" = [\1]"),
+        (r"\bgot \(('[^']*'(?:, '[^']*')*),?\)", r"got [\1]"),
         (r"\b(?:unknowns|inputs)\['([^']*)'\]", r"\1"),
         (r"\b(observed|limits|tolerance)\['([^']*)'\]", r'\1."\2"'),
         (r"; put the unit on the whole: .*?, or give numbers in SI", "; write numbers in SI, or texts with their units"),
@@ -39,6 +40,7 @@ _PYTHON = [
             rf"(?<!\w)\(({_PART}(?:, {_PART})+)\)",
             r"[\1]",
         ),
+        (r"\((length, width, how [^()]*)\)", r"[\1]"),
         (r"\b([a-z_]\w*)=(?=[\w\[{-]|\.\d)", r"\1 = "),
         (r"\b([a-z_]\w*)=", r"\1"),
         (r"\bTrue\b", "true"),
@@ -56,6 +58,7 @@ _PYTHON = [
         (r"\bwrite None for an end that is open\b", "write -inf for a lower end that is open, inf for an upper one"),
         (r", or None\b", ""),
         (r", an array or a Quantity\b", " or a text"),
+        (r"\bgot (?:int|float)$", "got a number; put it in quotes"),
         (r"\bgot dict\b", "got a table"),
         (r"\bgot (?:tuple|list)\b", "got a list"),
         (r" of type (?:bool|str|int|float|list|tuple|dict|date|time|datetime)\b", ""),

@@ -152,10 +152,16 @@ class Vehicle(_AsGiven):
             raise InputError("give either speed and course or vx and vy, not both", code="speed_twice", argument="speed")
         reader = ArgumentReader()
         magnitude = reader.number(speed, "m/s", "speed")
-        if np.any(np.less(magnitude, 0.0)):
+        if np.any(below := np.less(magnitude, 0.0)):
+            given, cure = shown(speed), ""
+            if np.size(magnitude) > 1:
+                given = (
+                    f"{np.min(magnitude, where=below, initial=0.0):g} m/s, below 0 in {np.sum(below)} of {np.size(below)} cases"
+                )
+                cure = ", or bound what is drawn, as by Normal(mean, sd, truncate=(low, high))"
             reader.refuse(
                 InputError(
-                    f"speed must be >= 0, got {shown(speed)}; turn the course by 180 deg to go the other way",
+                    f"speed must be >= 0, got {given}; turn the course by 180 deg to go the other way{cure}",
                     code="negative_speed",
                     argument="speed",
                 )

@@ -39,6 +39,7 @@ _BODY = {
     "speed": "speed", "course": "angle", "vx": "speed", "vy": "speed", "yaw_rate": "yaw rate", "mass": "mass",
     "yaw_inertia": "inertia", "x": "length", "y": "length", "heading": "angle",
 }  # fmt: skip
+SLIDERS = (*_CONTACT, *(f"{name}_{label}" for label in "ab" for name in _BODY))
 _DOMAINS = {
     "speed": NOT_NEGATIVE, "mass": POSITIVE, "yaw_inertia": POSITIVE,
     **{name: rule.domain for name, rule in RULES.items()},
