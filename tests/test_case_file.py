@@ -743,3 +743,10 @@ def test_the_schema_knows_the_sliders():
     ranges = case_schema()["properties"]["what_if"]["properties"]["ranges"]
     assert ranges["additionalProperties"] is False
     assert {"speed_a", "heading_b", "normal", "point_x", "friction"} <= ranges["properties"].keys()
+
+
+def test_the_text_says_what_stands_for_a_range():
+    """The results of the middle are called so, before they are given."""
+    first, *_ = answers(read_text(REAR_END.replace("0.4", '"0.2 .. 0.4"').encode())).text().splitlines()
+    assert first.startswith("Of what is not known exactly the mean")
+    assert answers(read_text(REAR_END.encode())).text().startswith("Impact of A and B")

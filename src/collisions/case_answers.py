@@ -105,6 +105,7 @@ class Answers:
                 parts.append(self._made(diagnose, {**looked_at, "impact": result, "units": system}))
             found += [self._made(part.summary, {"units": system}) for part in parts]
         if self.propagation is not None:
+            found.insert(0, "Of what is not known exactly the mean, or the middle of an interval; below, what its spread does:")
             shares = [self._made(_shares, {"output": output}, "propagate") for output in self.propagation.outputs.values()]
             found += [self.propagation.summary(system), "\n".join(filter(None, shares))]
         return "\n\n".join(str(part).strip() for part in found if str(part).strip()) + "\n"
