@@ -37,6 +37,8 @@ def scenes():
     yield col.eccentric(A, B, 0.3, impulse_ratio=0.05, **place)
     yield col.eccentric(A, PINNED, 0.3, critical_fraction=0.5, **place)
     yield col.eccentric(A, col.Vehicle.barrier(), MANY * 0.3, friction=np.array([[0.1], [0.9]]), **place)
+    yield col.eccentric(A, B, 0.3, friction=0.2, law="stronge", **place)
+    yield col.time_resolved(A, B, 0.3, friction=0.2, duration=0.1, **place)
 
 
 SCENES = list(scenes())

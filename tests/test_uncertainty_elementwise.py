@@ -110,6 +110,14 @@ def test_an_output_beside_others():
     assert found.fields["output"] == "d"
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_threshold_in_the_last_output(seed):
+    """Both its sides are 0 or 1 whatever the company, so that cases from anywhere else may agree by chance."""
+    both = {"v": Normal(20.0, 2.0), "w": Uniform(-1.0, 1.0)}
+    found = refused(lambda v, w: {"a": v, "fast": w > w.mean()}, both, seed=seed, samples=256)
+    assert found.fields["output"] == "fast"
+
+
 def test_turns_that_are_counted_on_from_one_case_to_the_next():
     """numpy.unwrap adds whole turns by what the cases before had: two answers a turn apart are the same direction and no more."""
     found = refused(lambda v: {"course": np.unwrap(v) * pint.Quantity(1.0, "rad")}, {"v": Uniform(-3.1, 3.1)})
@@ -168,7 +176,7 @@ def test_answers_are_the_same_to_the_bit(inputs, how, monkeypatch):
 @pytest.mark.slow
 @every_run
 def test_few_cases_are_asked_again_once(inputs, how, monkeypatch):
-    """In two calls, however many outputs, blocks, and places between bounds; always the same ones, on threads too.
+    """In two calls, however many outputs that are least together, blocks, and places between bounds; the same on threads too.
 
     Places in rising order, as those along one interval are to begin with, tell nothing of a sort: there two more."""
     monkeypatch.setattr(sampling, "BLOCK", 500)

@@ -140,7 +140,7 @@ class Impact(Frozen, Summarized):
         by_ratio = self.restitution * self.closing_speed
         if not self._energetic:
             return by_ratio
-        found: Value = select(np.equal(self.model, "linear_central"), by_ratio, self._output("separation_speed"))
+        found: Value = select(self.model == "linear_central", by_ratio, self._output("separation_speed"))
         return found
 
     @derived("m/s")

@@ -16,13 +16,14 @@ from ..quantities import lock
 from ..settings import in_si
 from .fit_problem import FitInputs, read_fit_inputs
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
-from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise
+from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
 from .observations import listed, refused_everywhere
 
 _STARTS = 64
 _FEW = 2  # searches that ended at the best, among more: there may be a better one
 _SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
+_AROUND, _NUDGE = 8, 1e-2  # searches, and part of the scale of each unknown by which they start off at most
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
 _TWO_ERRORS = 2.0
 _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope vanishes nearby
@@ -209,6 +210,13 @@ class _Candidate:
         here = ends.points[_ended_at(ends, self.chi_squared)]
         return len(here) > 0 and bool(np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale)))
 
+    @property
+    def on_a_ridge(self) -> bool:
+        """Whether searches from around the point leave it for less: one that met a ridge exactly has no slope to follow."""
+        away = np.minimum(_NUDGE * self.problem.scale, self.errors)
+        again = minimise(self.problem, self.point + spread(_AROUND, -away, away))
+        return bool(np.min(again.chi_squared) < self.chi_squared - _SAME_CHI_SQUARED)
+
     def overstates_errors(self) -> bool:
         """Whether an error is far too large wherever its unknown has room: its slope vanishes nearby."""
         far, risen = self.moves
@@ -271,7 +279,7 @@ def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
     for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
         if all(one.is_apart(ends.points[k]) for one in found):
             rival = _examined(best.inputs, best.problem._replace(size=None), ends, k)
-            found += [] if rival.turns_round(ends) else [rival]
+            found += [] if rival.on_a_ridge else [rival]
     return found
 
 

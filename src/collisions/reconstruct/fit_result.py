@@ -345,7 +345,8 @@ def notes_of(found: Fit) -> Iterator[Note]:
         yield Note(IllConditionedWarning, f"{error}: they limit it, not the evidence", _TAKE_POSTERIOR, "told_by_bounds")
     if not found.nonlinearity <= _LARGE_NONLINEARITY:
         does = "refuses" if math.isnan(found.nonlinearity) else "bends"
-        by = "not symmetric" if math.isnan(found.nonlinearity) else f"off by {found.nonlinearity:.0%} of their half-width"
+        part = f"{found.nonlinearity:.0%} of" if found.nonlinearity <= 1.0 else "more than"
+        by = "not symmetric" if math.isnan(found.nonlinearity) else f"off by {part} their half-width"
         sentence = f"the model {does} within two standard errors of the answer: the 95 percent intervals are {by}"
         yield Note(IllConditionedWarning, sentence, _TAKE_POSTERIOR, "not_linear")
     for name, one in found.residuals.items():

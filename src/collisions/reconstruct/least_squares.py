@@ -168,7 +168,10 @@ def _step(problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any
     weight = np.maximum(weight, _LEAST_WEIGHT * np.maximum(1.0, np.max(weight, axis=1, keepdims=True)))
     across, size, direction = np.linalg.svd(scaled / weight[:, np.newaxis], full_matrices=False)
     along = np.einsum("kmi,km->ki", across, misfit)
-    error = np.einsum("kij,kj->ki", abs(direction), _slope_error(outputs, problem.scale, problem.steps(points)) / weight)
+    error = _slope_error(outputs, problem.scale, problem.steps(points))
+    # Within bounds a slope that identifies nothing counts no more: at a turning point it never is down to its rounding.
+    error = np.where(np.isinf(problem.high - problem.low), error, np.maximum(error, FLAT))
+    error = np.einsum("kij,kj->ki", abs(direction), error / weight)
     left = np.linalg.norm(np.where(size > error, along, 0.0), axis=1) / np.maximum(1.0, np.linalg.norm(misfit, axis=1))
     move = -np.einsum("kij,ki->kj", direction, along * size / (size**2 + damping[:, np.newaxis])) / weight
     trial = np.clip(points + move * problem.scale, problem.low, problem.high)

@@ -170,21 +170,25 @@ def check_elementwise(
 
 
 def _revealing_cases(answers: Mapping[str, Any]) -> list[list[int]]:
-    """Cases to ask again, those of each list in one call: the greatest output, a few of the least, and two without, alone.
+    """Cases to ask again, those of each list in one call.
 
-    The ends differ most from all cases together, each in its own way: alone, a case is its own mean and its own extreme; among
-    the least, there is none of the great ones. A call costs as much as some hundred cases, so there are few.
+    They are the greatest of the first output and two without an answer, each alone, and together a few of the least of the
+    first output and of the last. The ends differ most from all cases together, each in its own way: alone, a case is its own
+    mean and its own extreme; among the least, there is none of the great ones. A call costs as much as some hundred cases, so
+    there are few.
     """
     found: list[list[int]] = []
     refused: list[int] = []
+    least: list[list[int]] = []
     for column in answers.values():
         missing = np.flatnonzero(np.isnan(column))
         refused += missing[[0, -1]].tolist() if missing.size else []
-        if not found and missing.size < column.size:
+        if missing.size < column.size:
             few = max(1, min(_LOW_CASES, (column.size - missing.size) // 2))
+            found = found or [[int(np.nanargmax(column))]]
             # Backwards, so that what goes on from case to case begins elsewhere.
-            least = np.sort(np.argpartition(column, few - 1)[:few])[::-1]
-            found = [[int(np.nanargmax(column))], least.tolist()]
+            least.append(np.sort(np.argpartition(column, few - 1)[:few])[::-1].tolist())
+    found += least[:1] + [few for few in least[-1:] if few != least[0]]
     return found + [[place] for place in dict.fromkeys(refused[:2])]
 
 
