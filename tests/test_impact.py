@@ -81,6 +81,19 @@ def test_every_attribute_has_the_shape_of_the_batch(impact):
                     assert np.shape(part) in (shape, ()), name
 
 
+def test_a_reconstruction_read_from_a_record_is_locked():
+    """As it is where it was found: no number of a result can be written over."""
+    place = {"normal": 0.1, "point": (1.7, 0.3), "friction": 0.0}
+    after = col.eccentric(A.replace(vx=A.vx + np.array([0.0, 1.0])), B, 0.3, **place)
+    found = col.reconstruct.planar(after.a.after, after.b.after, restitution=0.3, **place)
+    again = col.Impact.from_dict(found.to_dict())
+    assert again == found
+    for impact in (found, again):
+        for array in (impact.reconstruction.condition, *impact.reconstruction.contact_velocity):
+            assert array.shape == (2,)
+            assert not array.flags.writeable
+
+
 def test_columns_are_flat_and_of_one_length():
     """One list a number, one value a case, nothing nested: what a table takes."""
     for impact in SCENES:

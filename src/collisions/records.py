@@ -165,7 +165,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
     if found is None:
         return None
     known = tuple(str(name) for name in found["known"])
-    condition, answers = _read(found["condition"]), _count(found["answers"])
+    condition, answers = lock(_read(found["condition"])), _count(found["answers"])
     return Reconstruction(
         method=str(found["method"]), known=known, condition=condition, answers=answers, contact_velocity=velocity
     )
@@ -178,7 +178,7 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     closing, slip = (_read(part) if isinstance(part, Mapping) else float(_read(part)) for part in pair)
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
-    return closing, slip
+    return lock((closing, slip))
 
 
 def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
