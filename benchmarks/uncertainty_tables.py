@@ -204,10 +204,11 @@ def judged(found: dict[str, Any]) -> Iterator[tuple[str, str, float, bool]]:
     for row in found["local"]:
         yield names(found)[row["scene"]], row["method"], max(map(abs, row["error"])), row["warned"]
     for sweep in found["sweeps"]:
+        label, _, unit = sweep["label"].split(" (")[0].partition(", ")
         for method, row in sweep["methods"].items():
             for x, error, warned in zip(sweep["x"], row["error"], row["warned"], strict=True):
                 if error is not None:
-                    yield f"{sweep['label'].split(' (')[0]}: {number(x)}", method, error, warned
+                    yield f"{label}: {number(x)} {unit}".rstrip(), method, error, warned
 
 
 def refused(found: dict[str, Any]) -> int:

@@ -21,7 +21,7 @@ from ..units import shown, to_quantity
 from ..warning import warn
 from .observations import Observation
 
-_GIVEN_ERRORS = "A standard error is given the stated errors of the observations and priors."
+_GIVEN_ERRORS = "A standard error holds given the stated errors of the observations and priors."
 _TAKE_POSTERIOR = "; reconstruct.posterior gives the range that the evidence leaves, whatever its shape"
 _NONE = "\u2013"
 _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
