@@ -2,8 +2,8 @@
 # # A car into a rigid barrier
 #
 # A car hits a rigid wall squarely, then at 20 degrees as it would a concrete barrier beside the road, as a point and with its
-# front corner. One learns what a wall makes of restitution and friction, and that impact speed, EES and delta-V are three
-# different speeds.
+# front corner. This example shows what a wall makes of restitution and friction, and that impact speed, EES and delta-V are
+# three different speeds.
 #
 # The wall is `Vehicle.barrier()`: a body of infinite mass, which takes any momentum and keeps no energy.
 
@@ -78,7 +78,7 @@ for label, family in (("point", points), ("corner", corners)):
 # it does not get that far.
 
 # %%
-figure, axes = plt.subplots(1, 2, figsize=(13, 6.2), layout="constrained")
+figure, axes = plt.subplots(2, 1, figsize=(7, 11), layout="constrained")
 plot.scene(corners[0.3], outline_a=OUTLINE, axes=axes[0], units="metric")
 plot.impulse_plane(corners[0.3], axes=axes[1], units="metric")
 

@@ -51,7 +51,7 @@ for kind in COURSES:
 # speed while the contact is frictionless. Without slip the speed along the contact counts as well.
 
 # %%
-figure, axes = plt.subplots(2, 2, figsize=(14, 12), layout="constrained")
+figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
 for kind, ax in zip(COURSES, axes.flat, strict=True):
     plot.scene(collide(kind, 0.1, 0.5), outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
     ax.set_title(f"{kind}, friction 0.5")

@@ -2,7 +2,7 @@
 # # Types of eccentric collision
 #
 # The front of A strikes the front door of B, its rear wing, half of its back or half of its front, types of the paper's
-# figure 12: the impulse passes beside a centre of mass, and the cars turn. One sees which way each turns, that friction can
+# figure 12: the impulse passes beside a centre of mass, and the cars turn. It shows which way each turns, that friction can
 # reverse it, and by how much a model without rotation is off.
 #
 # The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact without friction (eqs 10 to 19).
@@ -59,7 +59,7 @@ for kind in TYPES:
 # away.
 
 # %%
-figure, axes = plt.subplots(2, 2, figsize=(14, 12), layout="constrained")
+figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
 for kind, ax in zip(TYPES, axes.flat, strict=True):
     plot.scene(collide(kind, 0.5), outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
     ax.set_title(f"{kind}, friction 0.5")

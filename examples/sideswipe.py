@@ -2,7 +2,8 @@
 # # A sideswipe by its impulse ratio
 #
 # Two oncoming cars meet with their left front corners and scrape past each other, and the tangential impulse decides what
-# follows. One learns to give it by `impulse_ratio=`, how that differs from `friction=`, and what a wrong ratio costs.
+# follows. This example shows how to give it by `impulse_ratio=`, how that differs from `friction=`, and what a wrong ratio
+# costs.
 #
 # **The scene is invented.** `impulse_ratio` is tangential over normal impulse, *signed*, along the tangent on B. `friction`
 # is a bound without a sign: the solver finds the direction, and stops where slip stops. A ratio does neither.

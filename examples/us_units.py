@@ -2,7 +2,8 @@
 # # A whole case in US units
 #
 # An oblique frontal crash test of two vehicles, NHTSA 4474, from pounds, feet, miles per hour and degrees to the answer,
-# its derivation and a report in the same units. One learns where units are given and asked for, and which pound is which.
+# its derivation and a report in the same units. This example shows where units are given and asked for, and which pound is
+# which.
 #
 # The inputs are those printed for a Honda Accord and a Mitsubishi Montero in SAE 2006-01-0908, as they stand in pycrash
 # (github.com/joe-cormier/pycrash, test_inputs_rose.py). They were chosen so that the solution fits the test.
