@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A struck vehicle that turns about a fixed point
 #
-# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its other end. It shows how to
-# give a `pivot=`, to read what the pivot takes, and what would change if B were free.
+# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its other end. This page
+# shows how to give a `pivot=`, how to read what the pivot takes, and what would change if B were free.
 #
 # The paper is "Application of Impulse Momentum Theory to Vehicle Collisions". A (900 kg, 60 km/h) does not turn. B (1000
 # kg) stands and is a uniform rod, 4 m long. The restitution of 0.80 is the paper's and far above anything measured: an

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A car slides sideways into a pole
 #
-# A car that has lost its grip slides with its right side into a pole, off its centre of mass, and turns about it. One
-# learns how to give a fixed body, and that the distance off centre decides how much of the speed becomes delta-V and how
+# A car that has lost its grip slides with its right side into a pole, off its centre of mass, and turns about it. This
+# example shows how to give a fixed body, and that the distance off centre decides how much of the speed becomes delta-V and how
 # much rotation.
 #
 # **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its place is only needed to draw it:
