@@ -245,7 +245,7 @@ def test_two_answers_are_told_apart():
         both.report("html")
     assert solved("answer = 2\n" + text) == both.results[1]
     assert problems("answer = 3\n" + text) == ["answer: is 3, and 2 fit; write a number from 1 to 2"]
-    vague = text.replace("delta_v_a = 6", 'delta_v_a = "5.9 .. 6.1"')
+    vague = text.replace("delta_v_a = 6", 'delta_v_a = "5.9 m/s .. 6.1 m/s"')
     assert problems(vague)[0].startswith("answer: is not given, and 2 answers fit")
     found = answers(
         read_text(("answer = 2\n" + vague + "[propagate]\nmethod = 'monte_carlo'\nseed = 1\nsamples = 64\n").encode())
@@ -709,11 +709,19 @@ def test_directions_about_a_turn_with_their_unit_are_not_suspected(study):
     assert not [one for one in found.warnings if "is read as" in one]
 
 
-def test_a_bare_range_of_directions_is_suspected_once():
-    """Of the stated value alone, not of those that are drawn."""
-    found = answers(read_text(ECCENTRIC.replace('vx = "50 km/h"', 'speed = 14.0\ncourse = "6.5 .. 7"').encode()))
-    found.text()
-    assert len([one for one in found.warnings if "is read as rad" in one]) == 1
+def test_a_range_without_units_is_refused_where_a_unit_is_needed():
+    """As one number in a text is; of a share it is read."""
+    for key, range_, said in (
+        ("speed", "50 .. 60", "50 to 60"),
+        ("course", "6.5 .. 7", "6.5 to 7"),
+        ("mass", "3300 +/- 90", "3300 ± 90"),
+    ):
+        text = ECCENTRIC.replace('vx = "50 km/h"', "speed = 14.0\ncourse = 0.0")
+        text = re.sub(rf"^{key} = .*$", f'{key} = "{range_}"', text, count=1, flags=re.MULTILINE)
+        assert problems(text)[0].startswith(f"a.{key}: {said} has no unit; write one plain number and one unit, such as")
+    friction = re.sub("^friction = .*$", 'friction = "0.4 .. 0.7"', ECCENTRIC, flags=re.MULTILINE)
+    (one,) = read_text(friction.encode()).uncertain.values()
+    assert one.nominal == "0.55"
 
 
 def test_a_slider_for_what_an_impact_leaves_as_it_was(tmp_path, capsys):

@@ -96,8 +96,16 @@ class Call:
             return self.function(**arguments, **options)
         except CollisionsError as error:
             parts = error.fields.get("problems", (error,))
-            problems = [(self._place(part), str(part).removeprefix(f"{part.fields.get('argument')}: ")) for part in parts]
+            problems = [(self._place(part), self._said(part)) for part in parts]
             raise CaseError(*problems, refused=not isinstance(error, InputError), code=error.code) from error
+
+    def _said(self, error: CollisionsError) -> str:
+        """What an error says, without the name of its argument; of a range it names both ends, not what stands for them."""
+        text = str(error).removeprefix(f"{error.fields.get('argument')}: ")
+        for one in self.arguments.values():
+            if isinstance(one, Uncertain):
+                text = text.replace(f"cannot read {one.nominal!r}", f"{str(one.stated).partition(',')[0]} has no unit")
+        return text
 
     def _place(self, error: CollisionsError) -> str:
         """The key that an error is about: an argument, that of a vehicle, or the table."""
@@ -464,6 +472,8 @@ class _Reader:
             )
         elif middle is not None and hasattr(found.unit, "written"):
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
+        elif middle is not None and call.function is stated:
+            middle = f"{middle:.15g}"  # a text without a unit is refused where one is needed
         self.uncertain[key] = Uncertain(key, found, middle)
         return self.uncertain[key]
 
