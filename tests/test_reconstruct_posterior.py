@@ -506,6 +506,29 @@ def test_evidence_that_would_take_thousands_of_stages_is_refused_soon():
     assert len(calls) < 500 * 80  # sweeps of a stage at most, for the first islands
 
 
+def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
+    """Of the final samples, not of all the points on the way to them."""
+
+    def model(speed_b_after):
+        found = reconstruct.momentum(
+            1500.0,
+            1200.0,
+            course_a=0.0,
+            course_b=math.pi / 2,
+            course_a_after=0.1,
+            course_b_after=-0.3,
+            speed_a_after=5.0,
+            speed_b_after=speed_b_after,
+        )
+        return {"speed_b": found.speed_b}
+
+    with pytest.warns(col.OutOfRangeWarning, match="speed_b is below 0") as caught:
+        found = posterior(model, {"speed_b_after": Normal(2.0, 0.4)}, {"speed_b": Normal(0.0, 2.0)}, samples=512, seed=1)
+    below = int(np.sum(found["speed_b"].values < 0.0))
+    assert 0 < below < 512
+    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases"]
+
+
 def test_an_output_without_any_answer_has_no_figures():
     found = posterior(lambda x: {"s": x, "d": np.nan * x}, {"x": Normal(0.0, 1.0)}, {"s": (1.0, 1.0)}, samples=512, seed=1)
     output = found["d"]

@@ -132,6 +132,7 @@ def posterior(
         islands = list(problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress)))
         found = problem.result(islands, int(samples), seed)
     warn_of(notes_of(found))
+    problem.model.warn_of_noted(found.samples)
     return found
 
 
@@ -238,6 +239,7 @@ class _Problem:
             for one, count in zip(islands, counts.tolist(), strict=True)
         ]
         scores = np.concatenate(points)
+        self.model.noted.clear()  # of the way to the posterior
         values, answers = self.computed(scores, check=False)
         left_out = [_log_mean(np.delete(logs, k)) for k in range(len(logs))]
         squares, residuals = np.sum(scores[:, self.joint.ordered] ** 2, axis=1), {}

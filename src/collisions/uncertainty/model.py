@@ -13,7 +13,7 @@ from ..errors import CollisionsError, InputError, ShapeError
 from ..reading import ArgumentReader
 from ..settings import in_si
 from ..units import is_quantity, shown, si_unit
-from ..warning import Noted, quietly
+from ..warning import Noted, quietly, warn
 from . import angles
 from .distributions import pair_hints
 
@@ -56,6 +56,13 @@ class Model:
         if check and not self._checked:
             self._checked = check_elementwise(lambda cases, count: self._answers(cases, count, []), values, found)
         return found
+
+    def warn_of_noted(self, count: int) -> None:
+        """Warn once of everything that was noted, with how many of so many cases it is of."""
+        for about in dict.fromkeys(one[:3] for one in self.noted):
+            sentence, kind, code = about
+            cases = min(sum(one[3] for one in self.noted if one[:3] == about), count)
+            warn(kind(f"{cases} of {count} cases: {sentence}", code=code, cases=cases))
 
     def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> dict[str, Any]:
         for value in values.values():

@@ -16,7 +16,7 @@ from ..hints import hinted
 from ..progress import reporter
 from ..reading import ArgumentReader, is_whole
 from ..units import shown
-from ..warning import Noted, warn
+from ..warning import warn
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
@@ -189,7 +189,7 @@ def propagate(
             )
         outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
-    _warn(method, runs, len(places), count, failed, whole.noted)
+    _warn(method, runs, len(places), count, failed, whole)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
     return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted)
 
@@ -364,16 +364,13 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
     }
     outputs: dict[str, Output] = {name: Bounds(name, model.units[name], cases) for name, cases in ends.items()}
     run = Run({name: cases[0] for name, cases in ends.items()}, found.samples, found.failed, wrapped=found.wrapped)
-    _warn("interval", [run], 1, found.samples, found.failed, model.noted)
+    _warn("interval", [run], 1, found.samples, found.failed, model)
     return Propagation("interval", dict(stated), outputs, found.samples, found.failed)
 
 
-def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int, noted: Sequence[Noted]) -> None:
+def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model) -> None:
     """Warn of what was noted of cases, of cases left out, of a tolerance not reached, and of the limits of a local method."""
-    for about in dict.fromkeys(one[:3] for one in noted):
-        sentence, kind, code = about
-        cases = min(sum(one[3] for one in noted if one[:3] == about), count)
-        warn(kind(f"{cases} of {count} cases: {sentence}", code=code, cases=cases))
+    model.warn_of_noted(count)
     if method in LOCAL:
         _warn_if_not_local(method, runs, failed)
     elif failed:
