@@ -33,7 +33,9 @@ published = reference.RESTITUTION_FRONTAL_BARRIER
 print(f"restitution {published.typical}: {published.domain}; {published.source}")
 car = col.Vehicle(mass="1500 kg", vx="56 km/h", name="car")
 squares = [col.linear_central(car, WALL, e) for e in (0.0, published.typical, 1.0)]
-print(f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}{'crush':>8}{'EES':>8}{'lost':>9}")
+print(
+    f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}{'crush':>8}{'EES':>8}{'lost':>9}"
+)
 print(f"{'':>12}{'km/h':>13}{'km/h':>10}{'km/h':>8}{'km/h':>8}{'kJ':>9}")
 for impact in squares:
     (crush, _), (ees, _) = impact.max_crush_speeds(share_a=1.0), impact.ees(share_a=1.0)
@@ -54,14 +56,24 @@ for impact in squares:
 
 # %%
 NORMAL, ANGLE = "70 deg", math.radians(20)
-slanted = car.replace(vx="80 km/h", yaw_inertia="2600 kg*m**2", x=0.0, y=0.0, heading="0 deg")
+slanted = car.replace(
+    vx="80 km/h", yaw_inertia="2600 kg*m**2", x=0.0, y=0.0, heading="0 deg"
+)
 corner = slanted.point(forward="2.3 m", left="0.9 m")
-points = {mu: col.oblique_central(slanted, WALL, 0.1, normal=NORMAL, friction=mu) for mu in (0.0, 0.3, 0.6)}
-corners = {mu: col.eccentric(slanted, WALL, 0.1, normal=NORMAL, point=corner, friction=mu) for mu in (0.0, 0.3, 0.6)}
+points = {
+    mu: col.oblique_central(slanted, WALL, 0.1, normal=NORMAL, friction=mu)
+    for mu in (0.0, 0.3, 0.6)
+}
+corners = {
+    mu: col.eccentric(slanted, WALL, 0.1, normal=NORMAL, point=corner, friction=mu)
+    for mu in (0.0, 0.3, 0.6)
+}
 print(
     f"{'':<8}{'friction':>9}{'speed after':>13}{'course':>9}{'yaw':>8}{'delta-V':>10}{'crush':>7}{'lost':>7}{'by friction':>13}"
 )
-print(f"{'':<8}{'':>9}{'km/h':>13}{'deg':>9}{'deg/s':>8}{'km/h':>10}{'km/h':>7}{'kJ':>7}{'kJ':>13}")
+print(
+    f"{'':<8}{'':>9}{'km/h':>13}{'deg':>9}{'deg/s':>8}{'km/h':>10}{'km/h':>7}{'kJ':>7}{'kJ':>13}"
+)
 for label, family in (("point", points), ("corner", corners)):
     for mu, impact in family.items():
         after = impact.a.after
@@ -101,17 +113,24 @@ for impact in squares:
     assert math.isclose(impact.a.delta_v, (1 + e) * v, rel_tol=1e-13)
     assert math.isclose(impact.max_crush_speeds(1.0)[0], v, rel_tol=1e-13)
     assert math.isclose(impact.ees(1.0)[0], v * math.sqrt(1 - e**2), rel_tol=1e-13)
-    assert math.isclose(impact.energy_loss, 0.5 * car.mass * v**2 * (1 - e**2), rel_tol=1e-13)
+    assert math.isclose(
+        impact.energy_loss, 0.5 * car.mass * v**2 * (1 - e**2), rel_tol=1e-13
+    )
 
 
 def about_corner(body):
     """Angular momentum about the corner."""
-    return body.mass * ((body.x - corner[0]) * body.vy - (body.y - corner[1]) * body.vx) + body.yaw_inertia * body.yaw_rate
+    return (
+        body.mass * ((body.x - corner[0]) * body.vy - (body.y - corner[1]) * body.vx)
+        + body.yaw_inertia * body.yaw_rate
+    )
 
 
 for mu in points:
     leaves = points[mu].a.after.course + ANGLE  # from the wall
-    assert math.isclose(1 / math.tan(-leaves), (1 / math.tan(ANGLE) - mu) / 0.1 - mu, rel_tol=1e-13)
+    assert math.isclose(
+        1 / math.tan(-leaves), (1 / math.tan(ANGLE) - mu) / 0.1 - mu, rel_tol=1e-13
+    )
     for impact in (points[mu], corners[mu]):
         lost = slanted.kinetic_energy - impact.a.after.kinetic_energy
         assert abs(lost - impact.energy_loss) < 1e-13 * slanted.kinetic_energy

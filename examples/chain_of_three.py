@@ -42,8 +42,22 @@ def row(behind, ahead):
     """The three before, the front car at the origin, with a gap behind and one ahead of the middle car, bumper to bumper."""
     middle = -LENGTH - ahead
     return [
-        col.Vehicle(mass="1500 kg", vx="60 km/h", x=middle - LENGTH - behind, y=0.0, heading="0 deg", name="rear"),
-        col.Vehicle(mass="1200 kg", vx="30 km/h", x=middle, y=0.0, heading="0 deg", name="middle"),
+        col.Vehicle(
+            mass="1500 kg",
+            vx="60 km/h",
+            x=middle - LENGTH - behind,
+            y=0.0,
+            heading="0 deg",
+            name="rear",
+        ),
+        col.Vehicle(
+            mass="1200 kg",
+            vx="30 km/h",
+            x=middle,
+            y=0.0,
+            heading="0 deg",
+            name="middle",
+        ),
         col.Vehicle(mass="1400 kg", x=0.0, y=0.0, heading="0 deg", name="front"),
     ]
 
@@ -55,7 +69,10 @@ def row(behind, ahead):
 # positive forward.
 
 # %%
-SCENES = {"gap ahead of the middle car": row(1.0, 4.0), "gap behind the middle car": row(4.0, 1.0)}
+SCENES = {
+    "gap ahead of the middle car": row(1.0, 4.0),
+    "gap behind the middle car": row(4.0, 1.0),
+}
 played = {label: chain(cars, 0.2) for label, cars in SCENES.items()}
 for label, (track, impacts, cars) in played.items():
     print(f"{label}\n{'':<16}{'at':>6}{'closing':>10}{'delta-V, km/h':>21}{'lost':>8}")
@@ -65,7 +82,9 @@ for label, (track, impacts, cars) in played.items():
         striking, struck = (side.delta_v_forward * 3.6 for side in (impact.a, impact.b))
         numbers = f"{clock:>6.2f}{impact.closing_speed * 3.6:>10.1f}{striking:>+12.1f}{struck:>+9.1f}"
         print(f"{who:<16}{numbers}{impact.energy_loss / 1000:>8.1f}")
-    print("after:", ", ".join(f"{car.name} {car.vx * 3.6:.1f} km/h" for car in cars), "\n")
+    print(
+        "after:", ", ".join(f"{car.name} {car.vx * 3.6:.1f} km/h" for car in cars), "\n"
+    )
 
 # %% [markdown]
 # With the gap ahead, the middle car is first thrown forward and then stopped by its hardest impact, which also is that of the
@@ -76,12 +95,23 @@ for label, (track, impacts, cars) in played.items():
 figure, axes = plt.subplots(1, 2, figsize=(12, 5), sharey=True, layout="constrained")
 for ax, (label, (track, _, cars)) in zip(axes, played.items(), strict=True):
     last, places = track[-1]
-    track = [*track, (last + 0.3, [x + 0.3 * car.vx for x, car in zip(places, cars, strict=True)])]
+    track = [
+        *track,
+        (last + 0.3, [x + 0.3 * car.vx for x, car in zip(places, cars, strict=True)]),
+    ]
     clocks = [clock for clock, _ in track]
     for index, (car, hatch) in enumerate(zip(cars, ("//", "..", "\\\\"), strict=True)):
         middles = [xs[index] for _, xs in track]
         back, front = ([x + end for x in middles] for end in (-LENGTH / 2, LENGTH / 2))
-        ax.fill_between(clocks, back, front, alpha=0.45, hatch=hatch, edgecolor="white", label=f"{car.name}, back to front")
+        ax.fill_between(
+            clocks,
+            back,
+            front,
+            alpha=0.45,
+            hatch=hatch,
+            edgecolor="white",
+            label=f"{car.name}, back to front",
+        )
     for clock in clocks[1:-1]:
         ax.axvline(clock, color="0.3", lw=0.8, ls=":")
     ax.set(title=label, xlabel="time [s] (dotted: an impact)")
@@ -110,18 +140,36 @@ plot.momentum(max(every, key=lambda impact: impact.closing_speed), units="metric
 # %%
 for label, (track, impacts, after) in played.items():
     before = SCENES[label]
-    momentum, energy = (sum(values) for values in zip(*((car.momentum[0], car.kinetic_energy) for car in before), strict=True))
+    momentum, energy = (
+        sum(values)
+        for values in zip(
+            *((car.momentum[0], car.kinetic_energy) for car in before), strict=True
+        )
+    )
     assert math.isclose(sum(car.momentum[0] for car in after), momentum, rel_tol=1e-13)
     lost = sum(impact.energy_loss for impact in impacts)
-    assert abs(sum(car.kinetic_energy for car in after) + lost - energy) < 1e-13 * energy
-    centres = [sum(car.mass * x for car, x in zip(before, xs, strict=True)) for _, xs in track]
+    assert (
+        abs(sum(car.kinetic_energy for car in after) + lost - energy) < 1e-13 * energy
+    )
+    centres = [
+        sum(car.mass * x for car, x in zip(before, xs, strict=True)) for _, xs in track
+    ]
     for (clock, _), centre in zip(track, centres, strict=True):
         assert abs(centre - centres[0] - momentum * clock) < 1e-13 * abs(centres[0])
 
-equal = [car.replace(mass=1000, vx=speed) for car, speed in zip(row(1.0, 1.0), (10.0, 0.0, 0.0), strict=True)]
-assert all(abs(car.vx - speed) < 1e-13 for car, speed in zip(chain(equal, 1.0)[2], (0.0, 0.0, 10.0), strict=True))
+equal = [
+    car.replace(mass=1000, vx=speed)
+    for car, speed in zip(row(1.0, 1.0), (10.0, 0.0, 0.0), strict=True)
+]
+assert all(
+    abs(car.vx - speed) < 1e-13
+    for car, speed in zip(chain(equal, 1.0)[2], (0.0, 0.0, 10.0), strict=True)
+)
 
-exam = [car.replace(mass=mass, vx=vx) for car, mass, vx in zip(row(1.0, 1.0), (1, 2, 5), (14.0, 0.0, 0.0), strict=True)]
+exam = [
+    car.replace(mass=mass, vx=vx)
+    for car, mass, vx in zip(row(1.0, 1.0), (1, 2, 5), (14.0, 0.0, 0.0), strict=True)
+]
 struck, second, *_ = chain(exam, 0.5)[1]
 for car, speed in ((struck.a, 0.0), (struck.b, 7.0), (second.a, -0.5), (second.b, 3.0)):
     assert abs(car.after.vx - speed) < 1e-13

@@ -17,14 +17,28 @@ import collisions as col
 from collisions import plot
 
 OUTLINE = ("4.4 m", "1.8 m")
-A = col.Vehicle(mass="1500 kg", yaw_inertia="2500 kg*m**2", vx="50 km/h", x=-2.2, y=0.0, heading="0 deg", name="A")
+A = col.Vehicle(
+    mass="1500 kg",
+    yaw_inertia="2500 kg*m**2",
+    vx="50 km/h",
+    x=-2.2,
+    y=0.0,
+    heading="0 deg",
+    name="A",
+)
 B = A.replace(mass="1200 kg", yaw_inertia="1800 kg*m**2", vx=0.0, name="B")
 # The contact is a place on the front of A, at x = 0.
 TYPES = {
-    "front door": (B.replace(vy="40 km/h", x=0.9, y=-0.2, heading="90 deg"), (0.0, 0.0)),
+    "front door": (
+        B.replace(vy="40 km/h", x=0.9, y=-0.2, heading="90 deg"),
+        (0.0, 0.0),
+    ),
     "rear wing": (B.replace(vy="40 km/h", x=0.9, y=1.3, heading="90 deg"), (0.0, 0.0)),
     "half of the back": (B.replace(vx="20 km/h", x=2.2, y=-0.9), (0.0, -0.45)),
-    "half of the front": (B.replace(vx="-40 km/h", x=2.2, y=0.9, heading="180 deg"), (0.0, 0.45)),
+    "half of the front": (
+        B.replace(vx="-40 km/h", x=2.2, y=0.9, heading="180 deg"),
+        (0.0, 0.45),
+    ),
 }
 
 
@@ -40,12 +54,16 @@ def collide(kind, friction, solver=col.eccentric):
 # is off in delta-V and rotation together, as `required_model` measures it.
 
 # %%
-print(f"{'':<19}{'friction':>9}{'delta-V, km/h':>16}{'yaw after, deg/s':>19}{'without rotation':>19}")
+print(
+    f"{'':<19}{'friction':>9}{'delta-V, km/h':>16}{'yaw after, deg/s':>19}{'without rotation':>19}"
+)
 print(f"{'':<19}{'':>9}{'A':>8}{'B':>8}{'A':>11}{'B':>8}{'off by, km/h':>19}")
 for kind in TYPES:
     for friction in (0.0, 0.5):
         impact = collide(kind, friction)
-        off = 3.6 * collide(kind, friction, col.required_model).errors["oblique_central"]
+        off = (
+            3.6 * collide(kind, friction, col.required_model).errors["oblique_central"]
+        )
         a, b = impact.a, impact.b
         print(
             f"{kind:<19}{friction:>9}{a.delta_v * 3.6:>8.1f}{b.delta_v * 3.6:>8.1f}"
@@ -61,7 +79,13 @@ for kind in TYPES:
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
 for kind, ax in zip(TYPES, axes.flat, strict=True):
-    plot.scene(collide(kind, 0.5), outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
+    plot.scene(
+        collide(kind, 0.5),
+        outline_a=OUTLINE,
+        outline_b=OUTLINE,
+        axes=ax,
+        units="metric",
+    )
     ax.set_title(f"{kind}, friction 0.5")
 
 # %% [markdown]
@@ -82,30 +106,63 @@ FAR = (-30.0, 20.0)
 
 def spin(car):
     """Angular momentum about FAR."""
-    return car.mass * ((car.x - FAR[0]) * car.vy - (car.y - FAR[1]) * car.vx) + car.yaw_inertia * car.yaw_rate
+    return (
+        car.mass * ((car.x - FAR[0]) * car.vy - (car.y - FAR[1]) * car.vx)
+        + car.yaw_inertia * car.yaw_rate
+    )
 
 
 for kind, (_, point) in TYPES.items():
     for friction in (0.0, 0.5):
         impact = collide(kind, friction)
-        a, b, a_after, b_after = impact.a.before, impact.b.before, impact.a.after, impact.b.after
+        a, b, a_after, b_after = (
+            impact.a.before,
+            impact.b.before,
+            impact.a.after,
+            impact.b.after,
+        )
         size = a.momentum[0]
         for axis in (0, 1):
-            left_over = a_after.momentum[axis] + b_after.momentum[axis] - a.momentum[axis] - b.momentum[axis]
+            left_over = (
+                a_after.momentum[axis]
+                + b_after.momentum[axis]
+                - a.momentum[axis]
+                - b.momentum[axis]
+            )
             assert abs(left_over) < 1e-12 * size
-        assert abs(spin(a_after) + spin(b_after) - spin(a) - spin(b)) < 1e-12 * size * math.hypot(*FAR)
+        assert abs(
+            spin(a_after) + spin(b_after) - spin(a) - spin(b)
+        ) < 1e-12 * size * math.hypot(*FAR)
         energies = [car.kinetic_energy for car in (a, b, a_after, b_after)]
-        assert abs(energies[0] + energies[1] - energies[2] - energies[3] - impact.energy_loss) < 1e-12 * energies[0]
-        met, part = a.vx - b.vx, b_after.velocity_at(point)[0] - a_after.velocity_at(point)[0]
+        assert (
+            abs(
+                energies[0]
+                + energies[1]
+                - energies[2]
+                - energies[3]
+                - impact.energy_loss
+            )
+            < 1e-12 * energies[0]
+        )
+        met, part = (
+            a.vx - b.vx,
+            b_after.velocity_at(point)[0] - a_after.velocity_at(point)[0],
+        )
         assert abs(part - 0.1 * met) < 1e-12 * met
         levers = sum((point[1] - car.y) ** 2 / car.yaw_inertia for car in (a, b))
         if friction == 0.0:
-            assert math.isclose(impact.normal_impulse, 1.1 * met / (1 / a.mass + 1 / b.mass + levers), rel_tol=1e-12)
+            assert math.isclose(
+                impact.normal_impulse,
+                1.1 * met / (1 / a.mass + 1 / b.mass + levers),
+                rel_tol=1e-12,
+            )
 
 twin = A.replace(vx="-50 km/h", x=2.2, y=0.9, heading="180 deg")
 head_on = col.eccentric(A, twin, 0.1, normal="0 deg", point=(0.0, 0.45), friction=0.0)
 impulse = 1.1 * A.vx / (1 / A.mass + 0.45**2 / A.yaw_inertia)
 assert math.isclose(head_on.normal_impulse, impulse, rel_tol=1e-12)
 for side in (head_on.a, head_on.b):
-    assert math.isclose(side.after.yaw_rate, 0.45 * impulse / A.yaw_inertia, rel_tol=1e-12)
+    assert math.isclose(
+        side.after.yaw_rate, 0.45 * impulse / A.yaw_inertia, rel_tol=1e-12
+    )
 print("all checks passed")

@@ -61,7 +61,12 @@ def found_of(impact):
 def distance(impact):
     """Largest difference from Example 2, each as a fraction of its closing speed, 1, and its energy."""
     scales = (*[impact.closing_speed] * 4, 1.0, TRUTH["energy_loss"])
-    return max(abs(ours - true) / scale for ours, true, scale in zip(found_of(impact), TRUTH.values(), scales, strict=True))
+    return max(
+        abs(ours - true) / scale
+        for ours, true, scale in zip(
+            found_of(impact), TRUTH.values(), scales, strict=True
+        )
+    )
 
 
 RESULTS = []
@@ -71,11 +76,15 @@ for names in itertools.combinations(TRUTH, 3):
     best = solutions[0]
     condition = best.reconstruction.condition if best.reconstruction else math.nan
     other = (
-        f"va = {solutions[1].a.before.q.vx.m_as('km/h'):.1f} km/h, e = {solutions[1].restitution:.2f}" if solutions[1:] else ""
+        f"va = {solutions[1].a.before.q.vx.m_as('km/h'):.1f} km/h, e = {solutions[1].restitution:.2f}"
+        if solutions[1:]
+        else ""
     )
     shown = "-" if math.isnan(condition) else f"{condition:.1f}"
     print(f"{', '.join(names):<42}{len(solutions):>8}{shown:>11}   {other}".rstrip())
-    RESULTS.append((names, distance(best), 1.0 if math.isnan(condition) else max(1.0, condition)))
+    RESULTS.append(
+        (names, distance(best), 1.0 if math.isnan(condition) else max(1.0, condition))
+    )
 
 # %% [markdown]
 # ## Checks

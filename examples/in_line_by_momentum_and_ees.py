@@ -17,7 +17,12 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append((f"{label}: {ours:.8g}, expected {expected:.8g}", abs(ours - expected) <= within))
+    CHECKS.append(
+        (
+            f"{label}: {ours:.8g}, expected {expected:.8g}",
+            abs(ours - expected) <= within,
+        )
+    )
 
 
 # %% [markdown]
@@ -28,7 +33,9 @@ def check(label, ours, expected, within):
 
 # %%
 together = travel.speed("66 ft", drag=0.65)
-stood = reconstruct.central("3000 lb", "4000 lb", va_after=together, vb_after=together, vb=0.0)
+stood = reconstruct.central(
+    "3000 lb", "4000 lb", va_after=together, vb_after=together, vb=0.0
+)
 print(
     f"common speed {together / MPH:.2f} mph, impact speed {stood.a.before.vx / MPH:.2f} mph, restitution {stood.restitution:g}"
 )
@@ -45,12 +52,18 @@ print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 # %%
 mass_a, mass_b = stood.a.before.mass, stood.b.before.mass
 EES = {"low": (0.9 * 52, 0.9 * 31), "as judged": (52, 31), "high": (1.1 * 52, 1.1 * 31)}
-print(f"{'EES':<12}{'energy, kJ':>11}{'striking, mph':>15}{'struck, mph':>13}{'closing, mph':>14}")
+print(
+    f"{'EES':<12}{'energy, kJ':>11}{'striking, mph':>15}{'struck, mph':>13}{'closing, mph':>14}"
+)
 judged = {}
 for label, (ees_a, ees_b) in EES.items():
     energy = 0.5 * mass_a * (ees_a * MPH) ** 2 + 0.5 * mass_b * (ees_b * MPH) ** 2
-    impact = reconstruct.central(mass_a, mass_b, va_after=together, vb_after=together, energy_loss=energy)
-    closing = reconstruct.inline_closing_speed(mass_a, mass_b, 0.0, ees_a=f"{ees_a} mph", ees_b=f"{ees_b} mph")
+    impact = reconstruct.central(
+        mass_a, mass_b, va_after=together, vb_after=together, energy_loss=energy
+    )
+    closing = reconstruct.inline_closing_speed(
+        mass_a, mass_b, 0.0, ees_a=f"{ees_a} mph", ees_b=f"{ees_b} mph"
+    )
     judged[label] = impact, closing
     print(
         f"{label:<12}{energy / 1000:>11.0f}{impact.a.before.vx / MPH:>15.1f}{impact.b.before.vx / MPH:>13.1f}"
@@ -72,10 +85,17 @@ for label, (ees_a, ees_b) in EES.items():
 
 # %%
 RABBIT, MERCEDES = 880.0, 1600.0
-AFTER = {"speed_a_after": "35 km/h", "course_a_after": "-9 deg", "speed_b_after": "51 km/h", "course_b_after": "182 deg"}
+AFTER = {
+    "speed_a_after": "35 km/h",
+    "course_a_after": "-9 deg",
+    "speed_b_after": "51 km/h",
+    "course_b_after": "182 deg",
+}
 refusal = None
 try:
-    reconstruct.central(RABBIT, MERCEDES, va_after="35 km/h", vb_after="-51 km/h", energy_loss="250 kJ")
+    reconstruct.central(
+        RABBIT, MERCEDES, va_after="35 km/h", vb_after="-51 km/h", energy_loss="250 kJ"
+    )
 except col.NoSolutionError as error:
     refusal = error
     print(f"{error.code}: {error}")
@@ -90,7 +110,9 @@ def with_course(degrees):
     """Both speeds before for a course of the Mercedes, and what was warned of."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = reconstruct.momentum(RABBIT, MERCEDES, course_a="0 deg", course_b=f"{degrees!r} deg", **AFTER)
+        found = reconstruct.momentum(
+            RABBIT, MERCEDES, course_a="0 deg", course_b=f"{degrees!r} deg", **AFTER
+        )
     return found, [warning.message for warning in caught]
 
 
@@ -99,7 +121,9 @@ print(f"{'deg':<24}{'km/h':>8}{'km/h':>10}{'kJ':>13}")
 for degrees in (183.0, 184.0, 185.0):
     found, warned = with_course(degrees)
     speeds = 3.6 * found.speed_a, 3.6 * found.speed_b
-    print(f"{degrees:<24g}{speeds[0]:>8.1f}{speeds[1]:>10.1f}{found.translational_energy_loss / 1000:>13.0f}")
+    print(
+        f"{degrees:<24g}{speeds[0]:>8.1f}{speeds[1]:>10.1f}{found.translational_energy_loss / 1000:>13.0f}"
+    )
 _, warned = with_course(184.0)
 print(f"{warned[0].code}: {warned[0]}")
 
@@ -115,7 +139,9 @@ print(f"{warned[0].code}: {warned[0]}")
 def rotation(mass, wheelbase, length, friction, degrees):
     """Yaw inertia, yaw rate at separation and its energy."""
     inertia = 0.1269 * mass * wheelbase * length
-    yaw_rate = math.sqrt(friction * mass * 9.81 * wheelbase * math.radians(degrees) / inertia)
+    yaw_rate = math.sqrt(
+        friction * mass * 9.81 * wheelbase * math.radians(degrees) / inertia
+    )
     return inertia, yaw_rate, 0.5 * inertia * yaw_rate**2
 
 
@@ -130,11 +156,17 @@ def course_with(energy):
     low, high = 182.5, 190.0
     for _ in range(50):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if with_course(middle)[0].translational_energy_loss > energy else (low, middle)
+        low, high = (
+            (middle, high)
+            if with_course(middle)[0].translational_energy_loss > energy
+            else (low, middle)
+        )
     return low
 
 
-print(f"{'energy':<14}{'course of the Mercedes':>23}{'Rabbit':>9}{'Mercedes':>10}{'delta-V of the Rabbit':>23}")
+print(
+    f"{'energy':<14}{'course of the Mercedes':>23}{'Rabbit':>9}{'Mercedes':>10}{'delta-V of the Rabbit':>23}"
+)
 print(f"{'kJ':<14}{'deg':>23}{'km/h':>9}{'km/h':>10}{'km/h':>23}")
 for share in (0.9, 1.0, 1.1):
     degrees = course_with(share * wanted)
@@ -172,7 +204,9 @@ check("X01, course of the Mercedes", head_on[0], 183.8697, 0.00005)
 check("X01, speed of the Rabbit", 3.6 * head_on[1].speed_a, 70.6832, 0.00005)
 check("X01, speed of the Mercedes", 3.6 * head_on[1].speed_b, 70.9936, 0.00005)
 check("X01, delta-V of the Rabbit", 3.6 * head_on[1].delta_v_a, 36.5268, 0.00005)
-CHECKS.append(("in line is refused", refusal is not None and refusal.code == "not_separating"))
+CHECKS.append(
+    ("in line is refused", refusal is not None and refusal.code == "not_separating")
+)
 CHECKS.append(("nearly collinear is warned of", warned[0].code == "nearly_collinear"))
 
 failed = [label for label, good in CHECKS if not good]

@@ -27,7 +27,10 @@ CHECKS = []
 def check(label, found, expected, within, unit=""):
     """Remember a comparison; all of them are judged at the end."""
     CHECKS.append(
-        (f"{label}: {found:.6g} {unit}, expected {expected:.6g} within {within:.2g}", abs(found - expected) <= within)
+        (
+            f"{label}: {found:.6g} {unit}, expected {expected:.6g} within {within:.2g}",
+            abs(found - expected) <= within,
+        )
     )
 
 
@@ -50,14 +53,35 @@ PATHS = {
         "lock": 0.6,
     },
     "B": {
-        "points": [(0.8, -0.7), (2.4, 1.9), (4.0, 4.4), (5.4, 6.5), (7.2, 9.0), (8.7, 11.0), (10.2, 13.0), (13.0, 16.5)],
+        "points": [
+            (0.8, -0.7),
+            (2.4, 1.9),
+            (4.0, 4.4),
+            (5.4, 6.5),
+            (7.2, 9.0),
+            (8.7, 11.0),
+            (10.2, 13.0),
+            (13.0, 16.5),
+        ],
         "headings": [90, 50, 15, -15, -55, -80, -100, -105],
-        "friction": [0.7, 0.7, 0.7, 0.7, 0.45, 0.45, 0.45],  # asphalt, then grass from y = 9 m
+        "friction": [
+            0.7,
+            0.7,
+            0.7,
+            0.7,
+            0.45,
+            0.45,
+            0.45,
+        ],  # asphalt, then grass from y = 9 m
         "lock": 0.3,
     },
 }
-CAR_A = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.1, y=-0.1, heading="0 deg", name="A")
-CAR_B = col.Vehicle(mass=1250, yaw_inertia=1900, x=0.8, y=-0.7, heading="90 deg", name="B")
+CAR_A = col.Vehicle(
+    mass=1500, yaw_inertia=2500, x=-2.1, y=-0.1, heading="0 deg", name="A"
+)
+CAR_B = col.Vehicle(
+    mass=1250, yaw_inertia=1900, x=0.8, y=-0.7, heading="90 deg", name="B"
+)
 CONTACT = {"normal": "0 deg", "point": (0.0, 0.2), "friction": 0.25}
 RESTITUTION = 0.1
 COURSES = {"course_a": "0 deg", "course_b": "90 deg"}
@@ -74,7 +98,9 @@ COURSES = {"course_a": "0 deg", "course_b": "90 deg"}
 def run_out(name):
     found = PATHS[name]
     degrees = [f"{heading} deg" for heading in found["headings"]]
-    return travel.path(found["points"], degrees, friction=found["friction"], lock=found["lock"])
+    return travel.path(
+        found["points"], degrees, friction=found["friction"], lock=found["lock"]
+    )
 
 
 def full_friction(name):
@@ -84,7 +110,9 @@ def full_friction(name):
 
 
 runs = {name: run_out(name) for name in PATHS}
-print(f"{'':<4}{'speed':>8}{'if full friction':>19}{'course':>10}{'straight line':>16}{'yaw rate':>12}")
+print(
+    f"{'':<4}{'speed':>8}{'if full friction':>19}{'course':>10}{'straight line':>16}{'yaw rate':>12}"
+)
 print(f"{'':<4}{'km/h':>8}{'km/h':>19}{'deg':>10}{'deg':>16}{'deg/s':>12}")
 for name, run in runs.items():
     print(
@@ -105,7 +133,11 @@ for name, run in runs.items():
 def separated(runs):
     """Both cars at separation."""
     return tuple(
-        car.replace(vx=run.speed * math.cos(run.course), vy=run.speed * math.sin(run.course), yaw_rate=run.yaw_rate)
+        car.replace(
+            vx=run.speed * math.cos(run.course),
+            vy=run.speed * math.sin(run.course),
+            yaw_rate=run.yaw_rate,
+        )
         for car, run in zip((CAR_A, CAR_B), runs, strict=True)
     )
 
@@ -126,7 +158,9 @@ a_after, b_after = separated(runs.values())
 momentum = momentum_of(a_after, b_after, COURSES)
 planar = reconstruct.planar(a_after, b_after, restitution=RESTITUTION, **CONTACT)
 
-print(f"{'':<12}{'speed A':>9}{'speed B':>9}{'course A':>10}{'course B':>10}{'yaw A':>8}{'yaw B':>8}{'condition':>11}")
+print(
+    f"{'':<12}{'speed A':>9}{'speed B':>9}{'course A':>10}{'course B':>10}{'yaw A':>8}{'yaw B':>8}{'condition':>11}"
+)
 print(f"{'':<12}{'km/h':>9}{'km/h':>9}{'deg':>10}{'deg':>10}{'deg/s':>8}{'deg/s':>8}")
 print(
     f"{'momentum':<12}{kmh(momentum.speed_a):>9.1f}{kmh(momentum.speed_b):>9.1f}{'given 0':>10}{'given 90':>10}{'-':>8}{'-':>8}"
@@ -148,7 +182,10 @@ print(
 COURSE_NAMES = ("course_a", "course_b", "course_a_after", "course_b_after")
 print(f"{'km/h per degree of':<20}" + "".join(f"{name:>16}" for name in COURSE_NAMES))
 for answer, row in momentum.sensitivity.q.items():
-    print(f"{answer:<20}" + "".join(f"{row[name].m_as('km/h/deg'):>z16.2f}" for name in COURSE_NAMES))
+    print(
+        f"{answer:<20}"
+        + "".join(f"{row[name].m_as('km/h/deg'):>z16.2f}" for name in COURSE_NAMES)
+    )
 
 # %% [markdown]
 # ## Step 3: forward again
@@ -164,7 +201,10 @@ forward = col.eccentric(*start, RESTITUTION, **CONTACT)
 print(f"{'':<26}{'speed':>8}{'course':>9}{'yaw rate':>10}")
 print(f"{'':<26}{'km/h':>8}{'deg':>9}{'deg/s':>10}")
 for name, marks, side in (("A", a_after, forward.a), ("B", b_after, forward.b)):
-    for label, car in (("from the marks", marks), ("momentum, then eccentric", side.after)):
+    for label, car in (
+        ("from the marks", marks),
+        ("momentum, then eccentric", side.after),
+    ):
         numbers = f"{kmh(car.speed):>8.1f}{math.degrees(car.course):>9.1f}{math.degrees(car.yaw_rate):>10.0f}"
         print(f"{name} {label:<24}{numbers}")
 print(f"contact: {forward.regime}, closing speed {kmh(forward.closing_speed):.1f} km/h")
@@ -218,9 +258,16 @@ def separation(inputs):
     surfaces = {"A": asphalt, "B": [asphalt] * 4 + [grass] * 3}
     for name, car in (("A", CAR_A), ("B", CAR_B)):
         headings = [f"{heading} deg" for heading in PATHS[name]["headings"]]
-        run = travel.path(moved(name, inputs), headings, friction=surfaces[name], lock=inputs[f"lock of {name}"])
+        run = travel.path(
+            moved(name, inputs),
+            headings,
+            friction=surfaces[name],
+            lock=inputs[f"lock of {name}"],
+        )
         vx, vy = run.speed * np.cos(run.course), run.speed * np.sin(run.course)
-        yield car.replace(mass=inputs[f"mass of {name}"], vx=vx, vy=vy, yaw_rate=run.yaw_rate)
+        yield car.replace(
+            mass=inputs[f"mass of {name}"], vx=vx, vy=vy, yaw_rate=run.yaw_rate
+        )
 
 
 def scene(**inputs):
@@ -230,9 +277,15 @@ def scene(**inputs):
     found = momentum_of(*ends, courses)
     before = [
         end.replace(vx=speed * np.cos(course), vy=speed * np.sin(course), yaw_rate=0.0)
-        for end, speed, course in zip(ends, (found.speed_a, found.speed_b), courses.values(), strict=True)
+        for end, speed, course in zip(
+            ends, (found.speed_a, found.speed_b), courses.values(), strict=True
+        )
     ]
-    contact = {"normal": inputs["normal"], "point": CONTACT["point"], "friction": inputs["friction of the contact"]}
+    contact = {
+        "normal": inputs["normal"],
+        "point": CONTACT["point"],
+        "friction": inputs["friction of the contact"],
+    }
     impact = col.eccentric(*before, inputs["restitution"], **contact, on_failure="nan")
     return {
         "speed of A": found.q.speed_a,
@@ -243,7 +296,9 @@ def scene(**inputs):
 
 
 result = propagate(scene, INPUTS, method="quasi_random", samples=8192, seed=4)
-print(f"given the stated inputs, {result.samples} cases, {result.failed} without an answer")
+print(
+    f"given the stated inputs, {result.samples} cases, {result.failed} without an answer"
+)
 for name in result:
     low, high = result[name].interval(0.95)
     print(
@@ -257,18 +312,28 @@ for name in result:
 
 # %%
 answers = ("speed of A", "speed of B", "delta-V of A")
-figure, charts = plt.subplots(1, 3, figsize=(11.5, 4.4), sharey=True, layout="constrained")
-total = {name: sum(result[answer].contributions[name] for answer in answers) for name in INPUTS}
+figure, charts = plt.subplots(
+    1, 3, figsize=(11.5, 4.4), sharey=True, layout="constrained"
+)
+total = {
+    name: sum(result[answer].contributions[name] for answer in answers)
+    for name in INPUTS
+}
 ranked = sorted(INPUTS, key=total.__getitem__)
 for chart, answer in zip(charts, answers, strict=True):
     shares = [result[answer].contributions[name] for name in ranked]
     chart.barh(ranked, [100.0 * max(share, 0.0) for share in shares], color="#3b6ea5")
-    chart.set_title(f"{answer}: {kmh(result[answer].mean):.0f} ± {kmh(result[answer].std):.1f} km/h", fontsize=10)
+    chart.set_title(
+        f"{answer}: {kmh(result[answer].mean):.0f} ± {kmh(result[answer].std):.1f} km/h",
+        fontsize=10,
+    )
     chart.set_xlabel("share of the variance [%]")
     chart.spines[["top", "right"]].set_visible(False)
 for answer in answers:
     first, second, *_, last = result[answer].contributions.items()
-    print(f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}\n{'':>10}least: {last[0]} {max(last[1], 0.0):.0%}")
+    print(
+        f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}\n{'':>10}least: {last[0]} {max(last[1], 0.0):.0%}"
+    )
 
 # %% [markdown]
 # ## Checks
@@ -285,29 +350,76 @@ for answer in answers:
 # %%
 for label, found, end in (("A", again.a.after, a_after), ("B", again.b.after, b_after)):
     for name in ("vx", "vy", "yaw_rate"):
-        check(f"planar undone, {label}.{name}", getattr(found, name), getattr(end, name), 1e-10)
+        check(
+            f"planar undone, {label}.{name}",
+            getattr(found, name),
+            getattr(end, name),
+            1e-10,
+        )
 
 
 def difference(**inputs):
     ends = tuple(separation(inputs))
-    found = momentum_of(*ends, {"course_a": inputs["course of A"], "course_b": inputs["course of B"]})
-    planar = reconstruct.planar(*ends, restitution=RESTITUTION, **CONTACT, on_failure="nan")
-    return {"A": found.speed_a - planar.a.before.speed, "B": found.speed_b - planar.b.before.speed}
+    found = momentum_of(
+        *ends, {"course_a": inputs["course of A"], "course_b": inputs["course of B"]}
+    )
+    planar = reconstruct.planar(
+        *ends, restitution=RESTITUTION, **CONTACT, on_failure="nan"
+    )
+    return {
+        "A": found.speed_a - planar.a.before.speed,
+        "B": found.speed_b - planar.b.before.speed,
+    }
 
 
-as_taken = {name: value.mean for name, value in INPUTS.items()} | {"lock of B": PATHS["B"]["lock"]}
-read = {name: value for name, value in INPUTS.items() if "position" in name or "course" in name}
+as_taken = {name: value.mean for name, value in INPUTS.items()} | {
+    "lock of B": PATHS["B"]["lock"]
+}
+read = {
+    name: value
+    for name, value in INPUTS.items()
+    if "position" in name or "course" in name
+}
 apart = propagate(difference, {**as_taken, **read}, method="quasi_random", seed=4)
-for name, one, other in (("A", momentum.speed_a, before[0].speed), ("B", momentum.speed_b, before[1].speed)):
-    check(f"momentum and planar, {name}", kmh(one), kmh(other), 2.0 * kmh(apart[name].std), "km/h")
+for name, one, other in (
+    ("A", momentum.speed_a, before[0].speed),
+    ("B", momentum.speed_b, before[1].speed),
+):
+    check(
+        f"momentum and planar, {name}",
+        kmh(one),
+        kmh(other),
+        2.0 * kmh(apart[name].std),
+        "km/h",
+    )
     low, high = result[f"speed of {name}"].interval(0.95)
     CHECKS.append((f"speed of {name} within its range", low < one < high))
-for name, marks, found in (("A", a_after, forward.a.after), ("B", b_after, forward.b.after)):
+for name, marks, found in (
+    ("A", a_after, forward.a.after),
+    ("B", b_after, forward.b.after),
+):
     check(f"forward, speed of {name}", kmh(found.speed), kmh(marks.speed), 1.5, "km/h")
-    check(f"forward, course of {name}", math.degrees(found.course), math.degrees(marks.course), 3.0, "deg")
-    check(f"forward, yaw rate of {name}", math.degrees(found.yaw_rate), math.degrees(marks.yaw_rate), 20.0, "deg/s")
+    check(
+        f"forward, course of {name}",
+        math.degrees(found.course),
+        math.degrees(marks.course),
+        3.0,
+        "deg",
+    )
+    check(
+        f"forward, yaw rate of {name}",
+        math.degrees(found.yaw_rate),
+        math.degrees(marks.yaw_rate),
+        20.0,
+        "deg/s",
+    )
 CHECKS.append(("every case was answered", result.failed == apart.failed == 0))
-CHECKS.append(("what the inputs bring adds up", all(0.9 < sum(result[name].contributions.values()) < 1.1 for name in answers)))
+CHECKS.append(
+    (
+        "what the inputs bring adds up",
+        all(0.9 < sum(result[name].contributions.values()) < 1.1 for name in answers),
+    )
+)
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

@@ -18,19 +18,42 @@ import collisions as col
 from collisions import plot
 
 LENGTH, RESTITUTION = 4.0, 0.80
-A = col.Vehicle(mass="900 kg", vx="60 km/h", yaw_inertia=math.inf, x=-1.2, y=LENGTH, heading="0 deg", name="A")
+A = col.Vehicle(
+    mass="900 kg",
+    vx="60 km/h",
+    yaw_inertia=math.inf,
+    x=-1.2,
+    y=LENGTH,
+    heading="0 deg",
+    name="A",
+)
 B = col.Vehicle(
-    mass="1000 kg", yaw_inertia=1000 * LENGTH**2 / 12, x=0.0, y=LENGTH / 2, heading="90 deg", pivot=(0.0, 0.0), name="B"
+    mass="1000 kg",
+    yaw_inertia=1000 * LENGTH**2 / 12,
+    x=0.0,
+    y=LENGTH / 2,
+    heading="90 deg",
+    pivot=(0.0, 0.0),
+    name="B",
 )
 
 
 def struck(b, height=LENGTH):
     """A against B at a height above O: an array of heights for many impacts."""
-    return col.eccentric(A.replace(y=height), b, RESTITUTION, normal="0 deg", point=(0.0, height), friction=0.0)
+    return col.eccentric(
+        A.replace(y=height),
+        b,
+        RESTITUTION,
+        normal="0 deg",
+        point=(0.0, height),
+        friction=0.0,
+    )
 
 
 pinned = struck(B)
-axes = plot.scene(pinned, outline_a=("2 m", "1 m"), outline_b=("4 m", "0.4 m"), units="metric")
+axes = plot.scene(
+    pinned, outline_a=("2 m", "1 m"), outline_b=("4 m", "0.4 m"), units="metric"
+)
 
 # %% [markdown]
 # ## The inertia
@@ -52,10 +75,17 @@ for label, paper, unit, read in (
     ("velocity of A after", "8.55", "m/s", lambda impact: impact.a.after.q.vx),
     ("velocity of B's centre after", "", "m/s", lambda impact: impact.b.after.q.vx),
     ("impulse on B at the contact", "", "kN*s", lambda impact: impact.q.normal_impulse),
-    ("impulse on B at the pivot", "", "kN*s", lambda impact: impact.b.q.pivot_impulse_x),
+    (
+        "impulse on B at the pivot",
+        "",
+        "kN*s",
+        lambda impact: impact.b.q.pivot_impulse_x,
+    ),
     ("energy lost", "", "kJ", lambda impact: impact.q.energy_loss),
 ):
-    print(f"{f'{label}, {unit}':<34}{paper:>9}{read(pinned).m_as(unit):>9.2f}{read(free).m_as(unit):>9.2f}")
+    print(
+        f"{f'{label}, {unit}':<34}{paper:>9}{read(pinned).m_as(unit):>9.2f}{read(free).m_as(unit):>9.2f}"
+    )
 
 # %% [markdown]
 # The paper prints the size of the yaw rate; counter-clockwise is positive here, and B turns clockwise. Its 8.55 is cut off.
@@ -68,12 +98,19 @@ heights = np.linspace(0.5, LENGTH, 200)
 many = struck(B, heights)
 percussion = 2 / 3 * LENGTH
 figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
-axes.plot(heights, many.q.normal_impulse.m_as("kN*s"), "k-", label="of A, at the contact")
+axes.plot(
+    heights, many.q.normal_impulse.m_as("kN*s"), "k-", label="of A, at the contact"
+)
 axes.plot(heights, many.b.q.pivot_impulse_x.m_as("kN*s"), "k--", label="of the pivot")
 axes.axhline(0.0, color="0.6", linewidth=0.8)
 axes.axvline(percussion, color="0.6", linewidth=0.8)
-axes.set(xlabel="height of the contact above O [m]", ylabel="impulse on B, to the right [kN s]")
-legend = axes.legend(loc="lower right", title="the vertical line is at two thirds of the length")
+axes.set(
+    xlabel="height of the contact above O [m]",
+    ylabel="impulse on B, to the right [kN s]",
+)
+legend = axes.legend(
+    loc="lower right", title="the vertical line is at two thirds of the length"
+)
 
 # %% [markdown]
 # So a pivot that is assumed where there is none, or forgotten where a wheel stood against a kerb, is no detail. What it had
@@ -95,7 +132,9 @@ assert abs(va - 8.55) < 0.01
 assert math.isclose(turn, -405 / 74, rel_tol=1e-12)
 assert math.isclose(va, 950 / 111, rel_tol=1e-12)
 
-gained = sum(side.after.momentum[0] - side.before.momentum[0] for side in (pinned.a, pinned.b))
+gained = sum(
+    side.after.momentum[0] - side.before.momentum[0] for side in (pinned.a, pinned.b)
+)
 assert math.isclose(gained, pinned.b.pivot_impulse_x, rel_tol=1e-12)
 about_o = A.mass * va * LENGTH - (B.yaw_inertia + B.mass * (LENGTH / 2) ** 2) * turn
 assert math.isclose(about_o, A.mass * A.vx * LENGTH, rel_tol=1e-12)

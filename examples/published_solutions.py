@@ -23,7 +23,16 @@ from pathlib import Path
 
 # Above this file or, as a notebook, above the folder it runs in.
 ABOVE = Path(globals().get("__file__", "notebook")).resolve().parents
-sys.path.insert(0, str(next(folder / "validation" for folder in ABOVE if (folder / "validation" / "run.py").is_file())))
+sys.path.insert(
+    0,
+    str(
+        next(
+            folder / "validation"
+            for folder in ABOVE
+            if (folder / "validation" / "run.py").is_file()
+        )
+    ),
+)
 
 import published_cases
 import solutions
@@ -59,8 +68,12 @@ print(inspect.getsource(solutions.oblique_impact))
 # the law is part of the answer and belongs beside it.
 
 # %%
-print(f"{'test':<5}{'vehicle':<29}{'delta-V, mph':>19}{'change of yaw rate, deg/s':>32}")
-print(f"{'':<34}{'printed':>8}{'brach':>7}{'kudlich-':>10}{'printed':>11}{'brach':>7}{'kudlich-':>10}")
+print(
+    f"{'test':<5}{'vehicle':<29}{'delta-V, mph':>19}{'change of yaw rate, deg/s':>32}"
+)
+print(
+    f"{'':<34}{'printed':>8}{'brach':>7}{'kudlich-':>10}{'printed':>11}{'brach':>7}{'kudlich-':>10}"
+)
 print(f"{'':<34}{'':>8}{'':>7}{'slibar':>10}{'':>11}{'':>7}{'slibar':>10}")
 for case, test in solutions.TESTS.items():
     rows = solutions.oblique_rows(case)
@@ -68,16 +81,37 @@ for case, test in solutions.TESTS.items():
     figures = solutions.nhtsa_oblique(case)
     for i, row in zip("12", rows, strict=True):
         delta_v, turn = figures[f"dV{i}"], figures[f"d_omega{i}"]
-        printed_v, printed_turn = row["published_delta_v_mph"], row["published_delta_yaw_rate_deg_s"]
+        printed_v, printed_turn = (
+            row["published_delta_v_mph"],
+            row["published_delta_yaw_rate_deg_s"],
+        )
         print(
             f"{test:<5}{row['vehicle']:<29}{printed_v:>8}{delta_v['brach']:>7.2f}{delta_v['kudlich-slibar']:>10.2f}"
             f"{printed_turn:>11}{turn['brach']:>7.1f}{turn['kudlich-slibar']:>10.1f}"
         )
         sign = -1 if "sign misprint" in row["note"] else 1
-        check(f"{test} {row['vehicle']}, delta-V", delta_v["brach"], float(printed_v), 0.2, "mph")
-        check(f"{test} {row['vehicle']}, yaw rate", turn["brach"], sign * float(printed_turn), 1.0, "deg/s")
-    ratio, printed_ratio = impact.critical_impulse_ratio, rows[0]["published_critical_impulse_ratio"]
-    closing, relative = impact.q.closing_speed.m_as("mph"), impact.q.relative_speed.m_as("mph")
+        check(
+            f"{test} {row['vehicle']}, delta-V",
+            delta_v["brach"],
+            float(printed_v),
+            0.2,
+            "mph",
+        )
+        check(
+            f"{test} {row['vehicle']}, yaw rate",
+            turn["brach"],
+            sign * float(printed_turn),
+            1.0,
+            "deg/s",
+        )
+    ratio, printed_ratio = (
+        impact.critical_impulse_ratio,
+        rows[0]["published_critical_impulse_ratio"],
+    )
+    closing, relative = (
+        impact.q.closing_speed.m_as("mph"),
+        impact.q.relative_speed.m_as("mph"),
+    )
     print(
         f"{'':<5}critical impulse ratio {printed_ratio} printed, {ratio:.3f} ours\n"
         f"{'':<5}closing speed at the contact {closing:.1f} mph, relative speed of the centres {relative:.1f} mph"
@@ -97,21 +131,34 @@ for case, test in solutions.TESTS.items():
 # %%
 print(inspect.getsource(solutions.barrier_impact))
 row = solutions.barrier_rows()["CF11016"]
-impact, other = (solutions.barrier_impact(row, law) for law in ("brach", "kudlich-slibar"))
-print(f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   {'':<7}{'kudlich-slibar':>14}")
+impact, other = (
+    solutions.barrier_impact(row, law) for law in ("brach", "kudlich-slibar")
+)
+print(
+    f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   {'':<7}{'kudlich-slibar':>14}"
+)
 for label, name, column, unit in (
     ("delta-V x, rearward", "delta_vx", "measured_delta_vx_ft_s_rearward", "ft/s"),
     ("delta-V y, size", "delta_vy", "measured_delta_vy_ft_s", "ft/s"),
     ("delta-V", "delta_v", "tabulated_delta_v_ft_s", "ft/s"),
-    ("change of yaw rate, size", "delta_yaw_rate", "measured_delta_yaw_rate_deg_s", "deg/s"),
+    (
+        "change of yaw rate, size",
+        "delta_yaw_rate",
+        "measured_delta_yaw_rate_deg_s",
+        "deg/s",
+    ),
 ):
-    ours, under_other = (abs(getattr(found.a.q, name).m_as(unit)) for found in (impact, other))
+    ours, under_other = (
+        abs(getattr(found.a.q, name).m_as(unit)) for found in (impact, other)
+    )
     print(f"{label:<32}{row[column]:>10}{ours:>9.2f}   {unit:<7}{under_other:>14.2f}")
     if unit == "deg/s":
         check(f"CF11016, {label}", ours, float(row[column]), 1.0, unit)
     else:
         to_mph = 3600 / 5280
-        check(f"CF11016, {label}", ours * to_mph, float(row[column]) * to_mph, 0.2, "mph")
+        check(
+            f"CF11016, {label}", ours * to_mph, float(row[column]) * to_mph, 0.2, "mph"
+        )
 print(
     f"the car turns {'counter-clockwise' if impact.a.delta_yaw_rate > 0 else 'clockwise'} and is pushed to its "
     f"{'left' if impact.a.delta_v_left > 0 else 'right'};\n"
@@ -132,7 +179,15 @@ for case, record in published_cases.CASES.items():
     title = textwrap.shorten(record["source"]["title"], 44, placeholder=" ...")
     print(f"{case}  {title:<45}{len(found):>3} comparisons{misprints}")
     for comparison in found:
-        CHECKS.append((f"{case}, {comparison.what}", comparison.ours, float(comparison.printed), "", comparison.good))
+        CHECKS.append(
+            (
+                f"{case}, {comparison.what}",
+                comparison.ours,
+                float(comparison.printed),
+                "",
+                comparison.good,
+            )
+        )
 
 # %% [markdown]
 # ## Checks
@@ -142,7 +197,9 @@ for case, record in published_cases.CASES.items():
 
 # %%
 failed = [
-    f"{label}: {ours:.4g} {unit}, published {published:g} {unit}" for label, ours, published, unit, good in CHECKS if not good
+    f"{label}: {ours:.4g} {unit}, published {published:g} {unit}"
+    for label, ours, published, unit, good in CHECKS
+    if not good
 ]
 if failed:
     raise AssertionError("these do not agree:\n" + "\n".join(failed))

@@ -19,7 +19,12 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append((f"{label}: {ours:.6g}, expected {expected:.6g}", abs(ours - expected) <= within))
+    CHECKS.append(
+        (
+            f"{label}: {ours:.6g}, expected {expected:.6g}",
+            abs(ours - expected) <= within,
+        )
+    )
 
 
 def low_speed(closing):
@@ -35,8 +40,13 @@ def low_speed(closing):
 # %%
 print(f"{'restitution':<24}{'closing speed, km/h':>20}")
 in_line = {}
-for label, restitution in (("0.1 at any speed", 0.1), ("falls with the speed", low_speed)):
-    in_line[label] = 3.6 * reconstruct.inline_closing_speed(1500, 1500, restitution, delta_v_b="5 km/h")
+for label, restitution in (
+    ("0.1 at any speed", 0.1),
+    ("falls with the speed", low_speed),
+):
+    in_line[label] = 3.6 * reconstruct.inline_closing_speed(
+        1500, 1500, restitution, delta_v_b="5 km/h"
+    )
     print(f"{label:<24}{in_line[label]:>20.1f}")
 
 # %% [markdown]
@@ -47,19 +57,38 @@ for label, restitution in (("0.1 at any speed", 0.1), ("falls with the speed", l
 # `reconstruct.speeds` takes the full geometry; the cars meet squarely here, so the levers are zero and friction does nothing.
 
 # %%
-FIESTA = col.Vehicle(mass=950, yaw_inertia=1200, x=-1.9, y=0.0, heading="0 deg", name="Fiesta")
-POLO = col.Vehicle(mass=770, yaw_inertia=1000, x=1.8, y=0.0, heading="0 deg", name="Polo")
-SQUARE = {"course_a": "0 deg", "course_b": None, "speed_b": 0.0, "normal": "0 deg", "point": (0.0, 0.0), "friction": 0.5}
+FIESTA = col.Vehicle(
+    mass=950, yaw_inertia=1200, x=-1.9, y=0.0, heading="0 deg", name="Fiesta"
+)
+POLO = col.Vehicle(
+    mass=770, yaw_inertia=1000, x=1.8, y=0.0, heading="0 deg", name="Polo"
+)
+SQUARE = {
+    "course_a": "0 deg",
+    "course_b": None,
+    "speed_b": 0.0,
+    "normal": "0 deg",
+    "point": (0.0, 0.0),
+    "friction": 0.5,
+}
 
 
 def solved(restitution, delta_v, a=FIESTA):
-    (impact,) = reconstruct.speeds(a, POLO, delta_v_b=delta_v, restitution=restitution, **SQUARE)
+    (impact,) = reconstruct.speeds(
+        a, POLO, delta_v_b=delta_v, restitution=restitution, **SQUARE
+    )
     return impact
 
 
-print(f"{'restitution':<24}{'e':>6}{'Fiesta, mph':>13}{'its delta-V, mph':>18}{'condition':>11}")
+print(
+    f"{'restitution':<24}{'e':>6}{'Fiesta, mph':>13}{'its delta-V, mph':>18}{'condition':>11}"
+)
 found = {}
-for label, restitution in (("0.1 at any speed", 0.1), ("falls with the speed", low_speed), ("from both delta-Vs", 0.2)):
+for label, restitution in (
+    ("0.1 at any speed", 0.1),
+    ("falls with the speed", low_speed),
+    ("from both delta-Vs", 0.2),
+):
     impact = found[label] = solved(restitution, "3.5 mph")
     print(
         f"{label:<24}{impact.restitution:>6.2f}{impact.a.before.speed / MPH:>13.2f}{impact.a.delta_v / MPH:>18.2f}"
@@ -79,9 +108,13 @@ print(f"{'measured':<24}{'':>6}{5.5:>13.2f}{3.1:>18.2f}")
 # %%
 offset = FIESTA.replace(y=0.6)
 wide = {**SQUARE, "point": (0.0, 0.3)}
-(aside,) = reconstruct.speeds(offset, POLO, delta_v_b="3.5 mph", restitution=low_speed, **wide)
+(aside,) = reconstruct.speeds(
+    offset, POLO, delta_v_b="3.5 mph", restitution=low_speed, **wide
+)
 square = found["falls with the speed"]
-print(f"square: {square.a.before.speed / MPH:.2f} mph; offset by 0.6 m: {aside.a.before.speed / MPH:.2f} mph")
+print(
+    f"square: {square.a.before.speed / MPH:.2f} mph; offset by 0.6 m: {aside.a.before.speed / MPH:.2f} mph"
+)
 print(f"Polo turns by {math.degrees(aside.b.delta_yaw_rate):.0f} deg/s")
 
 # %% [markdown]
@@ -111,15 +144,35 @@ except col.InputError as error:
 check("fixed 0.1, 5 km/h", in_line["0.1 at any speed"], 9.1, 0.05)
 check("fit, 5 km/h", in_line["falls with the speed"], 7.2, 0.05)
 for label, impact in (("square", square), ("offset", aside)):
-    check(f"{label}, e of its closing speed", impact.restitution, low_speed(impact.closing_speed), 1e-12)
+    check(
+        f"{label}, e of its closing speed",
+        impact.restitution,
+        low_speed(impact.closing_speed),
+        1e-12,
+    )
     forward = col.eccentric(
-        impact.a.before, impact.b.before, impact.restitution, normal=impact.normal, point=impact.point, friction=0.5
+        impact.a.before,
+        impact.b.before,
+        impact.restitution,
+        normal=impact.normal,
+        point=impact.point,
+        friction=0.5,
     )
     check(f"{label}, delta-V forward", forward.b.delta_v / MPH, 3.5, 1e-12)
 short = reconstruct.inline_closing_speed(950, 770, low_speed, delta_v_b="3.5 mph")
 check("square is in line", square.closing_speed, short, 1e-12)
-check("measured closing speed", found["from both delta-Vs"].a.before.speed / MPH, 5.5, 0.09 * 5.5)
-CHECKS.append(("outside the range is refused", refusal is not None and refusal.code == "bad_restitution"))
+check(
+    "measured closing speed",
+    found["from both delta-Vs"].a.before.speed / MPH,
+    5.5,
+    0.09 * 5.5,
+)
+CHECKS.append(
+    (
+        "outside the range is refused",
+        refusal is not None and refusal.code == "bad_restitution",
+    )
+)
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

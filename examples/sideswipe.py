@@ -18,12 +18,30 @@ import numpy as np
 import collisions as col
 from collisions import plot, reference
 
-A = col.Vehicle(mass="1500 kg", yaw_inertia=2600, x=-1.8, y=-0.7, heading="0 deg", vx="70 km/h", name="A")
-B = col.Vehicle(mass="1400 kg", yaw_inertia=2400, x=1.8, y=0.7, heading="180 deg", vx="-60 km/h", name="B")
+A = col.Vehicle(
+    mass="1500 kg",
+    yaw_inertia=2600,
+    x=-1.8,
+    y=-0.7,
+    heading="0 deg",
+    vx="70 km/h",
+    name="A",
+)
+B = col.Vehicle(
+    mass="1400 kg",
+    yaw_inertia=2400,
+    x=1.8,
+    y=0.7,
+    heading="180 deg",
+    vx="-60 km/h",
+    name="B",
+)
 CONTACT = {"restitution": 0.1, "normal": "75 deg", "point": (0.0, 0.0)}
 
 scrape = col.eccentric(A, B, friction=0.5, **CONTACT)
-axes = plot.scene(scrape, outline_a=("4.5 m", "1.8 m"), outline_b=("4.4 m", "1.75 m"), units="metric")
+axes = plot.scene(
+    scrape, outline_a=("4.5 m", "1.8 m"), outline_b=("4.4 m", "1.75 m"), units="metric"
+)
 
 # %% [markdown]
 # ## Which sign, and how much
@@ -33,9 +51,14 @@ axes = plot.scene(scrape, outline_a=("4.5 m", "1.8 m"), outline_b=("4.4 m", "1.7
 # %%
 against = -math.copysign(1.0, scrape.slip_before)
 critical = scrape.critical_impulse_ratio
-print(f"closing speed {scrape.q.closing_speed.to('km/h'):.1f~P}, slip {scrape.q.slip_before.to('km/h'):.1f~P}")
+print(
+    f"closing speed {scrape.q.closing_speed.to('km/h'):.1f~P}, slip {scrape.q.slip_before.to('km/h'):.1f~P}"
+)
 print(f"critical impulse ratio {critical:.2f}; published, all as magnitudes:")
-FRICTION, SNAGGED = reference.INTER_VEHICLE_FRICTION, reference.IMPULSE_RATIO_SMALL_OVERLAP
+FRICTION, SNAGGED = (
+    reference.INTER_VEHICLE_FRICTION,
+    reference.IMPULSE_RATIO_SMALL_OVERLAP,
+)
 for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
     print(f"{published.low:5.2f} to {published.high:.2f}  {published.name}")
 
@@ -49,9 +72,15 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
 # Beyond the critical ratio slip turns round. The answer may then gain energy, which is warned of and never clipped.
 
 # %%
-print(f"{'':<20}{'ratio':>7}{'regime':>10}{'delta-V A':>11}{'yaw rate A':>12}{'slip after':>12}{'energy lost':>13}")
+print(
+    f"{'':<20}{'ratio':>7}{'regime':>10}{'delta-V A':>11}{'yaw rate A':>12}{'slip after':>12}{'energy lost':>13}"
+)
 print(f"{'':<20}{'':>7}{'':>10}{'km/h':>11}{'deg/s':>12}{'km/h':>12}{'kJ':>13}")
-contacts = [{"friction": 0.5}, *({"impulse_ratio": against * size} for size in (0.5, 1.0, 1.5, 2.0)), {"friction": math.inf}]
+contacts = [
+    {"friction": 0.5},
+    *({"impulse_ratio": against * size} for size in (0.5, 1.0, 1.5, 2.0)),
+    {"friction": math.inf},
+]
 found = []
 for tangential in contacts:
     with warnings.catch_warnings(record=True) as caught:
@@ -73,13 +102,19 @@ swept = col.eccentric(A, B, impulse_ratio=against * sizes, **CONTACT)
 figure, charts = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
 for chart, label, curve in (
     (charts[0], "delta-V of A [km/h]", swept.a.q.delta_v.m_as("km/h")),
-    (charts[1], "change of yaw rate of A [deg/s]", swept.a.q.delta_yaw_rate.m_as("deg/s")),
+    (
+        charts[1],
+        "change of yaw rate of A [deg/s]",
+        swept.a.q.delta_yaw_rate.m_as("deg/s"),
+    ),
 ):
     for published, shade in ((FRICTION, "0.9"), (SNAGGED, "0.75")):
         chart.axvspan(published.low, published.high, color=shade, label=published.name)
     chart.plot(sizes, curve, "k", label="up to the critical ratio")
     chart.set(xlabel="size of the impulse ratio", ylabel=label)
-legend = figure.legend(*charts[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+legend = figure.legend(
+    *charts[0].get_legend_handles_labels(), loc="outside lower center", ncols=3
+)
 
 # %% [markdown]
 # From a friction of 0.5 to the critical ratio, delta-V grows more than fivefold and A turns the other way. Give a range,
@@ -100,7 +135,9 @@ legend = figure.legend(*charts[0].get_legend_handles_labels(), loc="outside lowe
 # %%
 def carried(pair):
     """Linear momentum along x and y, and angular momentum about the origin, of two vehicles."""
-    turning = sum(v.yaw_inertia * v.yaw_rate + v.mass * (v.x * v.vy - v.y * v.vx) for v in pair)
+    turning = sum(
+        v.yaw_inertia * v.yaw_rate + v.mass * (v.x * v.vy - v.y * v.vx) for v in pair
+    )
     return sum(v.mass * v.vx for v in pair), sum(v.mass * v.vy for v in pair), turning
 
 
@@ -110,11 +147,27 @@ assert math.isclose(unlimited.impulse_ratio, critical, rel_tol=1e-12)
 assert unlimited.a.delta_v > 5 * sliding.a.delta_v
 assert unlimited.a.delta_yaw_rate > 0 > sliding.a.delta_yaw_rate
 for impact in found:
-    assert np.allclose(carried((impact.a.after, impact.b.after)), carried((A, B)), rtol=0, atol=1e-9)
+    assert np.allclose(
+        carried((impact.a.after, impact.b.after)), carried((A, B)), rtol=0, atol=1e-9
+    )
 
-fusion = col.Vehicle(mass="111 slug", yaw_inertia="2336.3 slug*ft**2", vx="58.6 ft/s", x=0.0, y=0.0, heading="0 deg")
+fusion = col.Vehicle(
+    mass="111 slug",
+    yaw_inertia="2336.3 slug*ft**2",
+    vx="58.6 ft/s",
+    x=0.0,
+    y=0.0,
+    heading="0 deg",
+)
 corner = fusion.point(distance="4.4 ft", angle="29.3 deg")
-test = col.eccentric(fusion, col.Vehicle.barrier(), 0.147, normal="77.6 deg", point=corner, impulse_ratio=-0.989 * 2.006)
+test = col.eccentric(
+    fusion,
+    col.Vehicle.barrier(),
+    0.147,
+    normal="77.6 deg",
+    point=corner,
+    impulse_ratio=-0.989 * 2.006,
+)
 assert abs(test.a.q.delta_vx.m_as("ft/s") - -51.2) < 0.2
 assert abs(test.a.q.delta_vy.m_as("ft/s") - -13.11) < 0.2  # the sheet prints magnitudes
 assert abs(test.a.q.delta_yaw_rate.m_as("deg/s") - 163.11) < 1.0

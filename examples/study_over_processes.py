@@ -47,7 +47,10 @@ def drawn(cases, seed):
 
 def vehicles(fields, blocks):
     """One vehicle a block, each holding many cases."""
-    return [col.Vehicle(**{name: values[block] for name, values in fields.items()}) for block in blocks]
+    return [
+        col.Vehicle(**{name: values[block] for name, values in fields.items()})
+        for block in blocks
+    ]
 
 
 # %% [markdown]
@@ -56,19 +59,34 @@ def vehicles(fields, blocks):
 # again.
 
 # %%
-solve = partial(col.eccentric, normal=0.0, point=(0.0, 0.0), friction=0.5, on_failure="nan")
+solve = partial(
+    col.eccentric, normal=0.0, point=(0.0, 0.0), friction=0.5, on_failure="nan"
+)
 
 if __name__ == "__main__":
     a, b, restitution = drawn(CASES, seed=8)
     blocks = [slice(start, start + BLOCK) for start in range(0, CASES, BLOCK)]
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(max_workers=min(2, os.cpu_count() or 1), mp_context=context) as executor:
-        found = list(executor.map(solve, vehicles(a, blocks), vehicles(b, blocks), [restitution[block] for block in blocks]))
+    with ProcessPoolExecutor(
+        max_workers=min(2, os.cpu_count() or 1), mp_context=context
+    ) as executor:
+        found = list(
+            executor.map(
+                solve,
+                vehicles(a, blocks),
+                vehicles(b, blocks),
+                [restitution[block] for block in blocks],
+            )
+        )
 
     delta_v = np.concatenate([impact.a.delta_v for impact in found])
     low, middle, high = np.quantile(delta_v, [0.025, 0.5, 0.975]) * 3.6
-    print(f"delta-V of A: {middle:.1f} km/h, 95 of 100 cases from {low:.1f} to {high:.1f} km/h")
-    print(f"{np.mean([np.mean(impact.regime == 'sticking') for impact in found]):.0%} of the contacts stop slipping")
+    print(
+        f"delta-V of A: {middle:.1f} km/h, 95 of 100 cases from {low:.1f} to {high:.1f} km/h"
+    )
+    print(
+        f"{np.mean([np.mean(impact.regime == 'sticking') for impact in found]):.0%} of the contacts stop slipping"
+    )
 
 # %% [markdown]
 # ## Checks
@@ -78,10 +96,25 @@ if __name__ == "__main__":
 # %%
 if __name__ == "__main__":
     whole = solve(col.Vehicle(**a), col.Vehicle(**b), restitution)
-    impacts = ("status", "regime", "normal_impulse", "tangential_impulse", "energy_loss", "slip_after")
+    impacts = (
+        "status",
+        "regime",
+        "normal_impulse",
+        "tangential_impulse",
+        "energy_loss",
+        "slip_after",
+    )
     sides = ("delta_v", "delta_vx", "delta_vy", "delta_yaw_rate", "impulse_direction")
-    columns = [attrgetter(name) for name in (*impacts, *(f"{side}.{name}" for side in "ab" for name in sides))]
-    compared = [np.array_equal(np.concatenate([column(impact) for impact in found]), column(whole)) for column in columns]
+    columns = [
+        attrgetter(name)
+        for name in (*impacts, *(f"{side}.{name}" for side in "ab" for name in sides))
+    ]
+    compared = [
+        np.array_equal(
+            np.concatenate([column(impact) for impact in found]), column(whole)
+        )
+        for column in columns
+    ]
     if not all(compared):
         raise AssertionError("the blocks do not hold the answers of the whole")
     if not whole.ok.all():

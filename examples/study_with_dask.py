@@ -24,15 +24,29 @@ CASES, BLOCK = 60_000, 20_000
 def drawn(cases, seed):
     """Front and rear car, restitution and friction of every case."""
     rng = np.random.default_rng(seed)
-    rear = {"mass": 1500.0, "yaw_inertia": 2400.0, "x": -2.0, "y": 0.4, "vx": rng.normal(15.0, 1.0, cases)}
-    front = {"mass": 1200.0, "yaw_inertia": 1700.0, "x": 2.0, "y": 0.0, "vx": rng.uniform(0.0, 5.0, cases)}
+    rear = {
+        "mass": 1500.0,
+        "yaw_inertia": 2400.0,
+        "x": -2.0,
+        "y": 0.4,
+        "vx": rng.normal(15.0, 1.0, cases),
+    }
+    front = {
+        "mass": 1200.0,
+        "yaw_inertia": 1700.0,
+        "x": 2.0,
+        "y": 0.0,
+        "vx": rng.uniform(0.0, 5.0, cases),
+    }
     return rear, front, rng.uniform(0.0, 0.3, cases), rng.uniform(0.2, 0.7, cases)
 
 
 def part(values, block):
     """Some cases of a vehicle or of an array."""
     if isinstance(values, dict):
-        return col.Vehicle(**{name: part(value, block) for name, value in values.items()})
+        return col.Vehicle(
+            **{name: part(value, block) for name, value in values.items()}
+        )
     return values[block] if isinstance(values, np.ndarray) else values
 
 
@@ -48,15 +62,26 @@ if __name__ == "__main__":
     rear, front, restitution, friction = drawn(CASES, seed=8)
     tasks = [
         dask.delayed(col.eccentric)(
-            part(rear, block), part(front, block), restitution[block], friction=friction[block], **SCENE
+            part(rear, block),
+            part(front, block),
+            restitution[block],
+            friction=friction[block],
+            **SCENE,
         )
         for block in (slice(start, start + BLOCK) for start in range(0, CASES, BLOCK))
     ]
-    quantiles = dask.delayed(np.quantile)(dask.delayed(np.concatenate)([task.b.delta_v for task in tasks]), [0.05, 0.5, 0.95])
+    quantiles = dask.delayed(np.quantile)(
+        dask.delayed(np.concatenate)([task.b.delta_v for task in tasks]),
+        [0.05, 0.5, 0.95],
+    )
     on_threads = dask.compute(*tasks, scheduler="threads", num_workers=2)
-    *on_processes, found = dask.compute(*tasks, quantiles, scheduler="processes", num_workers=2)
+    *on_processes, found = dask.compute(
+        *tasks, quantiles, scheduler="processes", num_workers=2
+    )
     low, middle, high = found * 3.6
-    print(f"delta-V of the front car: {middle:.1f} km/h, 9 of 10 cases from {low:.1f} to {high:.1f} km/h")
+    print(
+        f"delta-V of the front car: {middle:.1f} km/h, 9 of 10 cases from {low:.1f} to {high:.1f} km/h"
+    )
 
 # %% [markdown]
 # ## Checks
@@ -65,11 +90,22 @@ if __name__ == "__main__":
 
 # %%
 if __name__ == "__main__":
-    one = col.eccentric(part(rear, whole), part(front, whole), restitution, friction=friction, **SCENE)
+    one = col.eccentric(
+        part(rear, whole), part(front, whole), restitution, friction=friction, **SCENE
+    )
     for way, blocks in (("threads", on_threads), ("processes", on_processes)):
-        for name in ("status", "normal_impulse", "tangential_impulse", "energy_loss", "b.delta_v", "b.delta_yaw_rate"):
+        for name in (
+            "status",
+            "normal_impulse",
+            "tangential_impulse",
+            "energy_loss",
+            "b.delta_v",
+            "b.delta_yaw_rate",
+        ):
             column = attrgetter(name)
-            if not np.array_equal(np.concatenate([column(impact) for impact in blocks]), column(one)):
+            if not np.array_equal(
+                np.concatenate([column(impact) for impact in blocks]), column(one)
+            ):
                 raise AssertionError(f"{name} differs on {way}")
     if not np.array_equal(found, np.quantile(one.b.delta_v, [0.05, 0.5, 0.95])):
         raise AssertionError("the quantiles differ")

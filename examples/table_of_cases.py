@@ -19,7 +19,12 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append((f"{label}: {ours:.9g}, expected {expected:.9g}", abs(ours - expected) <= within))
+    CHECKS.append(
+        (
+            f"{label}: {ours:.9g}, expected {expected:.9g}",
+            abs(ours - expected) <= within,
+        )
+    )
 
 
 SHEET = """\
@@ -60,16 +65,24 @@ impact = col.linear_central(a, b, column("restitution"), on_failure="nan")
 
 # %%
 answers = pd.DataFrame(impact.to_columns(), index=table.index)
-print(answers[["status", "closing_speed", "a.delta_v", "b.delta_v", "energy_loss"]].round(3).to_string())
+print(
+    answers[["status", "closing_speed", "a.delta_v", "b.delta_v", "energy_loss"]]
+    .round(3)
+    .to_string()
+)
 
 # %% [markdown]
 # SI stands in the columns. For another unit take the Quantities, and join them to the rows they came from:
 
 # %%
-report = table.assign(**{"delta-V b [km/h]": impact.q.b.delta_v.m_as("km/h"), "status": answers["status"]})
+report = table.assign(
+    **{"delta-V b [km/h]": impact.q.b.delta_v.m_as("km/h"), "status": answers["status"]}
+)
 print(report[["delta-V b [km/h]", "status"]].round(1).to_string())
 unanswered = answers[answers["refused"]]
-print(f"{len(unanswered)} of {len(answers)} rows have no answer: {', '.join(unanswered.index)}")
+print(
+    f"{len(unanswered)} of {len(answers)} rows have no answer: {', '.join(unanswered.index)}"
+)
 
 # %% [markdown]
 # ## Checks
@@ -87,9 +100,16 @@ for case, row in table.iterrows():
     if found["status"] == "ok":
         check(f"{case}, delta-V of B", found["b.delta_v"], delta_v, 1e-12 * delta_v)
     else:
-        CHECKS.append((f"{case} has no number", bool(np.isnan(found["b.delta_v"]) and not delta_v > 0.0)))
+        CHECKS.append(
+            (
+                f"{case} has no number",
+                bool(np.isnan(found["b.delta_v"]) and not delta_v > 0.0),
+            )
+        )
 CHECKS.append(("the index is kept", list(answers.index) == list(table.index)))
-CHECKS.append(("why", list(answers["status"]) == ["ok", "not_finite", "ok", "separating"]))
+CHECKS.append(
+    ("why", list(answers["status"]) == ["ok", "not_finite", "ok", "separating"])
+)
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

@@ -17,13 +17,35 @@ import collisions as col
 from collisions import plot
 
 CONTACT = {"normal": "0 deg", "point": (0.0, 0.5), "friction": 0.4}
-CAR = col.Vehicle(mass="1300 kg", yaw_inertia="2000 kg*m**2", vx="50 km/h", x=-2.0, y=0.0, heading="0 deg", name="car")
-TRUCK = col.Vehicle(mass="12 t", yaw_inertia="60000 kg*m**2", vx="-40 km/h", x=4.0, y=1.3, heading="180 deg", name="truck")
+CAR = col.Vehicle(
+    mass="1300 kg",
+    yaw_inertia="2000 kg*m**2",
+    vx="50 km/h",
+    x=-2.0,
+    y=0.0,
+    heading="0 deg",
+    name="car",
+)
+TRUCK = col.Vehicle(
+    mass="12 t",
+    yaw_inertia="60000 kg*m**2",
+    vx="-40 km/h",
+    x=4.0,
+    y=1.3,
+    heading="180 deg",
+    name="truck",
+)
 
 impact = col.eccentric(CAR, TRUCK, 0.1, **CONTACT)
-print(f"closing speed {impact.closing_speed * 3.6:.1f} km/h, contact: {impact.regime}\n")
-print(f"{'':<6}{'impulse':>9}{'delta-V':>9}{'pdof':>7}{'yaw':>8}{'speed after':>13}{'course':>9}{'energy change':>15}")
-print(f"{'':<6}{'kN s':>9}{'km/h':>9}{'deg':>7}{'deg/s':>8}{'km/h':>13}{'deg':>9}{'kJ':>15}")
+print(
+    f"closing speed {impact.closing_speed * 3.6:.1f} km/h, contact: {impact.regime}\n"
+)
+print(
+    f"{'':<6}{'impulse':>9}{'delta-V':>9}{'pdof':>7}{'yaw':>8}{'speed after':>13}{'course':>9}{'energy change':>15}"
+)
+print(
+    f"{'':<6}{'kN s':>9}{'km/h':>9}{'deg':>7}{'deg/s':>8}{'km/h':>13}{'deg':>9}{'kJ':>15}"
+)
 for side in (impact.a, impact.b):
     after = side.after
     print(
@@ -44,21 +66,40 @@ for side in (impact.a, impact.b):
 # %%
 masses = np.array([1.3, 2.0, 3.5, 7.5, 12.0, 20.0, 40.0, 1e12]) * 1000
 gyration = TRUCK.yaw_inertia / TRUCK.mass
-heavier = col.eccentric(CAR, TRUCK.replace(mass=masses, yaw_inertia=gyration * masses), 0.1, **CONTACT)
+heavier = col.eccentric(
+    CAR, TRUCK.replace(mass=masses, yaw_inertia=gyration * masses), 0.1, **CONTACT
+)
 wall = col.Vehicle.barrier(vx="-40 km/h", name="moving wall")
 limit = col.eccentric(CAR, wall, 0.1, **CONTACT)
 print(f"{'truck, t':>10}{'delta-V car':>14}{'delta-V truck':>15}   km/h")
-for mass, car, truck in zip(masses[:-1] / 1000, heavier.a.delta_v * 3.6, heavier.b.delta_v * 3.6, strict=False):
+for mass, car, truck in zip(
+    masses[:-1] / 1000, heavier.a.delta_v * 3.6, heavier.b.delta_v * 3.6, strict=False
+):
     print(f"{mass:>10.1f}{car:>14.1f}{truck:>15.1f}")
 print(f"{'wall':>10}{limit.a.delta_v * 3.6:>14.1f}{limit.b.delta_v * 3.6:>15.1f}")
 
 # %%
-figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.6), layout="constrained", width_ratios=(1.5, 1))
-plot.scene(impact, outline_a=("4 m", "1.8 m"), outline_b=("8 m", "2.5 m"), axes=left, units="metric")
+figure, (left, right) = plt.subplots(
+    1, 2, figsize=(14, 5.6), layout="constrained", width_ratios=(1.5, 1)
+)
+plot.scene(
+    impact,
+    outline_a=("4 m", "1.8 m"),
+    outline_b=("8 m", "2.5 m"),
+    axes=left,
+    units="metric",
+)
 right.plot(masses[:-1] / 1000, heavier.a.delta_v[:-1] * 3.6, "o-", label="car")
 right.plot(masses[:-1] / 1000, heavier.b.delta_v[:-1] * 3.6, "s--", label="truck")
-right.axhline(limit.a.delta_v * 3.6, color="0.4", ls=":", label="car against a wall that moves")
-right.set(xlabel="mass of the truck [t]", ylabel="delta-V [km/h]", title="The lighter takes the delta-V", ylim=(0, None))
+right.axhline(
+    limit.a.delta_v * 3.6, color="0.4", ls=":", label="car against a wall that moves"
+)
+right.set(
+    xlabel="mass of the truck [t]",
+    ylabel="delta-V [km/h]",
+    title="The lighter takes the delta-V",
+    ylim=(0, None),
+)
 right.legend()
 
 # %% [markdown]
@@ -74,7 +115,10 @@ right.legend()
 # The first three to 1e-13 of what they are made of: a few products of floats.
 
 # %%
-for one, other in ((impact.a.delta_vx, impact.b.delta_vx), (impact.a.delta_vy, impact.b.delta_vy)):
+for one, other in (
+    (impact.a.delta_vx, impact.b.delta_vx),
+    (impact.a.delta_vy, impact.b.delta_vy),
+):
     assert abs(CAR.mass * one + TRUCK.mass * other) < 1e-13 * CAR.mass * CAR.speed
 assert math.isclose(impact.a.delta_v / impact.b.delta_v, 12_000 / 1300, rel_tol=1e-13)
 
@@ -82,16 +126,24 @@ assert math.isclose(impact.a.delta_v / impact.b.delta_v, 12_000 / 1300, rel_tol=
 def spin(body):
     """Angular momentum about the contact."""
     x, y = CONTACT["point"]
-    return body.mass * ((body.x - x) * body.vy - (body.y - y) * body.vx) + body.yaw_inertia * body.yaw_rate
+    return (
+        body.mass * ((body.x - x) * body.vy - (body.y - y) * body.vx)
+        + body.yaw_inertia * body.yaw_rate
+    )
 
 
 after = impact.a.after, impact.b.after
 for before, end in zip((CAR, TRUCK), after, strict=True):
     assert abs(spin(end) - spin(before)) < 1e-13 * TRUCK.mass * TRUCK.speed
 energy = CAR.kinetic_energy + TRUCK.kinetic_energy
-assert abs(energy - sum(body.kinetic_energy for body in after) - impact.energy_loss) < 1e-13 * energy
+assert (
+    abs(energy - sum(body.kinetic_energy for body in after) - impact.energy_loss)
+    < 1e-13 * energy
+)
 assert math.isclose(heavier.a.delta_v[-1], limit.a.delta_v, rel_tol=1e-11)
 assert math.isclose(heavier.a.delta_yaw_rate[-1], limit.a.delta_yaw_rate, rel_tol=1e-11)
 square = col.linear_central(CAR, TRUCK, 0.0)
-assert math.isclose(square.a.delta_v, (CAR.vx - TRUCK.vx) * 12_000 / 13_300, rel_tol=1e-13)
+assert math.isclose(
+    square.a.delta_v, (CAR.vx - TRUCK.vx) * 12_000 / 13_300, rel_tol=1e-13
+)
 print("all checks passed")

@@ -25,7 +25,15 @@ def crash(speed_a, speed_b, restitution, friction, contact, drag):
     """What the marks and the recorder would be."""
     a = col.Vehicle(mass=1500, vx=speed_a, yaw_inertia=2500, x=-2.1, y=0.0)
     b = col.Vehicle(mass=1250, vy=speed_b, yaw_inertia=1900, x=0.9, y=-0.4)
-    impact = col.eccentric(a, b, restitution, normal=0.0, point=(0.0, contact), friction=friction, on_failure="nan")
+    impact = col.eccentric(
+        a,
+        b,
+        restitution,
+        normal=0.0,
+        point=(0.0, contact),
+        friction=friction,
+        on_failure="nan",
+    )
     return {
         "delta-V of A": impact.a.q.delta_v,
         "course of A after": impact.a.after.q.course,
@@ -35,7 +43,9 @@ def crash(speed_a, speed_b, restitution, friction, contact, drag):
 
 
 observed = {
-    "delta-V of A": Censored(low="24 km/h", error="1 km/h"),  # the recorder of A ended early
+    "delta-V of A": Censored(
+        low="24 km/h", error="1 km/h"
+    ),  # the recorder of A ended early
     "course of A after": Normal("8 deg", "3 deg"),
     "course of B after": Normal("27 deg", "3 deg"),
     "way of A to rest": Normal(9.0, 0.8),
@@ -52,7 +62,9 @@ said_by_b = Uniform("75 km/h", "95 km/h")
 
 
 def account(speed_a, seed=1):
-    return posterior(crash, {"speed_a": speed_a, **common}, observed, samples=SAMPLES, seed=seed)
+    return posterior(
+        crash, {"speed_a": speed_a, **common}, observed, samples=SAMPLES, seed=seed
+    )
 
 
 # %% [markdown]
@@ -75,7 +87,11 @@ print(found.summary())
 # it.
 
 # %%
-versions_a = {"55 ± 2": Normal("55 km/h", "2 km/h"), "55 ± 4": said_by_a, "55 ± 8": Normal("55 km/h", "8 km/h")}
+versions_a = {
+    "55 ± 2": Normal("55 km/h", "2 km/h"),
+    "55 ± 4": said_by_a,
+    "55 ± 8": Normal("55 km/h", "8 km/h"),
+}
 versions_b = {
     "80 ± 5": Normal("80 km/h", "5 km/h"),
     "75 to 95": said_by_b,
@@ -83,11 +99,18 @@ versions_b = {
     "61 to 150": Uniform("61 km/h", "150 km/h"),
 }
 logs_a = {name: account(prior).log_evidence for name, prior in versions_a.items()}
-logs_b = {name: account(prior, seed=2).log_evidence for name, prior in versions_b.items()}
-print("The evidence is so many times more probable on the account of B than on that of A:")
+logs_b = {
+    name: account(prior, seed=2).log_evidence for name, prior in versions_b.items()
+}
+print(
+    "The evidence is so many times more probable on the account of B than on that of A:"
+)
 print(f"{'B: km/h':<12}" + "".join(f"{'A: ' + name:>14}" for name in versions_a))
 for name, log in logs_b.items():
-    print(f"{name:<12}" + "".join(f"{math.exp(log - of_a):>14.2g}" for of_a in logs_a.values()))
+    print(
+        f"{name:<12}"
+        + "".join(f"{math.exp(log - of_a):>14.2g}" for of_a in logs_a.values())
+    )
 
 # %% [markdown]
 # ## The question without the accounts
@@ -99,7 +122,9 @@ for name, log in logs_b.items():
 open_minded = account(Uniform("20 km/h", "130 km/h"), seed=3)
 low, high = (3.6 * end for end in open_minded["speed_a"].interval(0.95))
 over, error = open_minded.probability(lambda at: at["speed_a"] > 60 / 3.6)
-print(f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, 95 percent from {low:.0f} to {high:.0f} km/h")
+print(
+    f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, 95 percent from {low:.0f} to {high:.0f} km/h"
+)
 print(f"A was over 60 km/h with a probability of {over:.3f} ± {error:.3f}")
 print(open_minded.statements[0])
 
@@ -130,7 +155,10 @@ plot.residuals(open_minded, axes=right)
 
 # %%
 rng, count = np.random.default_rng(1), 200_000
-normals = {name: rng.standard_normal(count) for name in ("restitution", "friction", "contact", "drag")}
+normals = {
+    name: rng.standard_normal(count)
+    for name in ("restitution", "friction", "contact", "drag")
+}
 drawn = {
     "speed_a": rng.uniform(75, 95, count) / 3.6,
     "speed_b": rng.uniform(5, 60, count) / 3.6,
@@ -141,18 +169,33 @@ drawn = {
 }
 possible = (drawn["restitution"] >= 0.0) & (drawn["friction"] >= 0.0)  # the truncations
 drawn = {name: values[possible] for name, values in drawn.items()}
-outputs = {name: np.asarray(getattr(value, "magnitude", value)) for name, value in crash(**drawn).items()}
-log = np.array([math.log(0.5 * math.erfc((24 / 3.6 - v) * 3.6 / math.sqrt(2.0))) for v in outputs["delta-V of A"]])
+outputs = {
+    name: np.asarray(getattr(value, "magnitude", value))
+    for name, value in crash(**drawn).items()
+}
+log = np.array(
+    [
+        math.log(0.5 * math.erfc((24 / 3.6 - v) * 3.6 / math.sqrt(2.0)))
+        for v in outputs["delta-V of A"]
+    ]
+)
 for name, value, sigma in (
     ("course of A after", math.radians(8), math.radians(3)),
     ("course of B after", math.radians(27), math.radians(3)),
     ("way of A to rest", 9.0, 0.8),
 ):
-    log += -0.5 * ((value - outputs[name]) / sigma) ** 2 - math.log(sigma * math.sqrt(2.0 * math.pi))
+    log += -0.5 * ((value - outputs[name]) / sigma) ** 2 - math.log(
+        sigma * math.sqrt(2.0 * math.pi)
+    )
 mean, spread = np.mean(np.exp(log)), np.std(np.exp(log)) / math.sqrt(len(log))
-assert abs(driver_b.log_evidence - math.log(mean)) < 5.0 * math.hypot(driver_b.log_evidence_error, spread / mean)
+assert abs(driver_b.log_evidence - math.log(mean)) < 5.0 * math.hypot(
+    driver_b.log_evidence_error, spread / mean
+)
 
-one_in_ten = compare({"driver of A": driver_a, "driver of B": driver_b}, prior={"driver of A": 0.9, "driver of B": 0.1})
+one_in_ten = compare(
+    {"driver of A": driver_a, "driver of B": driver_b},
+    prior={"driver of A": 0.9, "driver of B": 0.1},
+)
 factor = math.exp(found.log_bayes_factors["driver of B", "driver of A"])
 after = one_in_ten.probability["driver of B"]
 assert math.isclose(after / (1.0 - after), factor / 9.0, rel_tol=1e-9)
@@ -160,6 +203,9 @@ assert math.isclose(after / (1.0 - after), factor / 9.0, rel_tol=1e-9)
 speeds = open_minded.draws["speed_a"]
 inside = speeds[(speeds > 75 / 3.6) & (speeds < 95 / 3.6)]
 if len(inside) > 200:
-    scatter = math.hypot(driver_b["speed_a"].mean_standard_error, 2.0 * np.std(inside) / math.sqrt(len(inside)))
+    scatter = math.hypot(
+        driver_b["speed_a"].mean_standard_error,
+        2.0 * np.std(inside) / math.sqrt(len(inside)),
+    )
     assert abs(np.mean(inside) - driver_b["speed_a"].mean) < 5.0 * scatter
 print("all checks passed")

@@ -30,12 +30,29 @@ def placed(centre, **rest):
 
 
 montero = placed(
-    ("5.5 ft", "15.2 deg"), mass="4657 lb", yaw_inertia="2863 slug*ft**2", speed="35 mph", heading="31.6 deg", name="Montero"
+    ("5.5 ft", "15.2 deg"),
+    mass="4657 lb",
+    yaw_inertia="2863 slug*ft**2",
+    speed="35 mph",
+    heading="31.6 deg",
+    name="Montero",
 )
 accord = placed(
-    ("2.9 ft", "34.7 deg"), mass="3305.7 lb", yaw_inertia="2066 lbf*ft*s**2", speed="35 mph", heading="180 deg", name="Accord"
+    ("2.9 ft", "34.7 deg"),
+    mass="3305.7 lb",
+    yaw_inertia="2066 lbf*ft*s**2",
+    speed="35 mph",
+    heading="180 deg",
+    name="Accord",
 )
-impact = col.eccentric(montero, accord, 0.15, normal="51.8 deg", point=("0 ft", "0 ft"), critical_fraction="100 %")
+impact = col.eccentric(
+    montero,
+    accord,
+    0.15,
+    normal="51.8 deg",
+    point=("0 ft", "0 ft"),
+    critical_fraction="100 %",
+)
 
 # %% [markdown]
 # ## Units out
@@ -43,14 +60,20 @@ impact = col.eccentric(montero, accord, 0.15, normal="51.8 deg", point=("0 ft", 
 # An attribute is a plain number in SI. Under `.q` it is a Quantity that goes into any unit of its kind.
 
 # %%
-print(f"{'':<10}{'delta-V':>11}{'yaw rate after':>18}{'force from':>12}{'speed after':>14}")
+print(
+    f"{'':<10}{'delta-V':>11}{'yaw rate after':>18}{'force from':>12}{'speed after':>14}"
+)
 for side in (impact.a.q, impact.b.q):
     print(
         f"{side.before.name:<10}{side.delta_v.to('mph'):>11.1f~P}{side.after.yaw_rate.to('deg/s'):>18.0f~P}"
         f"{side.pdof.to('deg'):>12.0f~P}{side.after.speed.to('mph'):>14.1f~P}"
     )
-print(f"normal impulse {impact.q.normal_impulse.to('lbf*s'):.0f~P}, energy lost {impact.q.energy_loss.to('ft*lbf'):.0f~P}")
-axes = plot.scene(impact, outline_a=("15 ft", "5.8 ft"), outline_b=("15.7 ft", "5.8 ft"), units="us")
+print(
+    f"normal impulse {impact.q.normal_impulse.to('lbf*s'):.0f~P}, energy lost {impact.q.energy_loss.to('ft*lbf'):.0f~P}"
+)
+axes = plot.scene(
+    impact, outline_a=("15 ft", "5.8 ft"), outline_b=("15.7 ft", "5.8 ft"), units="us"
+)
 
 # %% [markdown]
 # `explain` and `report` are asked for US units, too. They show what was given beside what it became:
@@ -60,7 +83,9 @@ text = col.explain(impact, units="us", form="text")
 print(text[text.index("Closing speed:") : text.index("Slip, of B")])
 
 page = col.report(impact, units="us", form="markdown", title="NHTSA 4474")
-rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
+rows = [
+    line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")
+]
 for who, what, value in (row for row in rows if len(row) == 3):
     if what in ("yaw inertia about the centre of mass", "delta-V", "energy lost"):
         print(f"{who}: {what.removesuffix(' about the centre of mass')} {value}")
@@ -82,7 +107,14 @@ except col.UnitsError as error:
     print(error)
 
 light = montero.replace(yaw_inertia="2863 lb*ft**2")
-mistaken = col.eccentric(light, accord, 0.15, normal="51.8 deg", point=("0 ft", "0 ft"), critical_fraction="100 %")
+mistaken = col.eccentric(
+    light,
+    accord,
+    0.15,
+    normal="51.8 deg",
+    point=("0 ft", "0 ft"),
+    critical_fraction="100 %",
+)
 print(f"Montero would turn by {mistaken.a.q.delta_yaw_rate.to('deg/s'):.0f~P}")
 findings = {finding.code: finding.sentence for finding in col.diagnose(mistaken)}
 print(findings["suspect_inertia_low"])
@@ -108,9 +140,12 @@ assert math.isclose(montero.speed, 35 * 1609.344 / 3600, rel_tol=1e-15)
 assert math.isclose(montero.mass, 4657 * pound, rel_tol=1e-15)
 assert math.isclose(accord.yaw_inertia, 2066 * pound * gravity * foot, rel_tol=1e-14)
 energy = [
-    sum(v.q.kinetic_energy.m_as("ft*lbf") for v in pair) for pair in ((montero, accord), (impact.a.after, impact.b.after))
+    sum(v.q.kinetic_energy.m_as("ft*lbf") for v in pair)
+    for pair in ((montero, accord), (impact.a.after, impact.b.after))
 ]
-assert math.isclose(energy[0] - energy[1], impact.q.energy_loss.m_as("ft*lbf"), rel_tol=1e-12)
+assert math.isclose(
+    energy[0] - energy[1], impact.q.energy_loss.m_as("ft*lbf"), rel_tol=1e-12
+)
 assert refusal is not None
 assert refusal.code == "bad_units"
 print("all checks passed")

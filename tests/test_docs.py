@@ -125,3 +125,25 @@ def test_the_page_of_public_names_has_every_module():
         for public in module.__all__:
             assert f"`{public}`" in table
         assert "| |" not in table.replace("|  |", "| |"), "a name says nothing of itself"
+
+
+def too_wide(path):
+    """Lines of code of an example or of a page that are over 88 wide, by their numbers."""
+    if path.suffix == ".py":
+        shown = ((at, line) for at, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if line[:1] != "#")
+        return [at for at, line in shown if len(line) > 88]
+    found, code = [], False
+    for at, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("```"):
+            code = not code and line.startswith(("```{code-cell}", "```python", "```sh", "```toml"))
+        elif code and len(line) > 88:
+            found.append(at)
+    return found
+
+
+@pytest.mark.parametrize(
+    "path", [*sorted(DOCS.glob("*.md")), *sorted((DOCS.parent / "examples").glob("*.py"))], ids=lambda path: path.name
+)
+def test_code_on_pages_is_at_most_88_wide(path):
+    """So that no line wraps or scrolls."""
+    assert too_wide(path) == []
