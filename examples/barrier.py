@@ -34,13 +34,15 @@ print(f"restitution {published.typical}: {published.domain}; {published.source}"
 car = col.Vehicle(mass="1500 kg", vx="56 km/h", name="car")
 squares = [col.linear_central(car, WALL, e) for e in (0.0, published.typical, 1.0)]
 print(
-    f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}{'crush':>8}{'EES':>8}{'lost':>9}"
+    f"{'restitution':>12}{'speed after':>13}{'delta-V':>10}"
+    f"{'crush':>8}{'EES':>8}{'lost':>9}"
 )
 print(f"{'':>12}{'km/h':>13}{'km/h':>10}{'km/h':>8}{'km/h':>8}{'kJ':>9}")
 for impact in squares:
     (crush, _), (ees, _) = impact.max_crush_speeds(share_a=1.0), impact.ees(share_a=1.0)
     print(
-        f"{impact.restitution:>12}{kmh(impact.a.after.vx):>13.1f}{kmh(impact.a.delta_v):>10.1f}{kmh(crush):>8.1f}"
+        f"{impact.restitution:>12}{kmh(impact.a.after.vx):>13.1f}"
+        f"{kmh(impact.a.delta_v):>10.1f}{kmh(crush):>8.1f}"
         f"{kmh(ees):>8.1f}{impact.energy_loss / 1000:>9.1f}"
     )
 
@@ -69,17 +71,21 @@ corners = {
     for mu in (0.0, 0.3, 0.6)
 }
 print(
-    f"{'':<8}{'friction':>9}{'speed after':>13}{'course':>9}{'yaw':>8}{'delta-V':>10}{'crush':>7}{'lost':>7}{'by friction':>13}"
+    f"{'':<8}{'friction':>9}{'speed after':>13}{'course':>9}{'yaw':>8}"
+    f"{'delta-V':>10}{'crush':>7}{'lost':>7}{'by friction':>13}"
 )
 print(
-    f"{'':<8}{'':>9}{'km/h':>13}{'deg':>9}{'deg/s':>8}{'km/h':>10}{'km/h':>7}{'kJ':>7}{'kJ':>13}"
+    f"{'':<8}{'':>9}{'km/h':>13}{'deg':>9}{'deg/s':>8}"
+    f"{'km/h':>10}{'km/h':>7}{'kJ':>7}{'kJ':>13}"
 )
 for label, family in (("point", points), ("corner", corners)):
     for mu, impact in family.items():
-        after = impact.a.after
+        after, (crush, _) = impact.a.after, impact.max_crush_speeds(share_a=1.0)
         print(
-            f"{label:<8}{mu:>9}{kmh(after.speed):>13.1f}{math.degrees(after.course):>9.1f}{math.degrees(after.yaw_rate):>8.0f}"
-            f"{kmh(impact.a.delta_v):>10.1f}{kmh(impact.max_crush_speeds(1.0)[0]):>7.1f}{impact.energy_loss / 1000:>7.1f}"
+            f"{label:<8}{mu:>9}{kmh(after.speed):>13.1f}"
+            f"{math.degrees(after.course):>9.1f}{math.degrees(after.yaw_rate):>8.0f}"
+            f"{kmh(impact.a.delta_v):>10.1f}{kmh(crush):>7.1f}"
+            f"{impact.energy_loss / 1000:>7.1f}"
             f"{impact.energy_loss_tangential / 1000:>13.1f}"
         )
 
@@ -113,9 +119,8 @@ for impact in squares:
     assert math.isclose(impact.a.delta_v, (1 + e) * v, rel_tol=1e-13)
     assert math.isclose(impact.max_crush_speeds(1.0)[0], v, rel_tol=1e-13)
     assert math.isclose(impact.ees(1.0)[0], v * math.sqrt(1 - e**2), rel_tol=1e-13)
-    assert math.isclose(
-        impact.energy_loss, 0.5 * car.mass * v**2 * (1 - e**2), rel_tol=1e-13
-    )
+    lost = 0.5 * car.mass * v**2 * (1 - e**2)
+    assert math.isclose(impact.energy_loss, lost, rel_tol=1e-13)
 
 
 def about_corner(body):
@@ -128,9 +133,8 @@ def about_corner(body):
 
 for mu in points:
     leaves = points[mu].a.after.course + ANGLE  # from the wall
-    assert math.isclose(
-        1 / math.tan(-leaves), (1 / math.tan(ANGLE) - mu) / 0.1 - mu, rel_tol=1e-13
-    )
+    tan_a = (1 / math.tan(ANGLE) - mu) / 0.1 - mu
+    assert math.isclose(1 / math.tan(-leaves), tan_a, rel_tol=1e-13)
     for impact in (points[mu], corners[mu]):
         lost = slanted.kinetic_energy - impact.a.after.kinetic_energy
         assert abs(lost - impact.energy_loss) < 1e-13 * slanted.kinetic_energy

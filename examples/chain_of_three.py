@@ -18,7 +18,7 @@ LENGTH = 4.4
 
 
 def chain(cars, restitution):
-    """Cars in line that roll freely between impacts: the times and places, each impact, and the cars at the end."""
+    """Let cars in line roll and collide: times and places, impacts, cars at the end."""
     clock, track, impacts = 0.0, [(0.0, [car.x for car in cars])], []
     while True:
         # How long each car needs to reach the one ahead of it.
@@ -39,26 +39,16 @@ def chain(cars, restitution):
 
 
 def row(behind, ahead):
-    """The three before, the front car at the origin, with a gap behind and one ahead of the middle car, bumper to bumper."""
+    """The three before, front car at 0, by the gaps behind and ahead of the middle."""
     middle = -LENGTH - ahead
+    rear = middle - LENGTH - behind
     return [
-        col.Vehicle(
-            mass="1500 kg",
-            vx="60 km/h",
-            x=middle - LENGTH - behind,
-            y=0.0,
-            heading="0 deg",
-            name="rear",
-        ),
-        col.Vehicle(
-            mass="1200 kg",
-            vx="30 km/h",
-            x=middle,
-            y=0.0,
-            heading="0 deg",
-            name="middle",
-        ),
-        col.Vehicle(mass="1400 kg", x=0.0, y=0.0, heading="0 deg", name="front"),
+        col.Vehicle(mass=mass, vx=vx, x=x, y=0.0, heading="0 deg", name=name)
+        for name, mass, vx, x in (
+            ("rear", "1500 kg", "60 km/h", rear),
+            ("middle", "1200 kg", "30 km/h", middle),
+            ("front", "1400 kg", 0.0, 0.0),
+        )
     ]
 
 
@@ -80,11 +70,12 @@ for label, (track, impacts, cars) in played.items():
     for (clock, _), impact in zip(track[1:], impacts, strict=True):
         who = f"{impact.a.before.name}, {impact.b.before.name}"
         striking, struck = (side.delta_v_forward * 3.6 for side in (impact.a, impact.b))
-        numbers = f"{clock:>6.2f}{impact.closing_speed * 3.6:>10.1f}{striking:>+12.1f}{struck:>+9.1f}"
-        print(f"{who:<16}{numbers}{impact.energy_loss / 1000:>8.1f}")
-    print(
-        "after:", ", ".join(f"{car.name} {car.vx * 3.6:.1f} km/h" for car in cars), "\n"
-    )
+        print(
+            f"{who:<16}{clock:>6.2f}{impact.closing_speed * 3.6:>10.1f}"
+            f"{striking:>+12.1f}{struck:>+9.1f}{impact.energy_loss / 1000:>8.1f}"
+        )
+    speeds = ", ".join(f"{car.name} {car.vx * 3.6:.1f} km/h" for car in cars)
+    print("after:", speeds, "\n")
 
 # %% [markdown]
 # With the gap ahead, the middle car is first thrown forward and then stopped by its hardest impact, which also is that of the
@@ -95,23 +86,15 @@ for label, (track, impacts, cars) in played.items():
 figure, axes = plt.subplots(1, 2, figsize=(12, 5), sharey=True, layout="constrained")
 for ax, (label, (track, _, cars)) in zip(axes, played.items(), strict=True):
     last, places = track[-1]
-    track = [
-        *track,
-        (last + 0.3, [x + 0.3 * car.vx for x, car in zip(places, cars, strict=True)]),
-    ]
+    rolled = [x + 0.3 * car.vx for x, car in zip(places, cars, strict=True)]
+    track = [*track, (last + 0.3, rolled)]
     clocks = [clock for clock, _ in track]
     for index, (car, hatch) in enumerate(zip(cars, ("//", "..", "\\\\"), strict=True)):
         middles = [xs[index] for _, xs in track]
         back, front = ([x + end for x in middles] for end in (-LENGTH / 2, LENGTH / 2))
-        ax.fill_between(
-            clocks,
-            back,
-            front,
-            alpha=0.45,
-            hatch=hatch,
-            edgecolor="white",
-            label=f"{car.name}, back to front",
-        )
+        name = f"{car.name}, back to front"
+        style = {"alpha": 0.45, "hatch": hatch, "edgecolor": "white", "label": name}
+        ax.fill_between(clocks, back, front, **style)
     for clock in clocks[1:-1]:
         ax.axvline(clock, color="0.3", lw=0.8, ls=":")
     ax.set(title=label, xlabel="time [s] (dotted: an impact)")
@@ -140,17 +123,12 @@ plot.momentum(max(every, key=lambda impact: impact.closing_speed), units="metric
 # %%
 for label, (track, impacts, after) in played.items():
     before = SCENES[label]
-    momentum, energy = (
-        sum(values)
-        for values in zip(
-            *((car.momentum[0], car.kinetic_energy) for car in before), strict=True
-        )
-    )
+    momentum = sum(car.momentum[0] for car in before)
+    energy = sum(car.kinetic_energy for car in before)
     assert math.isclose(sum(car.momentum[0] for car in after), momentum, rel_tol=1e-13)
     lost = sum(impact.energy_loss for impact in impacts)
-    assert (
-        abs(sum(car.kinetic_energy for car in after) + lost - energy) < 1e-13 * energy
-    )
+    kept = sum(car.kinetic_energy for car in after)
+    assert abs(kept + lost - energy) < 1e-13 * energy
     centres = [
         sum(car.mass * x for car, x in zip(before, xs, strict=True)) for _, xs in track
     ]

@@ -18,12 +18,12 @@ import collisions as col
 from collisions import plot
 
 OUTLINE = ("4.4 m", "1.8 m")
-COURSES = {
+COURSES = {  # of B, in degrees
     "from the side": 90,
     "corner to corner": 90,
     "merging": 40,
     "turning left": 225,
-}  # of B, in degrees
+}
 PLACES = {
     "from the side": (3.1, 0.0),
     "corner to corner": (3.1, -3.1),
@@ -34,17 +34,10 @@ A = col.Vehicle(mass="1500 kg", vx="50 km/h", x=0.0, y=0.0, heading="0 deg", nam
 
 
 def collide(kind, restitution, friction):
-    """A goes east through the origin; the normal is the line of centres, from A into B."""
+    """A goes east through the origin; the normal is along the centres, from A to B."""
     course, (x, y) = f"{COURSES[kind]} deg", PLACES[kind]
-    b = col.Vehicle.from_speed(
-        mass="1200 kg",
-        speed="40 km/h",
-        course=course,
-        x=x,
-        y=y,
-        heading=course,
-        name="B",
-    )
+    b = col.Vehicle.from_speed(mass="1200 kg", speed="40 km/h", course=course, name="B")
+    b = b.replace(x=x, y=y, heading=course)
     return col.oblique_central(A, b, restitution, normal=(x, y), friction=friction)
 
 
@@ -56,20 +49,22 @@ def collide(kind, restitution, friction):
 
 # %%
 print(
-    f"{'':<16}{'closing':>8}{'slip':>7}    {'frictionless: delta-V':<27}{'no slip: delta-V':<24}"
+    f"{'':<16}{'closing':>8}{'slip':>7}"
+    f"    {'frictionless: delta-V':<27}{'no slip: delta-V':<24}"
 )
 print(
-    f"{'':<16}{'km/h':>8}{'km/h':>7}{'A':>8}{'B':>7}{'course B':>10}{'A':>10}{'B':>7}{'course B':>10}"
+    f"{'':<16}{'km/h':>8}{'km/h':>7}"
+    f"{'A':>8}{'B':>7}{'course B':>10}{'A':>10}{'B':>7}{'course B':>10}"
 )
 for kind in COURSES:
     cases = [collide(kind, 0.1, friction) for friction in (0.0, math.inf)]
     cells = "  ".join(
-        f"{case.a.delta_v * 3.6:>8.1f}{case.b.delta_v * 3.6:>7.1f}{math.degrees(case.b.after.course):>10.0f}"
+        f"{case.a.delta_v * 3.6:>8.1f}{case.b.delta_v * 3.6:>7.1f}"
+        f"{math.degrees(case.b.after.course):>10.0f}"
         for case in cases
     )
-    print(
-        f"{kind:<16}{cases[0].closing_speed * 3.6:>8.1f}{abs(cases[0].slip_before) * 3.6:>7.1f}{cells}"
-    )
+    closing, slip = cases[0].closing_speed * 3.6, abs(cases[0].slip_before) * 3.6
+    print(f"{kind:<16}{closing:>8.1f}{slip:>7.1f}{cells}")
 
 # %% [markdown]
 # The same 50 and 40 km/h are a light touch when merging and a violent collision when turning left. Delta-V follows the closing
@@ -78,13 +73,8 @@ for kind in COURSES:
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
 for kind, ax in zip(COURSES, axes.flat, strict=True):
-    plot.scene(
-        collide(kind, 0.1, 0.5),
-        outline_a=OUTLINE,
-        outline_b=OUTLINE,
-        axes=ax,
-        units="metric",
-    )
+    impact = collide(kind, 0.1, 0.5)
+    plot.scene(impact, outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
     ax.set_title(f"{kind}, friction 0.5")
 
 # %% [markdown]
@@ -105,20 +95,16 @@ for kind, ax in zip(COURSES, axes.flat, strict=True):
 for kind in COURSES:
     smooth, locked = collide(kind, 0.1, 0.0), collide(kind, 0.0, math.inf)
     a, b = smooth.a.before, smooth.b.before
-    whole, reduced, (nx, ny) = (
-        a.mass + b.mass,
-        a.mass * b.mass / (a.mass + b.mass),
-        smooth.normal,
-    )
+    whole, (nx, ny) = a.mass + b.mass, smooth.normal
+    reduced = a.mass * b.mass / whole
     closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny
     together = (
         (a.mass * a.vx + b.mass * b.vx) / whole,
         (a.mass * a.vy + b.mass * b.vy) / whole,
     )
     for side in (smooth.a, smooth.b):
-        assert math.isclose(
-            side.delta_v, 1.1 * reduced * closing / side.before.mass, rel_tol=1e-13
-        )
+        delta_v = 1.1 * reduced * closing / side.before.mass
+        assert math.isclose(side.delta_v, delta_v, rel_tol=1e-13)
         assert abs(side.delta_vy * nx - side.delta_vx * ny) < 1e-13 * side.before.speed
     for after in (locked.a.after, locked.b.after):
         assert math.dist((after.vx, after.vy), together) < 1e-13 * a.speed

@@ -55,19 +55,20 @@ def collide(kind, friction, solver=col.eccentric):
 
 # %%
 print(
-    f"{'':<19}{'friction':>9}{'delta-V, km/h':>16}{'yaw after, deg/s':>19}{'without rotation':>19}"
+    f"{'':<19}{'friction':>9}{'delta-V, km/h':>16}"
+    f"{'yaw after, deg/s':>19}{'without rotation':>19}"
 )
 print(f"{'':<19}{'':>9}{'A':>8}{'B':>8}{'A':>11}{'B':>8}{'off by, km/h':>19}")
 for kind in TYPES:
     for friction in (0.0, 0.5):
         impact = collide(kind, friction)
-        off = (
-            3.6 * collide(kind, friction, col.required_model).errors["oblique_central"]
-        )
+        models = collide(kind, friction, col.required_model)
+        off = 3.6 * models.errors["oblique_central"]
         a, b = impact.a, impact.b
         print(
             f"{kind:<19}{friction:>9}{a.delta_v * 3.6:>8.1f}{b.delta_v * 3.6:>8.1f}"
-            f"{math.degrees(a.after.yaw_rate):>11.0f}{math.degrees(b.after.yaw_rate):>8.0f}{off:>19.1f}"
+            f"{math.degrees(a.after.yaw_rate):>11.0f}"
+            f"{math.degrees(b.after.yaw_rate):>8.0f}{off:>19.1f}"
         )
 
 # %% [markdown]
@@ -79,13 +80,8 @@ for kind in TYPES:
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
 for kind, ax in zip(TYPES, axes.flat, strict=True):
-    plot.scene(
-        collide(kind, 0.5),
-        outline_a=OUTLINE,
-        outline_b=OUTLINE,
-        axes=ax,
-        units="metric",
-    )
+    impact = collide(kind, 0.5)
+    plot.scene(impact, outline_a=OUTLINE, outline_b=OUTLINE, axes=ax, units="metric")
     ax.set_title(f"{kind}, friction 0.5")
 
 # %% [markdown]
@@ -115,54 +111,31 @@ def spin(car):
 for kind, (_, point) in TYPES.items():
     for friction in (0.0, 0.5):
         impact = collide(kind, friction)
-        a, b, a_after, b_after = (
-            impact.a.before,
-            impact.b.before,
-            impact.a.after,
-            impact.b.after,
-        )
+        a, b = impact.a.before, impact.b.before
+        a_after, b_after = impact.a.after, impact.b.after
         size = a.momentum[0]
         for axis in (0, 1):
-            left_over = (
-                a_after.momentum[axis]
-                + b_after.momentum[axis]
-                - a.momentum[axis]
-                - b.momentum[axis]
-            )
-            assert abs(left_over) < 1e-12 * size
-        assert abs(
-            spin(a_after) + spin(b_after) - spin(a) - spin(b)
-        ) < 1e-12 * size * math.hypot(*FAR)
-        energies = [car.kinetic_energy for car in (a, b, a_after, b_after)]
-        assert (
-            abs(
-                energies[0]
-                + energies[1]
-                - energies[2]
-                - energies[3]
-                - impact.energy_loss
-            )
-            < 1e-12 * energies[0]
-        )
-        met, part = (
-            a.vx - b.vx,
-            b_after.velocity_at(point)[0] - a_after.velocity_at(point)[0],
-        )
+            given = a.momentum[axis] - a_after.momentum[axis]
+            taken = b_after.momentum[axis] - b.momentum[axis]
+            assert abs(given - taken) < 1e-12 * size
+        left_over = spin(a_after) + spin(b_after) - spin(a) - spin(b)
+        assert abs(left_over) < 1e-12 * size * math.hypot(*FAR)
+        energy = a.kinetic_energy + b.kinetic_energy
+        lost = energy - a_after.kinetic_energy - b_after.kinetic_energy
+        assert abs(lost - impact.energy_loss) < 1e-12 * a.kinetic_energy
+        met = a.vx - b.vx
+        part = b_after.velocity_at(point)[0] - a_after.velocity_at(point)[0]
         assert abs(part - 0.1 * met) < 1e-12 * met
         levers = sum((point[1] - car.y) ** 2 / car.yaw_inertia for car in (a, b))
         if friction == 0.0:
-            assert math.isclose(
-                impact.normal_impulse,
-                1.1 * met / (1 / a.mass + 1 / b.mass + levers),
-                rel_tol=1e-12,
-            )
+            impulse = 1.1 * met / (1 / a.mass + 1 / b.mass + levers)
+            assert math.isclose(impact.normal_impulse, impulse, rel_tol=1e-12)
 
 twin = A.replace(vx="-50 km/h", x=2.2, y=0.9, heading="180 deg")
 head_on = col.eccentric(A, twin, 0.1, normal="0 deg", point=(0.0, 0.45), friction=0.0)
 impulse = 1.1 * A.vx / (1 / A.mass + 0.45**2 / A.yaw_inertia)
 assert math.isclose(head_on.normal_impulse, impulse, rel_tol=1e-12)
+yaw_rate = 0.45 * impulse / A.yaw_inertia
 for side in (head_on.a, head_on.b):
-    assert math.isclose(
-        side.after.yaw_rate, 0.45 * impulse / A.yaw_inertia, rel_tol=1e-12
-    )
+    assert math.isclose(side.after.yaw_rate, yaw_rate, rel_tol=1e-12)
 print("all checks passed")

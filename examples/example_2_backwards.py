@@ -59,14 +59,10 @@ def found_of(impact):
 
 
 def distance(impact):
-    """Largest difference from Example 2, each as a fraction of its closing speed, 1, and its energy."""
+    """Largest difference from Example 2, over its closing speed, 1, or its energy."""
     scales = (*[impact.closing_speed] * 4, 1.0, TRUTH["energy_loss"])
-    return max(
-        abs(ours - true) / scale
-        for ours, true, scale in zip(
-            found_of(impact), TRUTH.values(), scales, strict=True
-        )
-    )
+    triples = zip(found_of(impact), TRUTH.values(), scales, strict=True)
+    return max(abs(ours - true) / scale for ours, true, scale in triples)
 
 
 RESULTS = []
@@ -75,16 +71,14 @@ for names in itertools.combinations(TRUTH, 3):
     solutions = sorted(answers({name: TRUTH[name] for name in names}), key=distance)
     best = solutions[0]
     condition = best.reconstruction.condition if best.reconstruction else math.nan
-    other = (
-        f"va = {solutions[1].a.before.q.vx.m_as('km/h'):.1f} km/h, e = {solutions[1].restitution:.2f}"
-        if solutions[1:]
-        else ""
-    )
+    other = ""
+    if solutions[1:]:
+        va, e = solutions[1].a.before.q.vx.m_as("km/h"), solutions[1].restitution
+        other = f"va = {va:.1f} km/h, e = {e:.2f}"
     shown = "-" if math.isnan(condition) else f"{condition:.1f}"
     print(f"{', '.join(names):<42}{len(solutions):>8}{shown:>11}   {other}".rstrip())
-    RESULTS.append(
-        (names, distance(best), 1.0 if math.isnan(condition) else max(1.0, condition))
-    )
+    at_least_one = 1.0 if math.isnan(condition) else max(1.0, condition)
+    RESULTS.append((names, distance(best), at_least_one))
 
 # %% [markdown]
 # ## Checks

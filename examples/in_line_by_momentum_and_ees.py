@@ -17,12 +17,8 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append(
-        (
-            f"{label}: {ours:.8g}, expected {expected:.8g}",
-            abs(ours - expected) <= within,
-        )
-    )
+    text = f"{label}: {ours:.8g}, expected {expected:.8g}"
+    CHECKS.append((text, abs(ours - expected) <= within))
 
 
 # %% [markdown]
@@ -37,7 +33,9 @@ stood = reconstruct.central(
     "3000 lb", "4000 lb", va_after=together, vb_after=together, vb=0.0
 )
 print(
-    f"common speed {together / MPH:.2f} mph, impact speed {stood.a.before.vx / MPH:.2f} mph, restitution {stood.restitution:g}"
+    f"common speed {together / MPH:.2f} mph, "
+    f"impact speed {stood.a.before.vx / MPH:.2f} mph, "
+    f"restitution {stood.restitution:g}"
 )
 print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 
@@ -53,7 +51,8 @@ print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 mass_a, mass_b = stood.a.before.mass, stood.b.before.mass
 EES = {"low": (0.9 * 52, 0.9 * 31), "as judged": (52, 31), "high": (1.1 * 52, 1.1 * 31)}
 print(
-    f"{'EES':<12}{'energy, kJ':>11}{'striking, mph':>15}{'struck, mph':>13}{'closing, mph':>14}"
+    f"{'EES':<12}{'energy, kJ':>11}"
+    f"{'striking, mph':>15}{'struck, mph':>13}{'closing, mph':>14}"
 )
 judged = {}
 for label, (ees_a, ees_b) in EES.items():
@@ -66,8 +65,8 @@ for label, (ees_a, ees_b) in EES.items():
     )
     judged[label] = impact, closing
     print(
-        f"{label:<12}{energy / 1000:>11.0f}{impact.a.before.vx / MPH:>15.1f}{impact.b.before.vx / MPH:>13.1f}"
-        f"{closing / MPH:>14.1f}"
+        f"{label:<12}{energy / 1000:>11.0f}{impact.a.before.vx / MPH:>15.1f}"
+        f"{impact.b.before.vx / MPH:>13.1f}{closing / MPH:>14.1f}"
     )
 
 # %% [markdown]
@@ -121,9 +120,8 @@ print(f"{'deg':<24}{'km/h':>8}{'km/h':>10}{'kJ':>13}")
 for degrees in (183.0, 184.0, 185.0):
     found, warned = with_course(degrees)
     speeds = 3.6 * found.speed_a, 3.6 * found.speed_b
-    print(
-        f"{degrees:<24g}{speeds[0]:>8.1f}{speeds[1]:>10.1f}{found.translational_energy_loss / 1000:>13.0f}"
-    )
+    lost = found.translational_energy_loss / 1000
+    print(f"{degrees:<24g}{speeds[0]:>8.1f}{speeds[1]:>10.1f}{lost:>13.0f}")
 _, warned = with_course(184.0)
 print(f"{warned[0].code}: {warned[0]}")
 
@@ -139,9 +137,8 @@ print(f"{warned[0].code}: {warned[0]}")
 def rotation(mass, wheelbase, length, friction, degrees):
     """Yaw inertia, yaw rate at separation and its energy."""
     inertia = 0.1269 * mass * wheelbase * length
-    yaw_rate = math.sqrt(
-        friction * mass * 9.81 * wheelbase * math.radians(degrees) / inertia
-    )
+    angle = math.radians(degrees)
+    yaw_rate = math.sqrt(friction * mass * 9.81 * wheelbase * angle / inertia)
     return inertia, yaw_rate, 0.5 * inertia * yaw_rate**2
 
 
@@ -152,28 +149,28 @@ wanted = damage + energy_a + energy_b
 
 
 def course_with(energy):
-    """The course of the Mercedes, by halving: the energy lost falls as it turns away from the line."""
+    """The course of the Mercedes, by halving: less is lost further from the line."""
     low, high = 182.5, 190.0
     for _ in range(50):
         middle = 0.5 * (low + high)
-        low, high = (
-            (middle, high)
-            if with_course(middle)[0].translational_energy_loss > energy
-            else (low, middle)
-        )
+        if with_course(middle)[0].translational_energy_loss > energy:
+            low = middle
+        else:
+            high = middle
     return low
 
 
 print(
-    f"{'energy':<14}{'course of the Mercedes':>23}{'Rabbit':>9}{'Mercedes':>10}{'delta-V of the Rabbit':>23}"
+    f"{'energy':<14}{'course of the Mercedes':>23}"
+    f"{'Rabbit':>9}{'Mercedes':>10}{'delta-V of the Rabbit':>23}"
 )
 print(f"{'kJ':<14}{'deg':>23}{'km/h':>9}{'km/h':>10}{'km/h':>23}")
 for share in (0.9, 1.0, 1.1):
     degrees = course_with(share * wanted)
     solution, _ = with_course(degrees)
     print(
-        f"{share * wanted / 1000:<14.0f}{degrees:>23.2f}{3.6 * solution.speed_a:>9.1f}{3.6 * solution.speed_b:>10.1f}"
-        f"{3.6 * solution.delta_v_a:>23.1f}"
+        f"{share * wanted / 1000:<14.0f}{degrees:>23.2f}{3.6 * solution.speed_a:>9.1f}"
+        f"{3.6 * solution.speed_b:>10.1f}{3.6 * solution.delta_v_a:>23.1f}"
     )
     if share == 1.0:
         head_on = degrees, solution

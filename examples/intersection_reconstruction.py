@@ -26,12 +26,8 @@ CHECKS = []
 
 def check(label, found, expected, within, unit=""):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append(
-        (
-            f"{label}: {found:.6g} {unit}, expected {expected:.6g} within {within:.2g}",
-            abs(found - expected) <= within,
-        )
-    )
+    text = f"{label}: {found:.6g} {unit}, expected {expected:.6g} within {within:.2g}"
+    CHECKS.append((text, abs(found - expected) <= within))
 
 
 def kmh(speed):
@@ -64,15 +60,7 @@ PATHS = {
             (13.0, 16.5),
         ],
         "headings": [90, 50, 15, -15, -55, -80, -100, -105],
-        "friction": [
-            0.7,
-            0.7,
-            0.7,
-            0.7,
-            0.45,
-            0.45,
-            0.45,
-        ],  # asphalt, then grass from y = 9 m
+        "friction": [0.7] * 4 + [0.45] * 3,  # asphalt, then grass from y = 9 m
         "lock": 0.3,
     },
 }
@@ -111,13 +99,15 @@ def full_friction(name):
 
 runs = {name: run_out(name) for name in PATHS}
 print(
-    f"{'':<4}{'speed':>8}{'if full friction':>19}{'course':>10}{'straight line':>16}{'yaw rate':>12}"
+    f"{'':<4}{'speed':>8}{'if full friction':>19}"
+    f"{'course':>10}{'straight line':>16}{'yaw rate':>12}"
 )
 print(f"{'':<4}{'km/h':>8}{'km/h':>19}{'deg':>10}{'deg':>16}{'deg/s':>12}")
 for name, run in runs.items():
     print(
-        f"{name:<4}{kmh(run.speed):>8.1f}{kmh(full_friction(name)):>19.1f}{math.degrees(run.course):>10.1f}"
-        f"{math.degrees(run.straight_course):>16.1f}{math.degrees(run.yaw_rate):>12.0f}"
+        f"{name:<4}{kmh(run.speed):>8.1f}{kmh(full_friction(name)):>19.1f}"
+        f"{math.degrees(run.course):>10.1f}{math.degrees(run.straight_course):>16.1f}"
+        f"{math.degrees(run.yaw_rate):>12.0f}"
     )
 
 
@@ -159,18 +149,20 @@ momentum = momentum_of(a_after, b_after, COURSES)
 planar = reconstruct.planar(a_after, b_after, restitution=RESTITUTION, **CONTACT)
 
 print(
-    f"{'':<12}{'speed A':>9}{'speed B':>9}{'course A':>10}{'course B':>10}{'yaw A':>8}{'yaw B':>8}{'condition':>11}"
+    f"{'':<12}{'speed A':>9}{'speed B':>9}{'course A':>10}{'course B':>10}"
+    f"{'yaw A':>8}{'yaw B':>8}{'condition':>11}"
 )
 print(f"{'':<12}{'km/h':>9}{'km/h':>9}{'deg':>10}{'deg':>10}{'deg/s':>8}{'deg/s':>8}")
 print(
-    f"{'momentum':<12}{kmh(momentum.speed_a):>9.1f}{kmh(momentum.speed_b):>9.1f}{'given 0':>10}{'given 90':>10}{'-':>8}{'-':>8}"
-    f"{momentum.condition:>11.2f}"
+    f"{'momentum':<12}{kmh(momentum.speed_a):>9.1f}{kmh(momentum.speed_b):>9.1f}"
+    f"{'given 0':>10}{'given 90':>10}{'-':>8}{'-':>8}{momentum.condition:>11.2f}"
 )
 before = planar.a.before, planar.b.before
 print(
     f"{'planar':<12}{kmh(before[0].speed):>9.1f}{kmh(before[1].speed):>9.1f}"
     f"{math.degrees(before[0].course):>10.1f}{math.degrees(before[1].course):>10.1f}"
-    f"{math.degrees(before[0].yaw_rate):>8.0f}{math.degrees(before[1].yaw_rate):>8.0f}{planar.reconstruction.condition:>11.2f}"
+    f"{math.degrees(before[0].yaw_rate):>8.0f}{math.degrees(before[1].yaw_rate):>8.0f}"
+    f"{planar.reconstruction.condition:>11.2f}"
 )
 
 # %% [markdown]
@@ -201,17 +193,17 @@ forward = col.eccentric(*start, RESTITUTION, **CONTACT)
 print(f"{'':<26}{'speed':>8}{'course':>9}{'yaw rate':>10}")
 print(f"{'':<26}{'km/h':>8}{'deg':>9}{'deg/s':>10}")
 for name, marks, side in (("A", a_after, forward.a), ("B", b_after, forward.b)):
-    for label, car in (
-        ("from the marks", marks),
-        ("momentum, then eccentric", side.after),
-    ):
-        numbers = f"{kmh(car.speed):>8.1f}{math.degrees(car.course):>9.1f}{math.degrees(car.yaw_rate):>10.0f}"
-        print(f"{name} {label:<24}{numbers}")
+    cars = {"from the marks": marks, "momentum, then eccentric": side.after}
+    for label, car in cars.items():
+        print(
+            f"{name} {label:<24}{kmh(car.speed):>8.1f}"
+            f"{math.degrees(car.course):>9.1f}{math.degrees(car.yaw_rate):>10.0f}"
+        )
 print(f"contact: {forward.regime}, closing speed {kmh(forward.closing_speed):.1f} km/h")
 for side in (forward.a, forward.b):
     print(
-        f"{side.before.name}: delta-V {kmh(side.delta_v):.1f} km/h, force from {math.degrees(side.pdof):.0f} deg "
-        f"(0 ahead, clockwise positive)"
+        f"{side.before.name}: delta-V {kmh(side.delta_v):.1f} km/h, "
+        f"force from {math.degrees(side.pdof):.0f} deg (0 ahead, clockwise positive)"
     )
 
 # %% [markdown]
@@ -243,7 +235,7 @@ INPUTS = {
 
 
 def moved(name, inputs):
-    """The positions of a car, the second and third moved across the line from the first."""
+    """Positions of a car, the second and third moved across the line from the first."""
     points = [(np.float64(x), np.float64(y)) for x, y in PATHS[name]["points"]]
     for place, label in ((1, "second"), (2, "third")):
         (x0, y0), (x, y) = points[0], points[place]
@@ -253,17 +245,13 @@ def moved(name, inputs):
 
 
 def separation(inputs):
-    """Both cars at separation, by their run-outs; every value is an array with one number a case."""
+    """Both cars at separation, by their run-outs; arrays with one number a case."""
     asphalt, grass = inputs["friction of the asphalt"], inputs["friction of the grass"]
     surfaces = {"A": asphalt, "B": [asphalt] * 4 + [grass] * 3}
     for name, car in (("A", CAR_A), ("B", CAR_B)):
         headings = [f"{heading} deg" for heading in PATHS[name]["headings"]]
-        run = travel.path(
-            moved(name, inputs),
-            headings,
-            friction=surfaces[name],
-            lock=inputs[f"lock of {name}"],
-        )
+        points, lock = moved(name, inputs), inputs[f"lock of {name}"]
+        run = travel.path(points, headings, friction=surfaces[name], lock=lock)
         vx, vy = run.speed * np.cos(run.course), run.speed * np.sin(run.course)
         yield car.replace(
             mass=inputs[f"mass of {name}"], vx=vx, vy=vy, yaw_rate=run.yaw_rate
@@ -275,11 +263,10 @@ def scene(**inputs):
     ends = tuple(separation(inputs))
     courses = {"course_a": inputs["course of A"], "course_b": inputs["course of B"]}
     found = momentum_of(*ends, courses)
+    speeds = found.speed_a, found.speed_b
     before = [
         end.replace(vx=speed * np.cos(course), vy=speed * np.sin(course), yaw_rate=0.0)
-        for end, speed, course in zip(
-            ends, (found.speed_a, found.speed_b), courses.values(), strict=True
-        )
+        for end, speed, course in zip(ends, speeds, courses.values(), strict=True)
     ]
     contact = {
         "normal": inputs["normal"],
@@ -297,12 +284,14 @@ def scene(**inputs):
 
 result = propagate(scene, INPUTS, method="quasi_random", samples=8192, seed=4)
 print(
-    f"given the stated inputs, {result.samples} cases, {result.failed} without an answer"
+    f"given the stated inputs, {result.samples} cases, "
+    f"{result.failed} without an answer"
 )
 for name in result:
     low, high = result[name].interval(0.95)
     print(
-        f"{name:<14}{kmh(result[name].mean):>7.1f} km/h, 95 percent from {kmh(low):.1f} to {kmh(high):.1f}, "
+        f"{name:<14}{kmh(result[name].mean):>7.1f} km/h, "
+        f"95 percent from {kmh(low):.1f} to {kmh(high):.1f}, "
         f"standard error {kmh(result[name].mean_standard_error):.4f}"
     )
 
@@ -323,16 +312,15 @@ ranked = sorted(INPUTS, key=total.__getitem__)
 for chart, answer in zip(charts, answers, strict=True):
     shares = [result[answer].contributions[name] for name in ranked]
     chart.barh(ranked, [100.0 * max(share, 0.0) for share in shares], color="#3b6ea5")
-    chart.set_title(
-        f"{answer}: {kmh(result[answer].mean):.0f} ± {kmh(result[answer].std):.1f} km/h",
-        fontsize=10,
-    )
+    mean, std = kmh(result[answer].mean), kmh(result[answer].std)
+    chart.set_title(f"{answer}: {mean:.0f} ± {std:.1f} km/h", fontsize=10)
     chart.set_xlabel("share of the variance [%]")
     chart.spines[["top", "right"]].set_visible(False)
 for answer in answers:
     first, second, *_, last = result[answer].contributions.items()
     print(
-        f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}\n{'':>10}least: {last[0]} {max(last[1], 0.0):.0%}"
+        f"{answer}: {first[0]} {first[1]:.0%}, {second[0]} {second[1]:.0%}\n"
+        f"{'':>10}least: {last[0]} {max(last[1], 0.0):.0%}"
     )
 
 # %% [markdown]
@@ -350,19 +338,14 @@ for answer in answers:
 # %%
 for label, found, end in (("A", again.a.after, a_after), ("B", again.b.after, b_after)):
     for name in ("vx", "vy", "yaw_rate"):
-        check(
-            f"planar undone, {label}.{name}",
-            getattr(found, name),
-            getattr(end, name),
-            1e-10,
-        )
+        one, other = getattr(found, name), getattr(end, name)
+        check(f"planar undone, {label}.{name}", one, other, 1e-10)
 
 
 def difference(**inputs):
     ends = tuple(separation(inputs))
-    found = momentum_of(
-        *ends, {"course_a": inputs["course of A"], "course_b": inputs["course of B"]}
-    )
+    courses = {"course_a": inputs["course of A"], "course_b": inputs["course of B"]}
+    found = momentum_of(*ends, courses)
     planar = reconstruct.planar(
         *ends, restitution=RESTITUTION, **CONTACT, on_failure="nan"
     )
@@ -372,9 +355,8 @@ def difference(**inputs):
     }
 
 
-as_taken = {name: value.mean for name, value in INPUTS.items()} | {
-    "lock of B": PATHS["B"]["lock"]
-}
+as_taken = {name: value.mean for name, value in INPUTS.items()}
+as_taken["lock of B"] = PATHS["B"]["lock"]
 read = {
     name: value
     for name, value in INPUTS.items()
@@ -385,13 +367,8 @@ for name, one, other in (
     ("A", momentum.speed_a, before[0].speed),
     ("B", momentum.speed_b, before[1].speed),
 ):
-    check(
-        f"momentum and planar, {name}",
-        kmh(one),
-        kmh(other),
-        2.0 * kmh(apart[name].std),
-        "km/h",
-    )
+    within = 2.0 * kmh(apart[name].std)
+    check(f"momentum and planar, {name}", kmh(one), kmh(other), within, "km/h")
     low, high = result[f"speed of {name}"].interval(0.95)
     CHECKS.append((f"speed of {name} within its range", low < one < high))
 for name, marks, found in (
@@ -399,27 +376,13 @@ for name, marks, found in (
     ("B", b_after, forward.b.after),
 ):
     check(f"forward, speed of {name}", kmh(found.speed), kmh(marks.speed), 1.5, "km/h")
-    check(
-        f"forward, course of {name}",
-        math.degrees(found.course),
-        math.degrees(marks.course),
-        3.0,
-        "deg",
-    )
-    check(
-        f"forward, yaw rate of {name}",
-        math.degrees(found.yaw_rate),
-        math.degrees(marks.yaw_rate),
-        20.0,
-        "deg/s",
-    )
+    one, other = math.degrees(found.course), math.degrees(marks.course)
+    check(f"forward, course of {name}", one, other, 3.0, "deg")
+    one, other = math.degrees(found.yaw_rate), math.degrees(marks.yaw_rate)
+    check(f"forward, yaw rate of {name}", one, other, 20.0, "deg/s")
 CHECKS.append(("every case was answered", result.failed == apart.failed == 0))
-CHECKS.append(
-    (
-        "what the inputs bring adds up",
-        all(0.9 < sum(result[name].contributions.values()) < 1.1 for name in answers),
-    )
-)
+sums = [sum(result[name].contributions.values()) for name in answers]
+CHECKS.append(("what the inputs bring adds up", all(0.9 < s < 1.1 for s in sums)))
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

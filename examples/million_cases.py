@@ -25,33 +25,16 @@ KMH = 1 / 3.6
 
 def crash(speed_a, speed_b, mass_a, mass_b, offset, restitution, friction, **options):
     """A behind B and a little beside it; numbers or arrays, in SI."""
+    place_a = {"x": -2.2, "y": offset, "heading": 0.0}
+    place_b = {"x": 2.1, "y": 0.0, "heading": 0.0}
     a = col.Vehicle(
-        mass=mass_a,
-        yaw_inertia=1.7 * mass_a,
-        vx=speed_a,
-        x=-2.2,
-        y=offset,
-        heading=0.0,
-        name="A",
+        mass=mass_a, yaw_inertia=1.7 * mass_a, vx=speed_a, **place_a, name="A"
     )
     b = col.Vehicle(
-        mass=mass_b,
-        yaw_inertia=1.6 * mass_b,
-        vx=speed_b,
-        x=2.1,
-        y=0.0,
-        heading=0.0,
-        name="B",
+        mass=mass_b, yaw_inertia=1.6 * mass_b, vx=speed_b, **place_b, name="B"
     )
-    return col.eccentric(
-        a,
-        b,
-        restitution,
-        normal=0.0,
-        point=(0.0, offset / 2),
-        friction=friction,
-        **options,
-    )
+    contact = {"normal": 0.0, "point": (0.0, offset / 2), "friction": friction}
+    return col.eccentric(a, b, restitution, **contact, **options)
 
 
 # %% [markdown]
@@ -100,7 +83,8 @@ started = time.perf_counter()
 one_by_one = [crash(**single).b.delta_v for single in singles]
 single_time = (time.perf_counter() - started) / len(singles)
 print(
-    f"here a case took {1e9 * batch_time:.0f} ns in the batch, {1e6 * single_time:.0f} µs on its own"
+    f"here a case took {1e9 * batch_time:.0f} ns in the batch, "
+    f"{1e6 * single_time:.0f} µs on its own"
 )
 
 # %% [markdown]
@@ -111,13 +95,14 @@ print(
 
 # %%
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):
-    print(
-        f"{count:>8}  {count / COUNT:7.2%}  {col.Status(code).label}\n{'':>8}{col.Status(code).sentence}"
-    )
+    status = col.Status(code)
+    print(f"{count:>8}  {count / COUNT:7.2%}  {status.label}")
+    print(f"{'':>8}{status.sentence}")
 answered = delta_v[batch.ok]
 low, middle, high = np.quantile(answered, (0.025, 0.5, 0.975)) / KMH
 print(
-    f"delta-V of B: median {middle:.1f} km/h, 95 percent from {low:.1f} to {high:.1f} km/h"
+    f"delta-V of B: median {middle:.1f} km/h, "
+    f"95 percent from {low:.1f} to {high:.1f} km/h"
 )
 
 # %% [markdown]
@@ -147,27 +132,18 @@ with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     started = time.perf_counter()
     result = propagate(answers, known, method="quasi_random", seed=8)
-    print(
-        f"{result.samples} cases in {time.perf_counter() - started:.2f} s, and {caught[0].message}"
-    )
+    took = time.perf_counter() - started
+    print(f"{result.samples} cases in {took:.2f} s, and {caught[0].message}")
 found = result["delta-V of B"]
+median = found.q.quantile(0.5).m_as("km/h")
 ends = " to ".join(f"{end.m_as('km/h'):.1f}" for end in found.q.interval(0.95))
-print(
-    f"delta-V of B: median {found.q.quantile(0.5).m_as('km/h'):.1f} km/h, 95 percent from {ends} km/h"
-)
+print(f"delta-V of B: median {median:.1f} km/h, 95 percent from {ends} km/h")
 
 axes = plot.distribution(found, units="metric")
 edges = found.histogram().edges / KMH
 percent = np.full(answered.size, 100 / answered.size)
-axes.hist(
-    answered / KMH,
-    edges,
-    weights=percent,
-    histtype="step",
-    color="C1",
-    linewidth=2,
-    label="the million",
-)
+style = {"histtype": "step", "color": "C1", "linewidth": 2, "label": "the million"}
+axes.hist(answered / KMH, edges, weights=percent, **style)
 legend = axes.legend(loc="upper right", fontsize="small")
 
 # %% [markdown]
@@ -188,17 +164,13 @@ def carried(a, b):
     turning = sum(
         v.yaw_inertia * v.yaw_rate + v.mass * (v.x * v.vy - v.y * v.vx) for v in (a, b)
     )
-    return np.array(
-        [a.mass * a.vx + b.mass * b.vx, a.mass * a.vy + b.mass * b.vy, turning]
-    )[:, batch.ok]
+    along, across = a.mass * a.vx + b.mass * b.vx, a.mass * a.vy + b.mass * b.vy
+    return np.array([along, across, turning])[:, batch.ok]
 
 
-assert np.allclose(
-    carried(batch.a.after, batch.b.after),
-    carried(batch.a.before, batch.b.before),
-    rtol=0,
-    atol=1e-9,
-)
+before = carried(batch.a.before, batch.b.before)
+after = carried(batch.a.after, batch.b.after)
+assert np.allclose(after, before, rtol=0, atol=1e-9)
 
 table = 0.02275
 expected = COUNT * (1 - (1 - table) ** 2)
@@ -207,9 +179,9 @@ assert np.all(np.isnan(delta_v) == ~batch.ok)
 
 density = math.exp(-(2.0**2) / 2) / math.sqrt(2 * math.pi)
 closing = batch.closing_speed[batch.ok]
-assert abs(
-    closing.mean() - (20 + 10 * density / (1 - table)) * KMH
-) < 4 * closing.std() / math.sqrt(closing.size)
+mean = (20 + 10 * density / (1 - table)) * KMH
+standard_error = closing.std() / math.sqrt(closing.size)
+assert abs(closing.mean() - mean) < 4 * standard_error
 standard_error = math.hypot(
     found.mean_standard_error, answered.std() / math.sqrt(answered.size)
 )

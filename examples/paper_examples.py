@@ -31,9 +31,8 @@ def heading(title):
 
 def check(label, ours, expected, relative):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append(
-        (label, ours, expected, abs(ours - expected) <= relative * abs(expected))
-    )
+    good = abs(ours - expected) <= relative * abs(expected)
+    CHECKS.append((label, ours, expected, good))
 
 
 # %% [markdown]
@@ -49,18 +48,13 @@ car = col.Vehicle(mass="1100 kg", vx="50 km/h", name="A")
 KINDS = ((0.0, "plastic"), (0.2, "elastoplastic"), (1.0, "elastic"))
 for e, kind in KINDS:
     impact = col.linear_central(car, col.Vehicle.barrier(), e)
-    row(
-        f"e = {e:g}: velocity after, v' = -e v",
-        f"{-e * 50 + 0.0:g}",
-        impact.a.after.q.vx.m_as("km/h") + 0.0,
-        "km/h",
-    )
+    rule, ours = f"{-e * 50 + 0.0:g}", impact.a.after.q.vx.m_as("km/h") + 0.0
+    row(f"e = {e:g}: velocity after, v' = -e v", rule, ours, "km/h")
     row(f"e = {e:g}: kind of impact", kind, impact.kind)
     row(f"e = {e:g}: energy lost", "-", impact.energy_loss / 1000, "kJ")
     check(f"Example 1, v' at e = {e:g}", impact.a.after.vx, -e * car.vx, 1e-15)
-    CHECKS.append(
-        (f"Example 1, kind at e = {e:g}", impact.kind, kind, impact.kind == kind)
-    )
+    same = impact.kind == kind
+    CHECKS.append((f"Example 1, kind at e = {e:g}", impact.kind, kind, same))
 
 # %% [markdown]
 # ## Example 2: front to back
@@ -81,25 +75,15 @@ impact = col.linear_central(a, b, restitution=35 / 88)
 
 va_after, vb_after = (side.after.q.vx.m_as("km/h") for side in (impact.a, impact.b))
 e_found = (impact.b.after.vx - impact.a.after.vx) / (a.vx - b.vx)
+common = impact.common_velocity
 
 heading("Example 2: 1100 kg at 80 km/h into the back of 950 kg at rest")
 row("velocity of B after (observed)", "60", vb_after, "km/h")
-row(
-    "velocity of A after",
-    "28.15",
-    va_after,
-    "km/h",
-    "exactly 310/11; the paper rounds the speeds first",
-)
+rounded = "exactly 310/11; the paper rounds the speeds first"
+row("velocity of A after", "28.15", va_after, "km/h", rounded)
 row("velocity of A after", "7.82", impact.a.after.vx, "m/s")
 row("restitution, separation / closing speed", "0.40", e_found, "", "exactly 35/88")
-row(
-    "velocity both share at full compression",
-    "-",
-    impact.common_velocity,
-    "m/s",
-    "eqs (3), (4)",
-)
+row("velocity both share at full compression", "-", common, "m/s", "eqs (3), (4)")
 row("energy lost", "-", impact.energy_loss / 1000, "kJ", "eq (8)")
 
 check("Example 2, v'_A", va_after, 310 / 11, 1e-13)
@@ -139,47 +123,28 @@ impact = col.eccentric(a, b, 0.80, normal="0 deg", point=(0.0, L), friction=0.0)
 
 turn = impact.b.after.yaw_rate
 sense = "clockwise" if turn < 0 else "counter-clockwise"
-tip_vx = impact.b.after.velocity_at((0.0, L))[0]
+va_after = impact.a.after.vx
+separation = impact.b.after.velocity_at((0.0, L))[0] - va_after
 
 heading("Example 3: 900 kg at 60 km/h strikes 1000 kg, which turns about O")
 row("yaw rate of B after", "5.47", turn, "rad/s", f"the minus sign: {sense}")
-row(
-    "velocity of A after",
-    "8.55",
-    impact.a.after.vx,
-    "m/s",
-    "exactly 950/111; the paper cuts off",
-)
+cut = "exactly 950/111; the paper cuts off"
+row("velocity of A after", "8.55", va_after, "m/s", cut)
 row("velocity of A after", "31", impact.a.after.q.vx.m_as("km/h"), "km/h")
-row(
-    "separation speed at the contact",
-    "13.33",
-    tip_vx - impact.a.after.vx,
-    "m/s",
-    "eq (21)",
-)
+row("separation speed at the contact", "13.33", separation, "m/s", "eq (21)")
 row("energy lost", "-", impact.energy_loss / 1000, "kJ")
-row(
-    "impulse of the pivot on B, to the right",
-    "-",
-    impact.b.pivot_impulse_x / 1000,
-    "kN s",
-    "not worked out in the paper",
-)
+pivot, unprinted = impact.b.pivot_impulse_x, "not worked out in the paper"
+row("impulse of the pivot on B, to the right", "-", pivot / 1000, "kN s", unprinted)
 
 check("Example 3, yaw rate", turn, -405 / 74, 1e-13)
-check("Example 3, v'_A", impact.a.after.vx, 950 / 111, 1e-13)
-check(
-    "Example 3, eq (20), moments about O",
-    3600 * impact.a.after.vx - 16000 / 3 * turn,
-    60000.0,
-    1e-13,
-)
-check("Example 3, eq (21)", tip_vx - impact.a.after.vx, 0.80 * 60 / 3.6, 1e-13)
+moments = 3600 * va_after - 16000 / 3 * turn
+check("Example 3, v'_A", va_after, 950 / 111, 1e-13)
+check("Example 3, eq (20), moments about O", moments, 60000.0, 1e-13)
+check("Example 3, eq (21)", separation, 0.80 * 60 / 3.6, 1e-13)
 check("Example 3, yaw rate as printed", -turn, 5.47, 1e-2)
-check("Example 3, v'_A as printed (truncated)", impact.a.after.vx, 8.55, 1e-2)
+check("Example 3, v'_A as printed (truncated)", va_after, 8.55, 1e-2)
 check("Example 3, energy loss", impact.energy_loss, 12.2e3, 0.05 / 12.2)
-check("Example 3, pivot impulse", impact.b.pivot_impulse_x, 3.65e3, 0.005 / 3.65)
+check("Example 3, pivot impulse", pivot, 3.65e3, 0.005 / 3.65)
 
 # %% [markdown]
 # ## Checks

@@ -40,13 +40,9 @@ B = col.Vehicle(
 
 def struck(b, height=LENGTH):
     """A against B at a height above O: an array of heights for many impacts."""
+    a = A.replace(y=height)
     return col.eccentric(
-        A.replace(y=height),
-        b,
-        RESTITUTION,
-        normal="0 deg",
-        point=(0.0, height),
-        friction=0.0,
+        a, b, RESTITUTION, normal="0 deg", point=(0.0, height), friction=0.0
     )
 
 
@@ -71,20 +67,16 @@ axes = plot.scene(
 free = struck(B.replace(pivot=None))
 print(f"{'':<34}{'paper':>9}{'pinned':>9}{'free':>9}")
 for label, paper, unit, read in (
-    ("yaw rate of B after", "-5.47", "rad/s", lambda impact: impact.b.after.q.yaw_rate),
-    ("velocity of A after", "8.55", "m/s", lambda impact: impact.a.after.q.vx),
-    ("velocity of B's centre after", "", "m/s", lambda impact: impact.b.after.q.vx),
-    ("impulse on B at the contact", "", "kN*s", lambda impact: impact.q.normal_impulse),
-    (
-        "impulse on B at the pivot",
-        "",
-        "kN*s",
-        lambda impact: impact.b.q.pivot_impulse_x,
-    ),
-    ("energy lost", "", "kJ", lambda impact: impact.q.energy_loss),
+    ("yaw rate of B after", "-5.47", "rad/s", lambda hit: hit.b.after.q.yaw_rate),
+    ("velocity of A after", "8.55", "m/s", lambda hit: hit.a.after.q.vx),
+    ("velocity of B's centre after", "", "m/s", lambda hit: hit.b.after.q.vx),
+    ("impulse on B at the contact", "", "kN*s", lambda hit: hit.q.normal_impulse),
+    ("impulse on B at the pivot", "", "kN*s", lambda hit: hit.b.q.pivot_impulse_x),
+    ("energy lost", "", "kJ", lambda hit: hit.q.energy_loss),
 ):
     print(
-        f"{f'{label}, {unit}':<34}{paper:>9}{read(pinned).m_as(unit):>9.2f}{read(free).m_as(unit):>9.2f}"
+        f"{f'{label}, {unit}':<34}{paper:>9}"
+        f"{read(pinned).m_as(unit):>9.2f}{read(free).m_as(unit):>9.2f}"
     )
 
 # %% [markdown]

@@ -17,10 +17,8 @@ import numpy as np
 import collisions as col
 from collisions import plot
 
-RADIUS, DENTED = (
-    0.15,
-    0.65,
-)  # m: of the pole, and from the centre of mass to the side of the car where it is dented
+RADIUS = 0.15  # m, of the pole
+DENTED = 0.65  # m, from the centre of mass to the side of the car where it is dented
 POLE = col.Vehicle.barrier(x=0.0, y=0.0, heading=0.0, name="pole")
 CAR = col.Vehicle(
     mass="1400 kg",
@@ -34,7 +32,10 @@ CAR = col.Vehicle(
 
 
 def struck(ahead, friction=0.5, restitution=0.1):
-    """The car against a pole so many metres ahead of its centre of mass; an array for many such impacts."""
+    """The car against a pole so many metres ahead of its centre of mass.
+
+    Give an array for many such impacts.
+    """
     car = CAR.replace(y=-ahead)
     return col.eccentric(
         car, POLE, restitution, normal="0 deg", point=(-RADIUS, 0.0), friction=friction
@@ -55,15 +56,18 @@ axes = plot.scene(
 
 # %%
 print(
-    f"{'pole ahead':>11}{'delta-V':>10}{'yaw after':>11}{'speed after':>13}{'energy lost':>13}{'effective mass':>16}"
+    f"{'pole ahead':>11}{'delta-V':>10}{'yaw after':>11}"
+    f"{'speed after':>13}{'energy lost':>13}{'effective mass':>16}"
 )
 print(f"{'m':>11}{'km/h':>10}{'deg/s':>11}{'km/h':>13}{'kJ':>13}{'kg':>16}")
 for ahead in (0.0, 0.45, 0.9, 1.35, 1.8):
     impact = struck(ahead)
     car = impact.q.a
     print(
-        f"{ahead:>11.2f}{car.delta_v.m_as('km/h'):>10.1f}{car.after.yaw_rate.m_as('deg/s'):>z11.0f}"
-        f"{car.after.speed.m_as('km/h'):>13.1f}{impact.q.energy_loss.m_as('kJ'):>13.1f}{impact.effective_mass:>16.0f}"
+        f"{ahead:>11.2f}{car.delta_v.m_as('km/h'):>10.1f}"
+        f"{car.after.yaw_rate.m_as('deg/s'):>z11.0f}"
+        f"{car.after.speed.m_as('km/h'):>13.1f}"
+        f"{impact.q.energy_loss.m_as('kJ'):>13.1f}{impact.effective_mass:>16.0f}"
     )
 
 # %% [markdown]

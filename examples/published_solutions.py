@@ -23,16 +23,8 @@ from pathlib import Path
 
 # Above this file or, as a notebook, above the folder it runs in.
 ABOVE = Path(globals().get("__file__", "notebook")).resolve().parents
-sys.path.insert(
-    0,
-    str(
-        next(
-            folder / "validation"
-            for folder in ABOVE
-            if (folder / "validation" / "run.py").is_file()
-        )
-    ),
-)
+RUNS = (folder / "validation" / "run.py" for folder in ABOVE)
+sys.path.insert(0, str(next(run.parent for run in RUNS if run.is_file())))
 
 import published_cases
 import solutions
@@ -72,7 +64,8 @@ print(
     f"{'test':<5}{'vehicle':<29}{'delta-V, mph':>19}{'change of yaw rate, deg/s':>32}"
 )
 print(
-    f"{'':<34}{'printed':>8}{'brach':>7}{'kudlich-':>10}{'printed':>11}{'brach':>7}{'kudlich-':>10}"
+    f"{'':<34}{'printed':>8}{'brach':>7}{'kudlich-':>10}"
+    f"{'printed':>11}{'brach':>7}{'kudlich-':>10}"
 )
 print(f"{'':<34}{'':>8}{'':>7}{'slibar':>10}{'':>11}{'':>7}{'slibar':>10}")
 for case, test in solutions.TESTS.items():
@@ -81,40 +74,26 @@ for case, test in solutions.TESTS.items():
     figures = solutions.nhtsa_oblique(case)
     for i, row in zip("12", rows, strict=True):
         delta_v, turn = figures[f"dV{i}"], figures[f"d_omega{i}"]
-        printed_v, printed_turn = (
-            row["published_delta_v_mph"],
-            row["published_delta_yaw_rate_deg_s"],
-        )
+        printed_v = row["published_delta_v_mph"]
+        printed_turn = row["published_delta_yaw_rate_deg_s"]
         print(
-            f"{test:<5}{row['vehicle']:<29}{printed_v:>8}{delta_v['brach']:>7.2f}{delta_v['kudlich-slibar']:>10.2f}"
+            f"{test:<5}{row['vehicle']:<29}"
+            f"{printed_v:>8}{delta_v['brach']:>7.2f}{delta_v['kudlich-slibar']:>10.2f}"
             f"{printed_turn:>11}{turn['brach']:>7.1f}{turn['kudlich-slibar']:>10.1f}"
         )
         sign = -1 if "sign misprint" in row["note"] else 1
-        check(
-            f"{test} {row['vehicle']}, delta-V",
-            delta_v["brach"],
-            float(printed_v),
-            0.2,
-            "mph",
-        )
-        check(
-            f"{test} {row['vehicle']}, yaw rate",
-            turn["brach"],
-            sign * float(printed_turn),
-            1.0,
-            "deg/s",
-        )
-    ratio, printed_ratio = (
-        impact.critical_impulse_ratio,
-        rows[0]["published_critical_impulse_ratio"],
-    )
-    closing, relative = (
-        impact.q.closing_speed.m_as("mph"),
-        impact.q.relative_speed.m_as("mph"),
-    )
+        expected_v, expected_turn = float(printed_v), sign * float(printed_turn)
+        who = f"{test} {row['vehicle']}"
+        check(f"{who}, delta-V", delta_v["brach"], expected_v, 0.2, "mph")
+        check(f"{who}, yaw rate", turn["brach"], expected_turn, 1.0, "deg/s")
+    ratio = impact.critical_impulse_ratio
+    printed_ratio = rows[0]["published_critical_impulse_ratio"]
+    closing = impact.q.closing_speed.m_as("mph")
+    relative = impact.q.relative_speed.m_as("mph")
     print(
         f"{'':<5}critical impulse ratio {printed_ratio} printed, {ratio:.3f} ours\n"
-        f"{'':<5}closing speed at the contact {closing:.1f} mph, relative speed of the centres {relative:.1f} mph"
+        f"{'':<5}closing speed at the contact {closing:.1f} mph, "
+        f"relative speed of the centres {relative:.1f} mph"
     )
     check(f"{test}, critical ratio", ratio, float(printed_ratio), 0.005, "")
 
@@ -135,7 +114,8 @@ impact, other = (
     solutions.barrier_impact(row, law) for law in ("brach", "kudlich-slibar")
 )
 print(
-    f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   {'':<7}{'kudlich-slibar':>14}"
+    f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   "
+    f"{'':<7}{'kudlich-slibar':>14}"
 )
 for label, name, column, unit in (
     ("delta-V x, rearward", "delta_vx", "measured_delta_vx_ft_s_rearward", "ft/s"),
@@ -152,17 +132,18 @@ for label, name, column, unit in (
         abs(getattr(found.a.q, name).m_as(unit)) for found in (impact, other)
     )
     print(f"{label:<32}{row[column]:>10}{ours:>9.2f}   {unit:<7}{under_other:>14.2f}")
+    printed = float(row[column])
     if unit == "deg/s":
-        check(f"CF11016, {label}", ours, float(row[column]), 1.0, unit)
+        check(f"CF11016, {label}", ours, printed, 1.0, unit)
     else:
         to_mph = 3600 / 5280
-        check(
-            f"CF11016, {label}", ours * to_mph, float(row[column]) * to_mph, 0.2, "mph"
-        )
+        check(f"CF11016, {label}", ours * to_mph, printed * to_mph, 0.2, "mph")
+sense = "counter-clockwise" if impact.a.delta_yaw_rate > 0 else "clockwise"
+pushed = "left" if impact.a.delta_v_left > 0 else "right"
+pdof = math.degrees(impact.a.pdof)
 print(
-    f"the car turns {'counter-clockwise' if impact.a.delta_yaw_rate > 0 else 'clockwise'} and is pushed to its "
-    f"{'left' if impact.a.delta_v_left > 0 else 'right'};\n"
-    f"force from {math.degrees(impact.a.pdof):.1f} deg (0 ahead, positive from the right)"
+    f"the car turns {sense} and is pushed to its {pushed};\n"
+    f"force from {pdof:.1f} deg (0 ahead, positive from the right)"
 )
 
 # %% [markdown]
@@ -179,15 +160,8 @@ for case, record in published_cases.CASES.items():
     title = textwrap.shorten(record["source"]["title"], 44, placeholder=" ...")
     print(f"{case}  {title:<45}{len(found):>3} comparisons{misprints}")
     for comparison in found:
-        CHECKS.append(
-            (
-                f"{case}, {comparison.what}",
-                comparison.ours,
-                float(comparison.printed),
-                "",
-                comparison.good,
-            )
-        )
+        label, printed = f"{case}, {comparison.what}", float(comparison.printed)
+        CHECKS.append((label, comparison.ours, printed, "", comparison.good))
 
 # %% [markdown]
 # ## Checks

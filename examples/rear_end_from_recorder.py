@@ -19,12 +19,8 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append(
-        (
-            f"{label}: {ours:.6g}, expected {expected:.6g}",
-            abs(ours - expected) <= within,
-        )
-    )
+    good = abs(ours - expected) <= within
+    CHECKS.append((f"{label}: {ours:.6g}, expected {expected:.6g}", good))
 
 
 def low_speed(closing):
@@ -81,7 +77,8 @@ def solved(restitution, delta_v, a=FIESTA):
 
 
 print(
-    f"{'restitution':<24}{'e':>6}{'Fiesta, mph':>13}{'its delta-V, mph':>18}{'condition':>11}"
+    f"{'restitution':<24}{'e':>6}{'Fiesta, mph':>13}"
+    f"{'its delta-V, mph':>18}{'condition':>11}"
 )
 found = {}
 for label, restitution in (
@@ -91,8 +88,8 @@ for label, restitution in (
 ):
     impact = found[label] = solved(restitution, "3.5 mph")
     print(
-        f"{label:<24}{impact.restitution:>6.2f}{impact.a.before.speed / MPH:>13.2f}{impact.a.delta_v / MPH:>18.2f}"
-        f"{impact.reconstruction.condition:>11.2f}"
+        f"{label:<24}{impact.restitution:>6.2f}{impact.a.before.speed / MPH:>13.2f}"
+        f"{impact.a.delta_v / MPH:>18.2f}{impact.reconstruction.condition:>11.2f}"
     )
 print(f"{'measured':<24}{'':>6}{5.5:>13.2f}{3.1:>18.2f}")
 
@@ -113,7 +110,8 @@ wide = {**SQUARE, "point": (0.0, 0.3)}
 )
 square = found["falls with the speed"]
 print(
-    f"square: {square.a.before.speed / MPH:.2f} mph; offset by 0.6 m: {aside.a.before.speed / MPH:.2f} mph"
+    f"square: {square.a.before.speed / MPH:.2f} mph; "
+    f"offset by 0.6 m: {aside.a.before.speed / MPH:.2f} mph"
 )
 print(f"Polo turns by {math.degrees(aside.b.delta_yaw_rate):.0f} deg/s")
 
@@ -144,12 +142,8 @@ except col.InputError as error:
 check("fixed 0.1, 5 km/h", in_line["0.1 at any speed"], 9.1, 0.05)
 check("fit, 5 km/h", in_line["falls with the speed"], 7.2, 0.05)
 for label, impact in (("square", square), ("offset", aside)):
-    check(
-        f"{label}, e of its closing speed",
-        impact.restitution,
-        low_speed(impact.closing_speed),
-        1e-12,
-    )
+    fit = low_speed(impact.closing_speed)
+    check(f"{label}, e of its closing speed", impact.restitution, fit, 1e-12)
     forward = col.eccentric(
         impact.a.before,
         impact.b.before,
@@ -161,18 +155,10 @@ for label, impact in (("square", square), ("offset", aside)):
     check(f"{label}, delta-V forward", forward.b.delta_v / MPH, 3.5, 1e-12)
 short = reconstruct.inline_closing_speed(950, 770, low_speed, delta_v_b="3.5 mph")
 check("square is in line", square.closing_speed, short, 1e-12)
-check(
-    "measured closing speed",
-    found["from both delta-Vs"].a.before.speed / MPH,
-    5.5,
-    0.09 * 5.5,
-)
-CHECKS.append(
-    (
-        "outside the range is refused",
-        refusal is not None and refusal.code == "bad_restitution",
-    )
-)
+from_both = found["from both delta-Vs"].a.before.speed / MPH
+check("measured closing speed", from_both, 5.5, 0.09 * 5.5)
+refused = refusal is not None and refusal.code == "bad_restitution"
+CHECKS.append(("outside the range is refused", refused))
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

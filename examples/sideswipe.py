@@ -52,13 +52,12 @@ axes = plot.scene(
 against = -math.copysign(1.0, scrape.slip_before)
 critical = scrape.critical_impulse_ratio
 print(
-    f"closing speed {scrape.q.closing_speed.to('km/h'):.1f~P}, slip {scrape.q.slip_before.to('km/h'):.1f~P}"
+    f"closing speed {scrape.q.closing_speed.to('km/h'):.1f~P}, "
+    f"slip {scrape.q.slip_before.to('km/h'):.1f~P}"
 )
 print(f"critical impulse ratio {critical:.2f}; published, all as magnitudes:")
-FRICTION, SNAGGED = (
-    reference.INTER_VEHICLE_FRICTION,
-    reference.IMPULSE_RATIO_SMALL_OVERLAP,
-)
+FRICTION = reference.INTER_VEHICLE_FRICTION
+SNAGGED = reference.IMPULSE_RATIO_SMALL_OVERLAP
 for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
     print(f"{published.low:5.2f} to {published.high:.2f}  {published.name}")
 
@@ -73,7 +72,8 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
 
 # %%
 print(
-    f"{'':<20}{'ratio':>7}{'regime':>10}{'delta-V A':>11}{'yaw rate A':>12}{'slip after':>12}{'energy lost':>13}"
+    f"{'':<20}{'ratio':>7}{'regime':>10}{'delta-V A':>11}"
+    f"{'yaw rate A':>12}{'slip after':>12}{'energy lost':>13}"
 )
 print(f"{'':<20}{'':>7}{'':>10}{'km/h':>11}{'deg/s':>12}{'km/h':>12}{'kJ':>13}")
 contacts = [
@@ -89,8 +89,9 @@ for tangential in contacts:
     ((name, value),) = tangential.items()
     impact, side = found[-1], found[-1].a.q
     print(
-        f"{f'{name}={value:g}':<20}{impact.impulse_ratio:>7.2f}{impact.regime:>10}{side.delta_v.m_as('km/h'):>11.1f}"
-        f"{side.delta_yaw_rate.m_as('deg/s'):>12.0f}{impact.q.slip_after.m_as('km/h'):>12.1f}"
+        f"{f'{name}={value:g}':<20}{impact.impulse_ratio:>7.2f}{impact.regime:>10}"
+        f"{side.delta_v.m_as('km/h'):>11.1f}{side.delta_yaw_rate.m_as('deg/s'):>12.0f}"
+        f"{impact.q.slip_after.m_as('km/h'):>12.1f}"
         f"{impact.q.energy_loss.m_as('kJ'):>13.0f}"
     )
     for warning in caught:
@@ -99,14 +100,11 @@ for tangential in contacts:
 # %%
 sizes = np.linspace(0.0, abs(critical), 200)
 swept = col.eccentric(A, B, impulse_ratio=against * sizes, **CONTACT)
+delta_v, turn = swept.a.q.delta_v, swept.a.q.delta_yaw_rate
 figure, charts = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
 for chart, label, curve in (
-    (charts[0], "delta-V of A [km/h]", swept.a.q.delta_v.m_as("km/h")),
-    (
-        charts[1],
-        "change of yaw rate of A [deg/s]",
-        swept.a.q.delta_yaw_rate.m_as("deg/s"),
-    ),
+    (charts[0], "delta-V of A [km/h]", delta_v.m_as("km/h")),
+    (charts[1], "change of yaw rate of A [deg/s]", turn.m_as("deg/s")),
 ):
     for published, shade in ((FRICTION, "0.9"), (SNAGGED, "0.75")):
         chart.axvspan(published.low, published.high, color=shade, label=published.name)
@@ -134,7 +132,7 @@ legend = figure.legend(
 
 # %%
 def carried(pair):
-    """Linear momentum along x and y, and angular momentum about the origin, of two vehicles."""
+    """Momentum of two vehicles: along x, along y, and angular about the origin."""
     turning = sum(
         v.yaw_inertia * v.yaw_rate + v.mass * (v.x * v.vy - v.y * v.vx) for v in pair
     )

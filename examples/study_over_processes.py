@@ -67,9 +67,8 @@ if __name__ == "__main__":
     a, b, restitution = drawn(CASES, seed=8)
     blocks = [slice(start, start + BLOCK) for start in range(0, CASES, BLOCK)]
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(
-        max_workers=min(2, os.cpu_count() or 1), mp_context=context
-    ) as executor:
+    workers = min(2, os.cpu_count() or 1)
+    with ProcessPoolExecutor(workers, mp_context=context) as executor:
         found = list(
             executor.map(
                 solve,
@@ -82,11 +81,11 @@ if __name__ == "__main__":
     delta_v = np.concatenate([impact.a.delta_v for impact in found])
     low, middle, high = np.quantile(delta_v, [0.025, 0.5, 0.975]) * 3.6
     print(
-        f"delta-V of A: {middle:.1f} km/h, 95 of 100 cases from {low:.1f} to {high:.1f} km/h"
+        f"delta-V of A: {middle:.1f} km/h, "
+        f"95 of 100 cases from {low:.1f} to {high:.1f} km/h"
     )
-    print(
-        f"{np.mean([np.mean(impact.regime == 'sticking') for impact in found]):.0%} of the contacts stop slipping"
-    )
+    sticking = np.mean([np.mean(impact.regime == "sticking") for impact in found])
+    print(f"{sticking:.0%} of the contacts stop slipping")
 
 # %% [markdown]
 # ## Checks

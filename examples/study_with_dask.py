@@ -80,7 +80,8 @@ if __name__ == "__main__":
     )
     low, middle, high = found * 3.6
     print(
-        f"delta-V of the front car: {middle:.1f} km/h, 9 of 10 cases from {low:.1f} to {high:.1f} km/h"
+        f"delta-V of the front car: {middle:.1f} km/h, "
+        f"9 of 10 cases from {low:.1f} to {high:.1f} km/h"
     )
 
 # %% [markdown]

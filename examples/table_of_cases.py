@@ -19,12 +19,8 @@ CHECKS = []
 
 def check(label, ours, expected, within):
     """Remember a comparison; all of them are judged at the end."""
-    CHECKS.append(
-        (
-            f"{label}: {ours:.9g}, expected {expected:.9g}",
-            abs(ours - expected) <= within,
-        )
-    )
+    good = abs(ours - expected) <= within
+    CHECKS.append((f"{label}: {ours:.9g}, expected {expected:.9g}", good))
 
 
 SHEET = """\
@@ -65,11 +61,8 @@ impact = col.linear_central(a, b, column("restitution"), on_failure="nan")
 
 # %%
 answers = pd.DataFrame(impact.to_columns(), index=table.index)
-print(
-    answers[["status", "closing_speed", "a.delta_v", "b.delta_v", "energy_loss"]]
-    .round(3)
-    .to_string()
-)
+shown = ["status", "closing_speed", "a.delta_v", "b.delta_v", "energy_loss"]
+print(answers[shown].round(3).to_string())
 
 # %% [markdown]
 # SI stands in the columns. For another unit take the Quantities, and join them to the rows they came from:
@@ -81,7 +74,8 @@ report = table.assign(
 print(report[["delta-V b [km/h]", "status"]].round(1).to_string())
 unanswered = answers[answers["refused"]]
 print(
-    f"{len(unanswered)} of {len(answers)} rows have no answer: {', '.join(unanswered.index)}"
+    f"{len(unanswered)} of {len(answers)} rows have no answer: "
+    f"{', '.join(unanswered.index)}"
 )
 
 # %% [markdown]
@@ -100,16 +94,11 @@ for case, row in table.iterrows():
     if found["status"] == "ok":
         check(f"{case}, delta-V of B", found["b.delta_v"], delta_v, 1e-12 * delta_v)
     else:
-        CHECKS.append(
-            (
-                f"{case} has no number",
-                bool(np.isnan(found["b.delta_v"]) and not delta_v > 0.0),
-            )
-        )
+        none = bool(np.isnan(found["b.delta_v"]) and not delta_v > 0.0)
+        CHECKS.append((f"{case} has no number", none))
 CHECKS.append(("the index is kept", list(answers.index) == list(table.index)))
-CHECKS.append(
-    ("why", list(answers["status"]) == ["ok", "not_finite", "ok", "separating"])
-)
+why = ["ok", "not_finite", "ok", "separating"]
+CHECKS.append(("why", list(answers["status"]) == why))
 
 failed = [label for label, good in CHECKS if not good]
 if failed:

@@ -43,9 +43,8 @@ def crash(speed_a, speed_b, restitution, friction, contact, drag):
 
 
 observed = {
-    "delta-V of A": Censored(
-        low="24 km/h", error="1 km/h"
-    ),  # the recorder of A ended early
+    # the recorder of A ended early
+    "delta-V of A": Censored(low="24 km/h", error="1 km/h"),
     "course of A after": Normal("8 deg", "3 deg"),
     "course of B after": Normal("27 deg", "3 deg"),
     "way of A to rest": Normal(9.0, 0.8),
@@ -107,10 +106,8 @@ print(
 )
 print(f"{'B: km/h':<12}" + "".join(f"{'A: ' + name:>14}" for name in versions_a))
 for name, log in logs_b.items():
-    print(
-        f"{name:<12}"
-        + "".join(f"{math.exp(log - of_a):>14.2g}" for of_a in logs_a.values())
-    )
+    factors = (math.exp(log - of_a) for of_a in logs_a.values())
+    print(f"{name:<12}" + "".join(f"{factor:>14.2g}" for factor in factors))
 
 # %% [markdown]
 # ## The question without the accounts
@@ -123,7 +120,8 @@ open_minded = account(Uniform("20 km/h", "130 km/h"), seed=3)
 low, high = (3.6 * end for end in open_minded["speed_a"].interval(0.95))
 over, error = open_minded.probability(lambda at: at["speed_a"] > 60 / 3.6)
 print(
-    f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, 95 percent from {low:.0f} to {high:.0f} km/h"
+    f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, "
+    f"95 percent from {low:.0f} to {high:.0f} km/h"
 )
 print(f"A was over 60 km/h with a probability of {over:.3f} ± {error:.3f}")
 print(open_minded.statements[0])
@@ -184,13 +182,11 @@ for name, value, sigma in (
     ("course of B after", math.radians(27), math.radians(3)),
     ("way of A to rest", 9.0, 0.8),
 ):
-    log += -0.5 * ((value - outputs[name]) / sigma) ** 2 - math.log(
-        sigma * math.sqrt(2.0 * math.pi)
-    )
+    off = (value - outputs[name]) / sigma
+    log += -0.5 * off**2 - math.log(sigma * math.sqrt(2.0 * math.pi))
 mean, spread = np.mean(np.exp(log)), np.std(np.exp(log)) / math.sqrt(len(log))
-assert abs(driver_b.log_evidence - math.log(mean)) < 5.0 * math.hypot(
-    driver_b.log_evidence_error, spread / mean
-)
+scatter = math.hypot(driver_b.log_evidence_error, spread / mean)
+assert abs(driver_b.log_evidence - math.log(mean)) < 5.0 * scatter
 
 one_in_ten = compare(
     {"driver of A": driver_a, "driver of B": driver_b},

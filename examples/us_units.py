@@ -23,7 +23,10 @@ from collisions import plot
 
 # %%
 def placed(centre, **rest):
-    """A vehicle whose impact centre, a distance and an angle from its heading, is at the origin."""
+    """A vehicle whose impact centre is at the origin of the scene.
+
+    `centre` is the distance of that point, and its angle from the heading.
+    """
     vehicle = col.Vehicle.from_speed(x="0 ft", y="0 ft", course=rest["heading"], **rest)
     x, y = vehicle.point(distance=centre[0], angle=centre[1])
     return vehicle.replace(x=-x, y=-y)
@@ -61,15 +64,18 @@ impact = col.eccentric(
 
 # %%
 print(
-    f"{'':<10}{'delta-V':>11}{'yaw rate after':>18}{'force from':>12}{'speed after':>14}"
+    f"{'':<10}{'delta-V':>11}{'yaw rate after':>18}"
+    f"{'force from':>12}{'speed after':>14}"
 )
 for side in (impact.a.q, impact.b.q):
     print(
-        f"{side.before.name:<10}{side.delta_v.to('mph'):>11.1f~P}{side.after.yaw_rate.to('deg/s'):>18.0f~P}"
+        f"{side.before.name:<10}{side.delta_v.to('mph'):>11.1f~P}"
+        f"{side.after.yaw_rate.to('deg/s'):>18.0f~P}"
         f"{side.pdof.to('deg'):>12.0f~P}{side.after.speed.to('mph'):>14.1f~P}"
     )
 print(
-    f"normal impulse {impact.q.normal_impulse.to('lbf*s'):.0f~P}, energy lost {impact.q.energy_loss.to('ft*lbf'):.0f~P}"
+    f"normal impulse {impact.q.normal_impulse.to('lbf*s'):.0f~P}, "
+    f"energy lost {impact.q.energy_loss.to('ft*lbf'):.0f~P}"
 )
 axes = plot.scene(
     impact, outline_a=("15 ft", "5.8 ft"), outline_b=("15.7 ft", "5.8 ft"), units="us"

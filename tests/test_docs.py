@@ -128,17 +128,14 @@ def test_the_page_of_public_names_has_every_module():
 
 
 def too_wide(path):
-    """Lines of code of an example or of a page that are over 88 wide, by their numbers."""
+    """Lines of code of an example or of a page that are shown and over 88 wide."""
+    text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
-        shown = ((at, line) for at, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if line[:1] != "#")
-        return [at for at, line in shown if len(line) > 88]
-    found, code = [], False
-    for at, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        if line.startswith("```"):
-            code = not code and line.startswith(("```{code-cell}", "```python", "```sh", "```toml"))
-        elif code and len(line) > 88:
-            found.append(at)
-    return found
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+    else:
+        blocks = re.findall(r"^```(?:\{code-cell\}|python|sh|toml)[^\n]*\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+        lines = [line for block in blocks if "remove-input" not in block for line in block.splitlines()]
+    return [line for line in lines if len(line) > 88]
 
 
 @pytest.mark.parametrize(
