@@ -219,7 +219,7 @@ class Nasty:
     def _no(self, *rest: Any) -> Any:
         raise RuntimeError("no")
 
-    __repr__ = __str__ = __eq__ = __len__ = __float__ = __bool__ = __iter__ = _no  # type: ignore[assignment]
+    __repr__ = __str__ = __eq__ = __len__ = __float__ = __bool__ = __iter__ = _no
     __hash__ = object.__hash__
 
 

@@ -709,6 +709,17 @@ def test_directions_about_a_turn_with_their_unit_are_not_suspected(study):
     assert not [one for one in found.warnings if "is read as" in one]
 
 
+def test_a_study_of_nothing_says_so():
+    """The table is not passed over in silence; the case has its answer all the same."""
+    found = answers(read_text((ECCENTRIC + "[propagate]\nsamples = 64\n").encode()))
+    assert found.propagation is None
+    assert found.results == (solved(ECCENTRIC),)
+    assert found.warnings == [
+        '[propagate] has nothing to propagate; write a number with its error, such as "50 km/h +/- 3 km/h"'
+    ]
+    assert answers(read_text(ECCENTRIC.encode())).warnings == []
+
+
 def test_a_range_without_units_is_refused_where_a_unit_is_needed():
     """As one number in a text is; of a share it is read."""
     for key, range_, said in (

@@ -471,7 +471,7 @@ def test_one_case_equals_the_same_case_in_a_batch(model: str, constraint: str, l
             return float(found[self.index]) if isinstance(found, np.ndarray) else Case(found, self.index)
 
     for index in (0, 2):
-        assert_same(impact, Case(batch, index), scene, answer)  # type: ignore[arg-type]
+        assert_same(impact, Case(batch, index), scene, answer)
         assert batch.status[index] == impact.status
 
 

@@ -219,6 +219,8 @@ def answers(case: Case) -> Answers:
             raise CaseError(("answer", text))
         with _noting(noted, of_the_case):
             propagation = _propagated(case, results, len(roots)) if case.uncertain else None
+        if case.study and not case.uncertain:
+            noted.append('[propagate] has nothing to propagate; write a number with its error, such as "50 km/h +/- 3 km/h"')
     else:
         with _noting(noted):
             model = _model(case, case.options["observed"], 0, 1)
