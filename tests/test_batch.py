@@ -244,6 +244,16 @@ def test_dimensions_beyond_what_numpy_holds_everywhere():
                 call(np.full((1,) * dimensions, 20.0))
 
 
+@pytest.mark.parametrize("blank", [False, 0j, "", None])
+def test_dimensions_of_arrays_of_what_is_no_number(blank):
+    """Flat iterators of numpy stop at 32 dimensions, and arrays of numpy 2 only at 64."""
+    most = 33 if np.lib.NumpyVersion(np.__version__) >= "2.0.0" else 32
+    with pytest.raises(col.ShapeError, match=f"mass is an array of {most} dimensions"):
+        col.Vehicle(mass=np.full((1,) * most, blank))
+    with pytest.raises(col.InputError, match=r"mass is an array of (bool|complex128|<U1|object); "):
+        col.Vehicle(mass=np.full((1,) * 24, blank))
+
+
 WIDE = np.array([1500.0, 1400.0, 1300.0])
 # Of which sums and products below are exact in float32 too.
 TURN = np.array([9.0, 14.0, -26.0], dtype=np.float32) / 128.0

@@ -615,8 +615,11 @@ def test_both_pages_or_none(tmp_path, capsys):
     assert f"cannot write {sliders} (Is a directory), and nothing was written" in complaints
     assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "sliders.html"]
     sliders.rmdir()
+    own = page.with_name("page.md.part")
+    own.write_text("of the user", encoding="utf-8")
     assert run(capsys, file, "--report", page, "--what-if", sliders)[0] == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "page.md", "sliders.html"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "page.md", "page.md.part", "sliders.html"]
+    assert own.read_text(encoding="utf-8") == "of the user"
 
 
 def test_one_file_by_two_names_and_a_key_that_stops(tmp_path, capsys, monkeypatch):

@@ -1071,7 +1071,7 @@ def test_a_drag_in_percent_is_found():
     with pytest.warns(col.SuspectUnitsWarning, match="drag = 70"):
         (finding,) = of("suspect_drag", square(), drag=70)
     assert (finding.measured, finding.limit) == (70.0, 1.5)
-    assert "were percent or m/s2 meant?" in finding.sentence
+    assert "were percent or m/s² meant?" in finding.sentence
     with pytest.warns(col.SuspectUnitsWarning, match="drag = 2"):
         assert of("suspect_drag", balance(), drag="2") != []
     assert of("suspect_drag", balance(), drag="200 %") != []

@@ -8,7 +8,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import reconstruct, reference, travel, uncertainty
+from collisions import plot, reconstruct, reference, travel, uncertainty
 from collisions.hints import hinted
 from collisions.quantities import Frozen, derived
 
@@ -172,7 +172,7 @@ def test_an_argument_that_a_function_does_not_have_names_the_one_it_has(call, cu
 
 PUBLIC = {
     f"{module.__name__}.{name}": getattr(module, name)
-    for module in (col, reconstruct, reference, travel, uncertainty)
+    for module in (col, plot, reconstruct, reference, travel, uncertainty)
     for name in module.__all__
     if inspect.isfunction(getattr(module, name)) and inspect.signature(getattr(module, name)).parameters
 }

@@ -171,7 +171,7 @@ def test_drag_behind_the_table_of_virginia():
     """Every braking distance to the foot, by the formula of the course sheets that the quality names."""
     drag = reference.DRAG_FACTORS[-1]
     assert drag.low == drag.high == 0.70
-    assert "30 * 0.70" in drag.quality
+    assert "30 times 0.70" in drag.quality
     assert {mph: round(mph**2 / (30 * drag.low)) for mph in VIRGINIA} == VIRGINIA
 
 

@@ -904,7 +904,7 @@ def test_the_least_model_with_a_duration():
         if model == "time_resolved":
             assert change(impact) == pytest.approx(change(t_bone()), rel=1e-12)
             assert impact.pulse == t_bone().pulse
-            assert "would err by 1.2 m/s in this duration" in impact.choice.reason
+            assert "would err by 1.2 m/s over this duration" in impact.choice.reason
         elif model == "eccentric":
             assert impact == col.solve(a, b, 0.1, **STRAIGHT, **time, tolerance=tolerance)
             assert change(impact) == pytest.approx(change(eccentric), rel=1e-12)

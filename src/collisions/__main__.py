@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
+from os import getpid
 from os.path import realpath
 from pathlib import Path
 from typing import Any, NoReturn
@@ -100,7 +101,7 @@ def _write(pages: dict[Path, str]) -> None:
                 raise IsADirectoryError(0, "Is a directory")
             if target.exists():
                 target.open("a").close()  # whether it may be written
-            parts[target] = target.with_name(f"{target.name}.part")
+            parts[target] = target.with_name(f"{target.name}.{getpid()}.part")
             parts[target].write_text(text, encoding="utf-8", newline="\n")
         for target, part in parts.items():
             part.replace(target)

@@ -382,7 +382,7 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     model, accepted = _NAMES[which], f", and {speed(tolerance)} are accepted"
     fullest = _LAST if timed else ECCENTRIC
     if which != fullest:
-        how = "with what an impulse leaves out of this duration it errs" if timed else "it errs"
+        how = "over this duration it errs" if timed else "it errs"
         others = f"; {would(0)}" if which and not timed else ""
         return f"{model}: {how} by {speed(errors[which])}{accepted}{others}"
     nearest = errors[fullest - 1]
@@ -391,7 +391,7 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     elif choice._beyond:
         why = f"{choice._beyond} is beyond the central models"
     elif not math.isnan(nearest):
-        why = would(fullest - 1) + ("" if nearest == math.inf else f"{' in this duration' if timed else ''}{accepted}")
+        why = would(fullest - 1) + ("" if nearest == math.inf else f"{' over this duration' if timed else ''}{accepted}")
     elif timed:
         why = f"in {_ROUGH} steps it has no answer, so what the others err by is not known"
     elif choice._lacks:

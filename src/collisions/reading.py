@@ -247,11 +247,6 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             code="not_a_number",
             argument=argument,
         )
-    if value.dtype.kind not in "fiu":
-        parts, cure = value.flat[:20].tolist(), "give an array of floats or integers, for example by .astype(float)"
-        if any(isinstance(part, str) or is_quantity(part) for part in parts):
-            cure = _as_quantity(parts, argument, unit)
-        raise InputError(f"{argument} is an array of {value.dtype}; {cure}", code="not_a_number", argument=argument)
     if value.ndim > _MOST_DIMENSIONS:
         raise ShapeError(
             f"{argument} is an array of {value.ndim} dimensions, and may have {_MOST_DIMENSIONS} at most; give it as "
@@ -259,6 +254,11 @@ def _plain(value: Any, argument: str, unit: str) -> Any:
             code="bad_shape",
             argument=argument,
         )
+    if value.dtype.kind not in "fiu":
+        parts, cure = value.flat[:20].tolist(), "give an array of floats or integers, for example by .astype(float)"
+        if any(isinstance(part, str) or is_quantity(part) for part in parts):
+            cure = _as_quantity(parts, argument, unit)
+        raise InputError(f"{argument} is an array of {value.dtype}; {cure}", code="not_a_number", argument=argument)
     dtype = value.dtype.newbyteorder("=") if value.dtype == np.float32 else np.dtype(np.float64)
     with np.errstate(over="ignore"):
         array = np.array(value, dtype=dtype)

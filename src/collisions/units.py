@@ -426,7 +426,6 @@ def _ambiguous_unit(quantity: Any) -> str:
 
 def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "") -> UnitsError:
     wanted = unit or "a plain number without a unit"
-    reason = f" ({error})" if error is not None else ""
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
     is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
@@ -439,6 +438,8 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
         hint = f"; pounds here are a force, {_as_force(text)!r}"
     elif unit == "kg*m**2" and is_force:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
+    # pint's own words are about dimensions, and the hint says it better.
+    reason = f" ({error})" if error is not None and not hint else ""
     return UnitsError(
         f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",
         code="bad_units",

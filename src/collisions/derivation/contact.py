@@ -353,7 +353,7 @@ def pdof(page: Page, label: str, caption: str, direction: float, pushed: Express
 def _speed_and_course(page: Page, body: Body) -> None:
     """Speed and course after."""
     state, label = body.state(AFTER), body.label
-    speed = Symbol(rf"\lvert v_{{{label}}}' \rvert", state.speed, "speed")
+    speed = Symbol(rf"\lvert v_{label}' \rvert", state.speed, "speed")
     if page.system.working(state.speed, "speed") == "0":
         page.say(f"{label} is at rest after: {page.shown(speed)}, and no course.")
         return

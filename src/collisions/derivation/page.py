@@ -99,13 +99,15 @@ class Page:
         return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
-        """Write symbol = formula = numbers = value: the result's own number, which the formula must give."""
+        """Write symbol = formula = numbers = value: the result's own number, which the formula must give.
+
+        A formula that is the symbol itself, as the magnitude of one component is, is not repeated.
+        """
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
-        lines = [self._in_symbols(right)]
-        if numbers not in (lines[0], printed):
-            lines.append(numbers)
-        self._lines(caption, self._in_symbols(left), [*lines, printed + self._unit(left.kind)], fits=fits)
+        symbol, formula = self._in_symbols(left), self._in_symbols(right)
+        lines = [formula] * (formula != symbol) + [numbers] * (numbers not in (formula, printed))
+        self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits)
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:
         """Write what a new symbol stands for; gives the symbol."""

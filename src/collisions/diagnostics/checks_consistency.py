@@ -22,7 +22,7 @@ _BACKWARDS = math.radians(135.0)
 
 
 @finding(
-    "energy that the bodies have after above that before",
+    "energy of the bodies after less that before",
     above(0.0, "J"),
     f'eq 7 of the paper; "the crash created energy", {MESSAGES}',
 )
@@ -215,7 +215,7 @@ def incomplete(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "how much further the outlines pass into each other by the end of the duration after separation",
     above(0.2, "m"),
-    "set here: two positions of 10 cm each; stiff outlines of vehicles that turn apart pass by less",
+    "set here: two positions, each read to 10 cm; stiff outlines of vehicles that turn apart pass by less",
 )
 def outlines_interpenetrate(case: ImpactCase) -> Iterator[Measured]:
     if case.overlaps is not None and case.answer.complete:

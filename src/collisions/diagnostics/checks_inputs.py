@@ -52,7 +52,9 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
 
 
 @finding(
-    "yaw rate before", above(20.0, "rad/s"), "set here: three turns a second, as for a bare number that is read; deg/s as rad/s"
+    "yaw rate before",
+    above(20.0, "rad/s"),
+    "set here: three turns a second, the limit of a number without a unit as well; deg/s as rad/s",
 )
 def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
@@ -69,16 +71,16 @@ def _radii_of_gyration(case: ImpactCase) -> Iterator[Measured]:
         mass, inertia = side.before.mass, side.before.yaw_inertia
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)
-            sentence = f"{who} has a yaw inertia of {inertia:.6g} kg m2, a radius of gyration of {radius:.3g} m; check its unit"
+            sentence = f"{who} has a yaw inertia of {inertia:.4g} kg·m², a radius of gyration of {radius:.3g} m; check its unit"
             yield Measured(radius, sentence, label)
 
 
-@finding("radius of gyration", below(0.3, "m"), "set here: no vehicle is as compact; tonnes m2 as kg m2")
+@finding("radius of gyration", below(0.3, "m"), "set here: no vehicle is as compact; t·m² as kg·m²")
 def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
     return _radii_of_gyration(case)
 
 
-@finding("radius of gyration", above(5.0, "m"), "set here: that of a rectangle 17 m long; lb ft2 as kg m2")
+@finding("radius of gyration", above(5.0, "m"), "set here: that of a rectangle 17 m long; lb·ft² as kg·m²")
 def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
     return _radii_of_gyration(case)
 
@@ -127,7 +129,7 @@ def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "heading or course, or normal that was given as a number without a unit",
     above(math.tau, "rad"),
-    "set here: a full turn, as for a bare number that is read; degrees as rad",
+    "set here: a full turn, the limit of a number without a unit as well; degrees as rad",
 )
 def suspect_angle(case: Case) -> Iterator[Measured]:
     angles: list[tuple[str, str, float | None]] = []
@@ -186,10 +188,10 @@ def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
 @finding(
     "drag of the tyres",
     above(HIGHEST_DRAG),
-    "set here: no road tyre holds more, as for a bare number that is read; percent or m/s2 as a fraction of gravity",
+    "set here: no road tyre holds more, the limit of a number without a unit as well; percent or m/s² as a fraction of gravity",
 )
 def suspect_drag(case: Case) -> Iterator[Measured]:
-    sentence = f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s2 meant?"
+    sentence = f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s² meant?"
     yield Measured(case.drag, sentence)
 
 

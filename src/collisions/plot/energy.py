@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError, MissingInputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+@hinted
 def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The energy split: kinetic energy of A and B before, what was lost along normal and tangent, and what A and B have after.
 

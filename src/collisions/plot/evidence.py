@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..reconstruct import Fit, Posterior
 from ..uncertainty import Normal
 from ..units import shown
@@ -24,6 +25,7 @@ _KERNEL = (1.0, 2.0, 1.0)
 _MOST = 10
 
 
+@hinted
 def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem | None = None) -> Figure:
     """The unknowns of a posterior: each by itself on the diagonal, each pair below it, given the evidence and the priors.
 
@@ -108,6 +110,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
     return figure
 
 
+@hinted
 def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     """Each observation less its computed value, over its stated error: where the evidence pulls against the model.
 

@@ -10,6 +10,7 @@ from .. import pulse
 from ..drag import one_value
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact
 from ..reading import ArgumentReader, warn_if_large
 from ..units import Input, shown
@@ -23,6 +24,7 @@ _POINTS = 400
 _LONGEST = 1.0
 
 
+@hinted
 def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
 

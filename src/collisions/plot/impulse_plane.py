@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact, answer_of, solved
 from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
@@ -24,6 +25,7 @@ _FAR = 4.0
 _NO_YIELD = 64.0 * EPS  # relative: a coefficient this small is the rounding of differences of speeds
 
 
+@hinted
 def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """Normal against tangential impulse on B, with the lines that decide the answer.
 

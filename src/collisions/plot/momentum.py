@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact
 from ..side import Side
 from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
@@ -20,6 +21,7 @@ _SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
 
 
+@hinted
 def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
 

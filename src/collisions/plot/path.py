@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..travel import SimulatedPath
 from ..units import shown
 from ..vehicle import Vehicle
@@ -23,6 +24,7 @@ _BETWEEN = 3  # outlines on the way, at equal parts of it
 _ROOM = 2.0  # m, shown about a vehicle at rest
 
 
+@hinted
 def path(
     path_a: SimulatedPath,
     path_b: SimulatedPath | None = None,

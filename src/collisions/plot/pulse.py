@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact
 from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, check_size, legend_below, tidy, who
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+@hinted
 def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """Force, crush and the delta-V of both vehicles over the time of a contact, one below the other.
 

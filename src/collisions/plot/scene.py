@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import UnitSystem
+from ..hints import hinted
 from ..impact import Impact
 from ..outlines import placed, read_outline
 from ..reading import ArgumentReader
@@ -31,6 +32,7 @@ _NOTHING = 1e-9  # of the impulse: a smaller one is rounding
 _SKETCHED = 2.5  # metres from the contact to a centre that has no position
 
 
+@hinted
 def scene(
     impact: Impact,
     *,

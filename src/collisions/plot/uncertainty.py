@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import UnitSystem, with_decimals
+from ..hints import hinted
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
 from ..units import shown
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
 
+@hinted
 def distribution(
     output: Output, *, coverage: float = COVERAGE, bins: int = 40, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
@@ -110,6 +112,7 @@ def distribution(
     return axes
 
 
+@hinted
 def contributions(
     result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:

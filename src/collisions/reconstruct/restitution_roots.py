@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import CollisionsError, InputError
 from ..units import shown
 from ..warning import quietly
 from .common import Cases
@@ -177,7 +177,8 @@ class RestitutionOf:
             given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
-            self.refused = f"restitution({closing:.6g}) raised {type(error).__name__}: {error}"
+            why = str(error) if isinstance(error, CollisionsError) else f"it raised {type(error).__name__}: {error}"
+            self.refused = f"the restitution function has no value at a closing speed of {closing:.6g} m/s: {why}"
             return math.nan
         if not self._is_one(e):
             self.refused = f"restitution({closing:.6g}) gave {shown(given)}, which is not a number from {self.least:g} to 1"
@@ -188,7 +189,7 @@ class RestitutionOf:
         """Raise if the function had no value where one was needed."""
         if self.refused:
             raise InputError(
-                f"{self.refused}: the function takes closing speeds in m/s, and must hold where the answer lies",
+                f"{self.refused}; the function takes closing speeds in m/s, and must hold where the answer lies",
                 code="bad_restitution",
                 argument="restitution",
             )

@@ -104,7 +104,7 @@ _LOW_SPEED_REAR_END = (
     "Moosmueller and Reinkemeyer, Verkehrsunfall und Fahrzeugtechnik 45 (2007), p. 44, summary at "
     "https://www.colliseum.eu/wiki (Erkenntnisse zum Deformationsverhalten moderner Fahrzeuge)",
     "modern cars of 2002 to 2004 into the rear of one, delta-V up to 10 km/h",
-    "Second hand: a summary of three test series of the Allianz Zentrum fuer Technik, of which it quotes the values.",
+    "Second hand: a summary of three test series of the Allianz Zentrum für Technik, of which it quotes the values.",
 )
 RESTITUTION_OVERLAP_SMALL = _by_overlap("under half the width", 0.0, 0.15, *_REAR_END)
 RESTITUTION_OVERLAP_HALF = _by_overlap("about half the width", 0.10, 0.20, *_REAR_END)

@@ -94,7 +94,8 @@ _STATUTE = Published(
         "https://www.lawserver.com/law/state/virginia/va-code/virginia_code_46-2-880"
     ),
     domain="automobile in good condition, level, dry highway free from loose material, 10 to 100 mph",
-    quality="Worked out here: mph**2/(30 * 0.70) gives every braking distance of the table to the foot; a baseline by law.",
+    quality="Worked out here: the square of the speed in mph, over 30 times 0.70, gives every braking distance of the table "
+    "to the foot; a baseline by law.",
 )
 
 DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() for row in rows), _STATUTE)

@@ -119,7 +119,8 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
 
 def settle(fit: Fit, found: Any, given: dict[str, Any], usable: Any, outside: str) -> Any:
     """The value of a fit; NaN for batch cases without one; inputs outside its ranges raise or warn."""
-    ranges = ", ".join(f"{name} {low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items())
+    spans = {name: f"{low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items()}
+    ranges = ", ".join(span if len(spans) == 1 else f"{name} {span}" for name, span in spans.items())
     beyond: Any = False
     for name, (low, high, _) in fit.ranges.items():
         beyond = beyond | (given[name] < low) | (given[name] > high)
@@ -145,7 +146,7 @@ def settle(fit: Fit, found: Any, given: dict[str, Any], usable: Any, outside: st
 
 def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> None:
     where = ", ".join(f"{name} {given[name]:.6g} {unit}" for name, (_, _, unit) in fit.ranges.items())
-    text = f"{fit.name}: {where} lies outside the range it holds for, which is {ranges} ({fit.source})"
+    text = f"{fit.name}: {where} lies outside the range it holds for, {ranges} ({fit.source})"
     if outside == "refuse":
         raise InputError(
             f"{text}; give a measured value, or accept one from outside with outside='warn'",

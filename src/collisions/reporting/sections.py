@@ -416,7 +416,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
     """Write the findings, each with measure and limit; also the checks that were made, and those that were not."""
     sheet.heading("Findings")
     others = ", ".join(code for code in LIMITS if code not in found.measured)
-    others = f" Not made, because they lack an input, do not apply or are switched off: {others}." if others else ""
+    others = f" Not made, by code, because they lack an input, do not apply or are switched off: {others}." if others else ""
     if not found:
         sheet.say(
             f"None of the {len(found.measured)} checks that were made found anything, which proves nothing by itself.{others}"
