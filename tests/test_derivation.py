@@ -549,7 +549,7 @@ def test_how_a_body_is_held_is_said(name, said):
     [
         (
             "central ('va', 'va_after', 'restitution')",
-            "known beside masses and geometry were velocity of A before, velocity of",
+            "Known besides masses and geometry: velocity of A before, velocity of",
         ),
         ("central ('va_after', 'restitution', 'energy_loss')", "Closing speed, from (8)"),
         ("central ('va', 'vb', 'energy_loss')", "From the known energy (8)"),
@@ -567,7 +567,7 @@ def test_reverse_problems_say_what_was_known_and_how_well(name, said):
     text = explain(impact, form="text")
     assert said in text
     assert f"Condition {impact.reconstruction.condition:.2f}:" in text
-    assert text.index("Backwards, by") < text.index("What follows is the same impact forwards")
+    assert text.index("Solved backwards by") < text.index("What follows is the same impact solved forwards")
     assert answer(text, "A", "velocity before, along x") == f"{impact.a.before.vx + 0.0:.2f} m/s"
 
 
@@ -949,8 +949,8 @@ def test_figures_are_as_the_notes_say():
     assert figures.working(126553.7391, "energy") == "126554"
     assert figures.working(0.0123456789, "speed") == "0.0123"
     notes = explain(example_2(), form="text").partition("Notes")[2]
-    assert "with four figures; but with all those before its decimal point" in notes
-    assert "at most two decimals more than an answer has" in notes
+    assert "with four, but never with fewer than stand before its decimal point" in notes
+    assert "at most two decimals more than the answers" in notes
     assert figures.working(100.0 / 3.0, "energy", 2) == "33.3333"
     assert figures.working(126553.7391, "energy", 1) == "126553.7"
     assert figures.working(16.25, "speed", 5) == "16.25"

@@ -42,7 +42,7 @@ def off(run):
     return np.sqrt([np.mean((getattr(run, name) - truth) ** 2) for name, truth in zip(NAMES, TRUTH, strict=True)])
 
 
-@pytest.mark.filterwarnings("ignore:by the yaw")
+@pytest.mark.filterwarnings("ignore:the yaw alone")
 def test_a_denser_survey_is_never_worse(body):
     """Three points at 0.8 m give the course to 10 degrees, least squares over 7 m to 1.9; denser is better still.
 
@@ -120,7 +120,7 @@ def test_a_fast_yaw_is_warned_of():
     car = col.Vehicle(mass=1500.0, yaw_inertia=2400.0, x=0.0, y=0.0, heading=0.0, vx=12.0, yaw_rate=5.0)
     way = travel.simulate(car, friction=0.7, lock=0.6, moments=31)
     points, headings = np.column_stack([way.x, way.y])[::2], way.heading[::2]
-    with pytest.warns(col.OutOfRangeWarning, match=r"by the yaw the wheels slip at more than 0\.5 of the speed"):
+    with pytest.warns(col.OutOfRangeWarning, match=r"the yaw alone makes the wheels slip at more than 0\.5 of the speed"):
         run = travel.path(points, headings, friction=0.7, lock=0.6)
     assert 1.03 * 12.0 < run.speed < 1.15 * 12.0
     slower = travel.simulate(car.replace(yaw_rate=1.0), friction=0.7, lock=0.6, moments=31)

@@ -79,7 +79,7 @@ def test_whether_it_ended(stop, ended):
     assert caught[0].filename == __file__
     assert not pulse.ended
     assert pulse.delta_v == pytest.approx(40 * KMH * haversine(time[-1]), rel=1e-12)
-    with pytest.raises(col.InputError, match="at least that much") as refused:
+    with pytest.raises(col.InputError, match="takes it as a bound") as refused:
         pulse.inputs("a")
     assert refused.value.code == "pulse_cut"
     (reading, none) = pulse.evidence

@@ -376,7 +376,7 @@ def test_assumptions_say_what_is_left_out(impacts):
     assert "for a contact of 0.05 s and tyres with a drag factor of 0.5" in printed
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
     share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
-    assert ("A (Golf)", "delta-V from its own tyres, bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
+    assert ("A (Golf)", "delta-V from its own tyres, upper bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
     assert "**Law:** brach" in printed
     assert f"**Tangential impulse:** {impact.regime}" in printed
     assert "**Law:** kudlich" in report(impacts["other law"], form="markdown")
@@ -457,8 +457,8 @@ def test_a_figure_of_one_case_has_no_spread():
 def test_reverse_and_choice_are_told(impacts):
     text = report(impacts["example 2"], form="markdown")
     assert "## Inputs" not in text
-    assert "known beside masses and geometry were velocity of A before, velocity of B before, velocity of B after" in text
-    assert "Condition " in section(text, "How the state before was found")
+    assert "Known besides masses and geometry: velocity of A before, velocity of B before, velocity of B after" in text
+    assert "Condition " in section(text, "How the rest was found")
     assert "$" not in text.split("```json")[0]
     chosen = report(impacts["solve, linear"], form="markdown")
     assert "Taken: linear\\_central." in section(chosen, "Why this model")
@@ -796,7 +796,7 @@ def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     }  # fmt: skip
     for row in wanted[solver]:
         assert row in shown, row
-    assert "given as" in section(page, "How the state before was found")
+    assert "given as" in section(page, "How the rest was found")
     again = replay(page)
     assert again == impact
     assert report(again, form="markdown", units="si") == page
@@ -1102,7 +1102,7 @@ def test_no_row_is_said_to_be_as_it_was_given(contact):
     """What is kept of it is a number, of a normal its direction."""
     page = report(crash(**contact), form="markdown")
     assert "Any other was given so" not in page
-    assert "Of a normal only the direction counts" in page
+    assert "Only the direction of the normal matters" in page
 
 
 def test_shares_of_inputs_that_act_together():
@@ -1132,7 +1132,7 @@ def test_a_pivot_is_no_force_that_is_left_out(impacts):
     printed = section(report(impacts["pinned"], form="markdown"), "Assumptions")
     assert "the forces of the tyres and all others but the pivot's are left out" in printed
     assert "(estimates, except what is marked as a bound)" in printed
-    assert ("A", "delta-V from its own tyres, bound") in {row[:2] for row in rows(printed)}
+    assert ("A", "delta-V from its own tyres, upper bound") in {row[:2] for row in rows(printed)}
     assert ("B", "delta-V from its own tyres, about") in {row[:2] for row in rows(printed)}
     free = section(report(impacts["eccentric"], form="markdown"), "Assumptions")
     assert "the forces of the tyres and all others are left out" in free

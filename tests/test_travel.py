@@ -683,7 +683,7 @@ def test_crab_angles_end_at_half_a_turn_to_the_left():
         assert travel.path([(0, 0), (5, 0)], [heading] * 2, **FULL_LOCK).crab_angles == (math.pi,)
 
 
-@pytest.mark.filterwarnings("ignore:by the yaw")
+@pytest.mark.filterwarnings("ignore:the yaw alone")
 def test_headings_count_on_through_turns():
     """A full turn more or less on all of them changes nothing, and one within them is a spin."""
     points = [(0, 0), (4, 0), (8, 0), (12, 0)]

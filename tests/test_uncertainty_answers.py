@@ -40,7 +40,7 @@ def test_failed_cases_are_counted(method):
     """Their share is the normal probability below -1, of 8192 cases with a binomial deviation of at most 0.004; the figures are
     those of a normal cut off there, mean closing speed 1 + phi(1)/Phi(1); and one warning says so at the caller."""
     with pytest.warns(
-        col.OutOfRangeWarning, match="had no answer .* left out: the figures hold given that there is one"
+        col.OutOfRangeWarning, match="had no answer .* left out: the figures hold only where there is one"
     ) as caught:
         found = propagate(catching_up, SPEED, method=method, seed=2)
     assert [record.message.code for record in caught] == ["failed_cases"]

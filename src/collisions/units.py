@@ -320,7 +320,7 @@ def _cure(text: str, unit: str) -> str:
     if re.match(r"[+-]?\d[\d,]*,\d", text):
         whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
         point = [text.replace(",", ".")] if text.count(",") == 1 and "." not in text else []
-        return f": no comma stands in a number, {' or '.join(map(repr, whole + point))}" if whole or point else ""
+        return f": a number has no comma here, write {' or '.join(map(repr, whole + point))}" if whole or point else ""
     if "\u2212" in text:
         return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
     if re.search(r"\d\s*(?:-|\.\.|to|–|±|\+/?-)\s*\d", text):

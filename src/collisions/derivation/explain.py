@@ -205,7 +205,7 @@ def kinds_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Map
 
 def _impact(page: Page, impact: Impact) -> None:
     s = Symbols(impact)
-    page.heading("Given" if impact.reconstruction is None else "The contact, and the state before as it was found")
+    page.heading("Given" if impact.reconstruction is None else "What was given and found")
     _inputs(page, impact)
     _normal(page, s)
     why_this_model(page, impact)
@@ -307,11 +307,11 @@ def _notes(page: Page, uncertainty: Any, of_impact: bool) -> None:
     """Write the notes on rounding, units and signs."""
     page.heading("Notes")
     lines = [
-        "Every step was worked out with all digits. A number is printed as it is if six figures hold it, else with four "
-        "figures; but with all those before its decimal point, and a speed, angle, length or ratio with at most two decimals "
-        "more than an answer has. Where the numbers of a line need more figures than that to give the result printed below "
-        "them, they have more. So every line, worked out from its printed numbers and rounded like its result, gives that "
-        "result; where a line cannot, the page says so below it. The answers are rounded.",
+        "Every step was worked out with all digits. A number that needs at most six figures is printed in full, any other "
+        "with four, but never with fewer than stand before its decimal point; a speed, angle, length or ratio has at most two "
+        "decimals more than the answers. Where the numbers of a line need more figures than that to give the result printed "
+        "below them, they have more. So every line, worked out from its printed numbers and rounded like its result, gives "
+        "that result; where a line cannot, the page says so below it. The answers are rounded.",
     ]
     if of_impact:
         lines[:0] = [

@@ -21,7 +21,7 @@ def linear(page: Page, s: Symbols) -> None:
     page.heading("Linear central impact")
     page.say(
         "The vehicles are taken as point masses, and the impulse is along the normal, which points from A into B. Velocities "
-        "are counted along it; what a vehicle has across it, it keeps."
+        "are taken along it; the velocity across it does not change."
     )
     if not along_x:
         for body in s.bodies:

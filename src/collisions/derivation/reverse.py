@@ -51,18 +51,18 @@ def state_before(page: Page, s: Symbols) -> None:
         _planar(page, s, origin.known[0])
     elif origin.method == "speeds":
         _speeds(page, s, origin.known)
-    page.say("What follows is the same impact forwards, from the state that was found; it ends in what was known.")
+    page.say("What follows is the same impact solved forwards; it must reproduce what was known.")
 
 
 def what_was_known(page: Page, origin: Reconstruction) -> None:
     """Write which reverse solver found the state before, from what, its condition, and whether it is the only solution."""
-    page.heading("How the state before was found")
+    page.heading("How the rest was found")
     words = {name: known.what for name, known in KNOWN.items()} | _OF_BOTH
     known = ", ".join(words.get(name, name.replace("_", " ")) for name in origin.known)
-    page.say(f"Backwards, by reconstruct.{origin.method}: known beside masses and geometry were {known}.")
+    page.say(f"Solved backwards by reconstruct.{origin.method}. Known besides masses and geometry: {known}.")
     page.say(
-        f"Condition {page.system.answer(origin.condition, 'number')}: by so much a relative error of what was given may be "
-        "larger in the speeds before, taken relative to the closing speed."
+        f"Condition {page.system.answer(origin.condition, 'number')}: a relative error in what was given may become this many "
+        "times as large in the speeds before, relative to the closing speed."
     )
     if origin.answers > 1:
         page.stress(

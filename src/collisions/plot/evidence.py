@@ -29,8 +29,8 @@ _MOST = 10
 def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem | None = None) -> Figure:
     """The unknowns of a posterior: each by itself on the diagonal, each pair below it, given the evidence and the priors.
 
-    Of a pair the darker the likelier; the lines hold 50 and 95 percent of the samples. A narrow slanting band says that the
-    evidence tells the two together better than either.
+    In the panel of a pair, darker is likelier; the contours hold 50 and 95 percent of the samples. A narrow slanting band
+    says that the evidence tells the two together better than either.
 
     Parameters
     ----------

@@ -31,8 +31,8 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;
     the shape is assumed, the spring pulse on which ``left_out`` builds its crush too: a quarter of a sine up to the end of
     compression and another one down, with one peak. Then restitution takes e times as long as compression: as long if elastic,
-    no time if plastic, as in the figure. The duration is assumed too: peak and mean force go as one over it, and no impulse
-    tells them.
+    no time if plastic, as in the figure. The duration is assumed too: peak and mean force are inversely proportional to it,
+    and the impulse does not determine them.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def path(
     """The path of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
 
     Each stands at separation, three times on its path and, filled, at rest; the heavy edge is its front. The line is that of
-    the centre of mass, the dark ones are the tracks of tyres that slide. Points of a survey can be drawn on the same Axes.
+    the centre of mass, the grey ones are the marks of tyres that slide. Points of a survey can be drawn on the same Axes.
 
     Parameters
     ----------

@@ -116,7 +116,7 @@ def distribution(
 def contributions(
     result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
-    """What share of the variance of an output each input brings: by itself (bar), and with all it takes part in (diamond).
+    """What share of the variance of an output each input brings: by itself (bar), and with its interactions (diamond).
 
     The figure of each stands beside it. To know an input exactly would take the share of its bar away. Horizontal lines are
     standard errors on both sides; a local method has none. Where diamond and bar differ, inputs act together.
@@ -176,7 +176,7 @@ def contributions(
         )  # fmt: skip
     axes.plot(
         percent[:, 1], rows + _ASIDE, "D", ms=7, mfc="white", mec=INK, mew=1.5, ls="none", zorder=5, gid="total",
-        label="with all it takes part in",
+        label="with its interactions",
     )  # fmt: skip
     for column, aside in ((0, -_ASIDE), (1, _ASIDE)):
         if known[:, column].all():

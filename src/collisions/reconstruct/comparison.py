@@ -207,11 +207,10 @@ def _sentence(before: Mapping[str, float], after: Mapping[str, float], logs: Map
         times = "more than a million times"
         if factor < _MOST:
             low, high = (math.exp(factor + 2.0 * side * error) for side in (-1.0, 1.0))
-            times = f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g} by the error of sampling)"
+            times = f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g}, allowing for sampling error)"
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
-    stated = ", ".join(f'{before[name]:.3g} of "{name}"' for name in before)
-    found = ", ".join(f'{after[name]:.3g} of "{name}"' for name in after)
+    stated, found = ("; ".join(f'{of[name]:.3g} for "{name}"' for name in of) for of in (before, after))
     return (
-        f"The evidence is {' and '.join(parts)}. Probabilities before of {stated} become {found}. This holds for the priors of "
-        f"each account as they are stated; wider or narrower ones would change it."
+        f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. This holds for the priors of "
+        f"each account as they are stated; wider or narrower ones would change these figures."
     )

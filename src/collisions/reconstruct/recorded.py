@@ -86,7 +86,7 @@ class RecordedPulse(Shown):
         if not self.ended:
             cut = _cut(self.time, self.delta_v)
             raise InputError(
-                f"{cut}, about which there is no range; .evidence says to posterior that it was at least that much",
+                f"{cut}, and no range can be stated of it; give .evidence to reconstruct.posterior, which takes it as a bound",
                 code="pulse_cut",
             )
         parts = {"forward": self.delta_v_forward, "left": self.delta_v_left}

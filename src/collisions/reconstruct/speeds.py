@@ -460,8 +460,8 @@ def _refusal(
         text = f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give {other}"
     elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
         text = (
-            f"the contact slides, or its speeds do not show in {names}: their direction only repeats the friction, and the "
-            f"slip is open; give one of the speeds"
+            f"the contact slides, or its speeds do not show in {names}: their direction only repeats the friction, which "
+            f"leaves the slip undetermined; give one of the speeds"
         )
     elif not isinstance(scene, ComponentScene) and not speed_is_known and abs(ax * by - ay * bx) <= 8.0 * EPS:
         status = Status.PARALLEL_HEADINGS

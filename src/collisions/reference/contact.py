@@ -40,8 +40,8 @@ RESTITUTION_FIT = Fit(
     domain="low-speed, collinear, vehicle to vehicle",
     quality=(
         "Read from pycrash, not from the paper: neither the speeds that the paper tested nor the scatter about the fit could "
-        "be checked, and 2 to 15 mph is the range in which it is used here. Two tests of GBB lie 0.17 and 0.05 below it. It is "
-        "negative above 58.7 km/h."
+        "be checked, and 2 to 15 mph is the range in which it is used here. Two rear-end tests published by GBB lie 0.17 "
+        "and 0.05 below it. It is negative above 58.7 km/h."
     ),
 )
 RESTITUTION = Published(
@@ -50,7 +50,7 @@ RESTITUTION = Published(
     high=0.25,
     source=_EDCRASH,
     domain="vehicle to vehicle; may be higher at low speed, where bumpers spring back",
-    quality="A rule in the manual of a program, without tests beside it; the tests at full speed pass it by 0.003 at most.",
+    quality="A rule in the manual of a program, without tests beside it; the tests at full speed exceed it by at most 0.003.",
 )
 RESTITUTION_LOW_SPEED = Published(
     name="restitution, low speed",

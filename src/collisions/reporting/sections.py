@@ -75,7 +75,7 @@ def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
 def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
     """Write the inputs with the texts they were given as, and the choice of the model or how the state was found."""
     backwards = impact.reconstruction is not None
-    sheet.heading("The contact, and the state before as it was found" if backwards else "Inputs")
+    sheet.heading("What was given and found" if backwards else "Inputs")
     vehicles = {"A": impact.a.before, "B": impact.b.before}
     rows: list[tuple[str, str, str]] = []
     for of, quantity, names, numbers, kind in impact_inputs(impact):
@@ -97,7 +97,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
     if any("given as" in text for *_, text in (*rows, *known)):
         sheet.say("“Given as” repeats the text of an input that was given in another unit than that of this page.")
-    sheet.say("Of a normal only the direction counts. The record at the end has every digit.")
+    sheet.say("Only the direction of the normal matters, not its length. The record at the end has every digit.")
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact.reconstruction)
@@ -340,7 +340,7 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
 
 def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> Iterator[tuple[str, str]]:
     # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
-    own = "bound" if vehicle.pivot is None else "about"
+    own = "upper bound" if vehicle.pivot is None else "about"
     way = (sheet.system.answer(float(part), "length") for part in (side.displacement_x, side.displacement_y))
     yield "travel during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
@@ -349,8 +349,18 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
     moved = f"{lost} places and the normal of later in the contact, in which the bodies part as a rule"
     for what, change, share, why in (
         (f"delta-V from its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound, ""),
-        ("delta-V changed by the tyres of both", side.tyre_delta_v, side.tyre_share, f"{lost} speeds that the tyres leave"),
-        ("delta-V changed by positions and normal that move", side.geometry_delta_v, side.geometry_share, moved),
+        (
+            "change of delta-V by the tyres of both vehicles",
+            side.tyre_delta_v,
+            side.tyre_share,
+            f"{lost} speeds that the tyres leave",
+        ),
+        (
+            "change of delta-V as positions and normal move during the contact",
+            side.geometry_delta_v,
+            side.geometry_share,
+            moved,
+        ),
     ):
         if change is not None and share is not None:
             part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
@@ -436,7 +446,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
 def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Finding]) -> None:
     """Write the sources of equations, limits and comparable values."""
     sheet.heading("References")
-    lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; its equations are cited as (5).']
+    lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as (5) is an equation of it.']
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
         values += [("friction", reference.INTER_VEHICLE_FRICTION)] * any(True for _ in _published(impact, impact.inputs.rule))

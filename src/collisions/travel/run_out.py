@@ -385,8 +385,8 @@ def _warn_of_fast_yaw(run: RunOut) -> None:
     if np.any(fast):
         warn(
             OutOfRangeWarning(
-                f"by the yaw the wheels slip at more than {_MOST_YAW:g} of the speed at separation, and the drag here is of "
-                f"wheels without: the speed is 4 % too high there, and more beyond; travel.simulate has the slip of each wheel",
+                f"the yaw alone makes the wheels slip at more than {_MOST_YAW:g} of the speed at separation, which the drag "
+                f"here leaves out: the speed is 4 % too high there, more beyond; travel.simulate has the slip of each wheel",
                 code="fast_yaw",
                 cases=int(np.count_nonzero(fast)),
             )

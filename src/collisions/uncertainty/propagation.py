@@ -376,8 +376,8 @@ def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int
     elif failed:
         warn(
             OutOfRangeWarning(
-                f"{failed} of {count} cases had no answer ({failed / count:.2%}) and are left out: the figures hold given "
-                f"that there is one. If some inputs cannot be, bound them, as by Normal(mean, sd, truncate=(low, high))",
+                f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and are left out: the figures hold "
+                f"only where there is one. Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, high))",
                 code="failed_cases",
                 failed=failed,
             )

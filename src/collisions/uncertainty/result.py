@@ -32,7 +32,7 @@ NO_SPREAD, NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy"
 
 
 class Shares(NamedTuple):
-    """The share of an output's variance that each input has: by itself, and with all it takes part in; standard errors of both.
+    """The share of an output's variance that each input has: by itself, and with its interactions; standard errors of both.
 
     By input, largest total first; correlated inputs, and joint samples, cannot be told apart and share one: "mass_a & mass_b".
     """
