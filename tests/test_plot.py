@@ -903,7 +903,46 @@ def test_momenta_along_one_line_do_not_hide_each_other(case):
             reach = sorted(float(along @ (p - tail)) for p in (other_tail, other_tip))
             overlap = min(reach[1], np.hypot(*(tip - tail))) - max(reach[0], 0.0)
             assert max(map(abs, gaps)) > 0.01 * size or overlap < 0.021 * size
-    assert "side by side" in axes.get_title()
+    assert axes.get_title().endswith("\n(momenta on one line are drawn side by side)")
+
+
+@pytest.mark.parametrize(
+    ("names", "lines"),
+    [
+        (("middle", "front"), ["A: middle, B: front"]),
+        (("A", "B"), []),
+        (("", "front"), ["B: front"]),
+        (("A", "front"), ["B: front"]),
+        (("a" * 40, "b" * 40), ["A: " + "a" * 40, "B: " + "b" * 40]),
+    ],
+)
+def test_the_title_of_momenta_names_the_vehicles_that_have_names(names, lines):
+    a, b = (vehicle.replace(name=name) for vehicle, name in zip((A, B), names, strict=True))
+    title = plot.momentum(col.eccentric(a, b, 0.1, friction=0.5, **T_BONE)).get_title()
+    assert title.split("\n")[1:] == lines
+
+
+def in_legend(axes):
+    """The texts of the legend."""
+    return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("b", "before", "after"),
+    [
+        (col.Vehicle(mass=1500.0), "B: at rest before", "A\u2032: at rest after"),
+        (col.Vehicle.barrier(), None, None),
+    ],
+)
+def test_the_legend_of_momenta_says_who_is_at_rest(b, before, after):
+    """An elastic impact stops A by a vehicle of its mass; a barrier has no momentum to speak of."""
+    texts = in_legend(plot.momentum(col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), b, 1.0)))
+    assert [text for text in texts if "rest" in text or "no momentum" in text] == [text for text in (before, after) if text]
+
+
+def test_who_turns_on_the_spot_is_not_at_rest():
+    impact = col.eccentric(A, B.replace(vy=0.0, yaw_rate=1.0), 0.1, friction=0.5, **T_BONE)
+    assert "B: no momentum before" in in_legend(plot.momentum(impact))
 
 
 def test_what_a_pivot_gives_closes_the_diagram():
@@ -933,7 +972,7 @@ def test_the_diagram_of_a_pinned_body_is_closed():
     assert np.hypot(*aside) > 0.0
     assert named(axes, "begin").get_xydata()[1] == pytest.approx(aside, **near)
     assert named(axes, "end").get_xydata() == pytest.approx(np.array([ends["outside"][1], ends["after.b"][1]]), **near)
-    assert "thin lines join what is one place" in axes.get_title()
+    assert axes.get_title().endswith("side by side with those before;\nthin lines join what is one place)")
     dashes = [line._unscaled_dash_pattern for line in axes.get_lines() if not line.get_label().startswith("_")]
     colours = [line.get_color() for line in axes.get_lines() if not line.get_label().startswith("_")]
     assert len({(str(dash), colour) for dash, colour in zip(dashes, colours, strict=True)}) == 5
@@ -1040,6 +1079,36 @@ def test_there_is_a_cone_only_where_friction_bounds_the_impulse(case, lines):
     assert len([name for name in names(axes) if name.startswith("friction")]) == lines
     assert ("ratio" in names(axes)) == (case == "ratio")
     assert ("no slip" in names(axes)) == (case != "example 2")
+
+
+@pytest.mark.parametrize(
+    ("case", "ends"),
+    [
+        ("sticking", ":\nat the diamond if the contact sticks, on the cone if it slides."),
+        ("grazing", ",\nhere on the cone: the contact slides."),
+        ("ratio", ",\nhere at the impulse ratio given."),
+        ("elastic", ",\nhere on the axis: there is no friction."),
+        ("no slip", ",\nhere where slip ends: the contact sticks."),
+        ("stronge", ",\nhere where slip ends: the contact sticks."),
+        ("turning around", ",\nhere within the cone: the slip turns around."),
+    ],
+)
+def test_the_impulse_plane_speaks_of_nothing_that_is_out_of_the_picture(case, ends):
+    """The caption of the diamond and the cone, the legend of the lines, and the title of a no-slip impulse not drawn."""
+    corner = {"normal": "70 deg", "point": (2.3, 0.9), "friction": 0.3}
+    others = {
+        "grazing": lambda: col.eccentric(A.replace(x=0.0, vx="80 km/h"), col.Vehicle.barrier(), 0.1, **corner),
+        "stronge": lambda: col.eccentric(A, B, 0.1, friction=0.5, law="stronge", **T_BONE),
+        "turning around": lambda: col.eccentric(
+            A, B.replace(vy=-0.5), 0.1, friction=0.1, law="stronge", normal=0.0, point=(0.0, -1.5)
+        ),
+    }
+    axes = plot.impulse_plane(others[case]() if case in others else IMPACTS[case])
+    assert axes.get_xlabel().endswith(f"\nThe impulse ends on the solid line{ends}")
+    assert ("\n(the no-slip impulse lies outside the picture)" in axes.get_title()) == (case == "grazing")
+    assert any("slip ends" in text for text in in_legend(axes)) == (case != "grazing")
+    box, line = axes.get_window_extent(), named(axes, "no slip")
+    assert line.get_transform().transform_path(line.get_path()).intersects_bbox(box, filled=False) == (case != "grazing")
 
 
 @pytest.mark.slow

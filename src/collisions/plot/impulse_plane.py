@@ -23,6 +23,14 @@ if TYPE_CHECKING:
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
 _NO_YIELD = 64.0 * EPS  # relative: a coefficient this small is the rounding of differences of speeds
+# Where on the solid line the impulse ends, by regime.
+_ENDS = {
+    "frictionless": "on the axis: there is no friction",
+    "sliding": "on the cone: the contact slides",
+    "sticking": "where slip ends: the contact sticks",
+    "reversing": "within the cone: the slip turns around",
+    "given": "at the impulse ratio given",
+}
 
 
 @hinted
@@ -99,12 +107,13 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         _draw_friction(axes, impact, right, low, high)
 
     def line(gid: str, along_n: float, along_t: float, total: float, text: str, **style: Any) -> None:
-        """Where along_n Pn + along_t Pt is the total, within the picture."""
+        """Where along_n Pn + along_t Pt is the total; not in the legend if that is nowhere in the picture."""
         size = math.hypot(along_n, along_t)
         ux, uy, foot = along_n / size, along_t / size, total / size
         out = 2.0 * math.hypot(right, high - low) + abs(foot)
         x, y, dx, dy = foot * ux, foot * uy, out * uy, -out * ux
-        axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text, **style)
+        sides = {along_n * corner_n + along_t * corner_t > total for corner_n in (0.0, right) for corner_t in (low, high)}
+        axes.plot([x - dx, x + dx], [y - dy, y + dy], gid=gid, label=text if len(sides) == 2 else None, **style)
 
     end = "end of restitution" if impact.complete else "end of the contact, before that of compression"
     line("end of compression", k_nn, k_nt, ends[0], "end of compression", color=INK, lw=1.3, ls=(0, (6, 3)))
@@ -138,11 +147,14 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
-    how = "\nThe impulse ends on the solid line:\nat the diamond if the contact sticks, on the cone if it slides."
-    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + ("" if plain else how))
+    how = f",\nhere {_ENDS[impact.regime]}."
+    if shows_no_slip and impact.friction not in (None, 0.0, math.inf):
+        how = ":\nat the diamond if the contact sticks, on the cone if it slides."
+    how = "" if plain else f"\nThe impulse ends on the solid line{how}"
+    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
-    without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside"
+    without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside the picture"
     beyond = "" if plain or shows_no_slip or energetic else f"\n(the no-slip impulse {without_slip})"
     axes.set_title(f"{pair}{beyond}", fontsize=10.5)
     tidy(axes)

@@ -10,7 +10,7 @@ from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
 from ..side import Side
-from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy
+from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy, who
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 # Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
 _SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
+_NOTHING = 1e-9  # relative: a momentum or a speed this small is rounding
+_TITLE = 60  # characters on one line
 
 
 @hinted
@@ -90,7 +92,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
 
     def draw(tail: Place, vector: Place, gid: str, tag: str, text: str, colour: str, style: Any, width: float = 2.0) -> None:
         length = math.hypot(*vector)
-        if length <= 1e-9 * longest:
+        if length <= _NOTHING * longest:
             return
         # To the right, seen along the arrow.
         side = (vector[1] / length, -vector[0] / length) if across is None else across
@@ -108,8 +110,12 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
         tail: Place = (0.0, 0.0) if when == "before" else aside
         for index, vector in enumerate(chains[when]):
-            draw(tail, vector, f"{when}.{SIDES[index]}", "AB"[index] + prime, when, COLOURS[index], style)
+            tag, state = "AB"[index] + prime, getattr((impact.a, impact.b)[index], when)
+            draw(tail, vector, f"{when}.{SIDES[index]}", tag, when, COLOURS[index], style)
             tail = beside(tail, vector)
+            if takes_part[index] and math.hypot(*vector) <= _NOTHING * longest:
+                still = state.speed <= _NOTHING * impact.closing_speed and not state.yaw_rate
+                axes.plot([], [], ls="none", label=f"{tag}: {'at rest' if still else 'no momentum'} {when}")
     if not open_ended:
         draw((0.0, 0.0), totals["before"], "total", "total", "before and after", INK, (0, (1, 1.2)), 1.6)
     else:
@@ -118,7 +124,6 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     if aside != (0.0, 0.0):
         for place, gid in (((0.0, 0.0), "begin"), (totals["after"], "end")):
             drawing.line(place, beside(place, aside), gid, color=GREY, lw=0.8, ls=":", zorder=1)
-        apart.append("after")
     drawing.include((0.0, 0.0))
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
     axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
@@ -126,11 +131,15 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     for axis, along in ((axes.yaxis, (0.0, 1.0)), (axes.xaxis, (1.0, 0.0))):
         # Arrows along the other axis lie side by side, and this one counts nothing.
         axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
-    note = "\nthose along one line side by side" if across is not None or apart else ""
-    note = "\nthose after side by side with those before;\nthin lines join what is one place" if aside != (0.0, 0.0) else note
-    sides = enumerate((impact.a, impact.b))
-    named = [in_lines(f"{'AB'[index]}: {side.before.name}", 60, 1) for index, side in sides if side.before.name]
-    axes.set_title("\n".join(["Momenta before (dashed) and after (solid)", *named]) + note, fontsize=10.5, parse_math=False)
+    vehicles = enumerate((impact.a.before, impact.b.before))
+    named = [in_lines(f"{'AB'[at]}: {vehicle.name}", _TITLE, 1) for at, vehicle in vehicles if who(at, vehicle) != "AB"[at]]
+    together = ", ".join(named)
+    title = ["Momenta before (dashed) and after (solid)", *([together] if 0 < len(together) <= _TITLE else named)]
+    if aside != (0.0, 0.0):
+        title.append("(those after are drawn side by side with those before;\nthin lines join what is one place)")
+    elif across is not None or apart:
+        title.append("(momenta on one line are drawn side by side)")
+    axes.set_title("\n".join(title), fontsize=10.5, parse_math=False)
     axes.grid(color="#e2e2e2", lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
