@@ -26,7 +26,7 @@ def kmh(speed):
 # %% [markdown]
 # ## Square
 #
-# At 56 km/h, with the restitution of one published test of this kind, and for comparison plastic and elastic.
+# At 56 km/h, with the restitution of one published test of this kind and, for comparison, plastic and elastic.
 
 # %%
 published = reference.RESTITUTION_FRONTAL_BARRIER
@@ -91,9 +91,8 @@ for label, family in (("point", points), ("corner", corners)):
 
 # %% [markdown]
 # The speed along the wall is not in the speed of maximum crush, which is that along the normal: 80 sin 20° = 27 km/h for a
-# point.
-# With the corner the car gives way by turning, and crush and delta-V are less. Friction alone would turn it the other way; here
-# it does not get that far.
+# point. With the corner the car gives way by turning, and crush and delta-V are less. Friction alone would turn it the other
+# way; here it does not get that far.
 
 # %%
 figure, axes = plt.subplots(2, 1, figsize=(7, 11), layout="constrained")

@@ -75,15 +75,15 @@ for label, (track, impacts, cars) in played.items():
             f"{striking:>+12.1f}{struck:>+9.1f}{impact.energy_loss / 1000:>8.1f}"
         )
     speeds = ", ".join(f"{car.name} {car.vx * 3.6:.1f} km/h" for car in cars)
-    print("after:", speeds, "\n")
+    print(f"after: {speeds}\n")
 
 # %% [markdown]
-# With the gap ahead, the middle car is first thrown forward and then stopped by its hardest impact, which also is that of the
-# front car. With the gap behind, it is first stopped, and its hardest impact comes from behind. The speeds at the end are
-# nearly the same, so they do not tell which it was.
+# With the gap ahead, the middle car is first thrown forward and then slowed by its hardest impact, which is also the hardest
+# for the front car. With the gap behind, it is first slowed, and its hardest impact comes from behind. The speeds at the end
+# are nearly the same, so they do not tell which it was.
 
 # %%
-figure, axes = plt.subplots(1, 2, figsize=(12, 5), sharey=True, layout="constrained")
+figure, axes = plt.subplots(2, 1, figsize=(7, 9), sharex=True, layout="constrained")
 for ax, (label, (track, _, cars)) in zip(axes, played.items(), strict=True):
     last, places = track[-1]
     rolled = [x + 0.3 * car.vx for x, car in zip(places, cars, strict=True)]
@@ -97,12 +97,12 @@ for ax, (label, (track, _, cars)) in zip(axes, played.items(), strict=True):
         ax.fill_between(clocks, back, front, **style)
     for clock in clocks[1:-1]:
         ax.axvline(clock, color="0.3", lw=0.8, ls=":")
-    ax.set(title=label, xlabel="time [s] (dotted: an impact)")
-axes[0].set_ylabel("place along the road [m]")
-axes[0].legend(loc="upper left")
+    ax.set(title=label, ylabel="place along the road [m]")
+axes[0].legend(loc="lower right")
+axes[1].set_xlabel("time [s] (dotted: an impact)")
 
 # %% [markdown]
-# The momenta of the hardest of these impacts. In a picture A is the striking car and B the struck one:
+# The momenta of the impact with the highest closing speed. In the picture A is the striking car and B the struck one:
 
 # %%
 every = [impact for _, impacts, _ in played.values() for impact in impacts]

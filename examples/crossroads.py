@@ -53,9 +53,11 @@ print(
     f"    {'frictionless: delta-V':<27}{'no slip: delta-V':<24}"
 )
 print(
-    f"{'':<16}{'km/h':>8}{'km/h':>7}"
+    f"{'':<16}{'':>8}{'':>7}"
     f"{'A':>8}{'B':>7}{'course B':>10}{'A':>10}{'B':>7}{'course B':>10}"
 )
+units = f"{'km/h':>8}{'km/h':>7}{'deg':>10}"
+print(f"{'':<16}{'km/h':>8}{'km/h':>7}{units}  {units}")
 for kind in COURSES:
     cases = [collide(kind, 0.1, friction) for friction in (0.0, math.inf)]
     cells = "  ".join(
@@ -82,8 +84,8 @@ for kind, ax in zip(COURSES, axes.flat, strict=True):
 #
 # - Frictionless: an impulse of (1 + e) times the reduced mass times the closing speed, and no change of speed along the contact
 #   (eqs 5, 6 and 9 of the paper).
-# - Plastic and without slip: both leave with the momentum of both over their mass, and what is lost is half the reduced mass
-#   times the square of the relative velocity. Textbooks call them locked together.
+# - Plastic and without slip: both leave with one velocity, their total momentum over their total mass, and what is lost is
+#   half the reduced mass times the square of the relative velocity. Textbooks call them locked together.
 # - OpenStax, University Physics volume 1, section 9.5, "Traffic Collision": a car of 1200 kg going east at 60 km/h and a truck
 #   of 3000 kg going north at 40 km/h lock together and leave with 9.25 m/s, 33.3 km/h, in a direction of 59 degrees. The text
 #   calls that east of north. It is north of east, by the speeds of 4.76 m/s east and 7.93 m/s north that it prints.

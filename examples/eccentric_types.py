@@ -2,8 +2,8 @@
 # # Types of eccentric collision
 #
 # The front of A strikes the front door of B, its rear wing, half of its back or half of its front, types of the paper's
-# figure 12: the impulse passes beside a centre of mass, and the cars turn. It shows which way each turns, that friction can
-# reverse it, and by how much a model without rotation is off.
+# figure 12: the impulse passes beside a centre of mass, and the cars turn. The example shows which way each turns, that
+# friction can reverse it, and by how much a model without rotation is off.
 #
 # The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact without friction (eqs 10 to 19).
 # The places and speeds here are ours.
@@ -27,14 +27,20 @@ A = col.Vehicle(
     name="A",
 )
 B = A.replace(mass="1200 kg", yaw_inertia="1800 kg*m**2", vx=0.0, name="B")
-# The contact is a place on the front of A, at x = 0.
+# B, and the point of contact, which lies on the front of A at x = 0.
 TYPES = {
     "front door": (
         B.replace(vy="40 km/h", x=0.9, y=-0.2, heading="90 deg"),
         (0.0, 0.0),
     ),
-    "rear wing": (B.replace(vy="40 km/h", x=0.9, y=1.3, heading="90 deg"), (0.0, 0.0)),
-    "half of the back": (B.replace(vx="20 km/h", x=2.2, y=-0.9), (0.0, -0.45)),
+    "rear wing": (
+        B.replace(vy="40 km/h", x=0.9, y=1.3, heading="90 deg"),
+        (0.0, 0.0),
+    ),
+    "half of the back": (
+        B.replace(vx="20 km/h", x=2.2, y=-0.9),
+        (0.0, -0.45),
+    ),
     "half of the front": (
         B.replace(vx="-40 km/h", x=2.2, y=0.9, heading="180 deg"),
         (0.0, 0.45),
@@ -91,8 +97,8 @@ for kind, ax in zip(TYPES, axes.flat, strict=True):
 # - Kinetic energy before less after is the energy lost.
 # - The contact points part with e times the speed at which they met (eq 16 of the paper).
 # - Without friction the contact feels the mass $1/(1/m_A + 1/m_B + r_A^2/I_A + r_B^2/I_B)$, as in textbooks of dynamics.
-# - Two equal cars at equal speeds, half of the front, without friction: by symmetry each meets a wall, so the impulse is
-#   $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
+# - Two equal cars at equal speeds, half of the front, without friction: by symmetry it is as if each met a wall, so the
+#   impulse is $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
 #
 # Each side of a comparison is a sum of a few products; 1e-12 of the whole is a thousand times their rounding.
 

@@ -25,8 +25,8 @@ print(f"{'energy lost, kJ':<24}{'-':>8}{impact.energy_loss / 1000:>10.2f}")
 # %% [markdown]
 # ## All twenty questions
 #
-# One of them has two answers: the error then holds both, and one of them is Example 2. The condition is by how much relative
-# errors of what was given may be larger in the speeds before, taken relative to the closing speed: about 1 is firm.
+# One of them has two answers: the error then holds both, and one of them is Example 2. The condition says how many times
+# larger a relative error in what was given may come out in the speeds before, relative to the closing speed: about 1 is firm.
 
 # %%
 TRUTH = {

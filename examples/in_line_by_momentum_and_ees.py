@@ -70,7 +70,7 @@ for label, (ees_a, ees_b) in EES.items():
     )
 
 # %% [markdown]
-# Ten percent of the EES is ten percent of the closing speed; here that is the question whether the struck car stood.
+# Ten percent of the EES is ten percent of the closing speed; here it decides whether the struck car stood.
 #
 # ## Head-on: Schreier and Nelson
 #
@@ -126,11 +126,11 @@ _, warned = with_course(184.0)
 print(f"{warned[0].code}: {warned[0]}")
 
 # %% [markdown]
-# The energy decides. Before, nobody turned; so what the translation lost went into the damage and into the rotation. The source
-# takes EES as dissipated, and has the rotation from the angle to rest: tyres rub with a friction on half the wheelbase, so
-# $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and $I$ = 0.1269 m times wheelbase and length.
-# It takes turning and sliding as apart from each other; `travel.path` takes them together, where positions
-# along the path are known. Which course of the Mercedes has that energy?
+# The energy decides. Before, neither car turned, so what the translation lost went into the damage and into the rotation. The
+# source takes EES as dissipated, and has the rotation from the angle $\varphi$ turned to rest: the tyres rub with the friction
+# $\mu$ at half the wheelbase $l$, so $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and
+# $I = 0.1269\,m\,l\,L$ for a length $L$. It treats turning and sliding as separate; `travel.path` takes them together, where
+# positions along the path are known. Which course of the Mercedes has that energy?
 
 
 # %%

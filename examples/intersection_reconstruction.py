@@ -1,14 +1,14 @@
 # %% [markdown]
 # # An intersection, from the marks on the road to the impact speeds
 #
-# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as from a plan with the tyre marks.
+# Four steps from the marks to the answer: the run-out gives the motion at separation, the impact solved backwards gives the
+# speeds before, the forward solver says whether those speeds lead to the marks, and the uncertainty of what was read says how
+# far all of it can be trusted.
 #
+# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as from a plan with the tyre marks.
 # Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from the south, course 90 degrees. The front of A struck
 # the left side of B at the driver's door. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
 # damage. B spun to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
-#
-# Four steps: the run-out gives the motion at separation, the impact solved backwards the speeds before, the forward solver
-# says whether those speeds lead to the marks, and the uncertainty of what was read says how far all of it can be trusted.
 
 # %%
 import itertools
@@ -38,7 +38,8 @@ def kmh(speed):
 # ## What was found
 #
 # Positions of the centres of mass along each path, from impact to rest, and the heading at each. A heading is counted on: B
-# turned by 195 degrees to the right. `lock` is the braking along the wheels, from 0 for free rolling to 1 for locked.
+# turned by 195 degrees to the right, so its headings run on from 90 to -105. `lock` is the braking along the wheels, from 0
+# for free rolling to 1 for locked.
 
 # %%
 PATHS = {
@@ -184,7 +185,7 @@ for answer, row in momentum.sensitivity.q.items():
 #
 # The states that `planar` found must lead back to the separation it was given, up to rounding. That is a check of the
 # arithmetic. The speeds from momentum, on the courses before and without yaw, through `eccentric` with the same contact are a
-# check of the case: nothing of the contact went into them, so that they lead close to the marks is evidence.
+# check of the case: nothing of the contact went into them, so it is evidence that they lead close to the marks.
 
 # %%
 again = col.eccentric(*before, RESTITUTION, **CONTACT)
@@ -296,14 +297,12 @@ for name in result:
     )
 
 # %% [markdown]
-# Which reading to improve: the share of the variance that each input brings. The longest bar is what to measure better; the
-# inputs at the end hardly matter, and no expert needs to argue about them.
+# Which reading to improve: the bars are the share of the variance that each input brings. The longest bar is what to measure
+# better; the inputs at the bottom hardly matter, and no expert needs to argue about them.
 
 # %%
 answers = ("speed of A", "speed of B", "delta-V of A")
-figure, charts = plt.subplots(
-    1, 3, figsize=(11.5, 4.4), sharey=True, layout="constrained"
-)
+figure, charts = plt.subplots(1, 3, figsize=(8, 4.6), sharey=True, layout="constrained")
 total = {
     name: sum(result[answer].contributions[name] for answer in answers)
     for name in INPUTS
@@ -313,9 +312,9 @@ for chart, answer in zip(charts, answers, strict=True):
     shares = [result[answer].contributions[name] for name in ranked]
     chart.barh(ranked, [100.0 * max(share, 0.0) for share in shares], color="#3b6ea5")
     mean, std = kmh(result[answer].mean), kmh(result[answer].std)
-    chart.set_title(f"{answer}: {mean:.0f} ± {std:.1f} km/h", fontsize=10)
-    chart.set_xlabel("share of the variance [%]")
+    chart.set_title(f"{answer}\n{mean:.1f} ± {std:.1f} km/h", fontsize=10)
     chart.spines[["top", "right"]].set_visible(False)
+charts[1].set_xlabel("share of the variance [%]")
 for answer in answers:
     first, second, *_, last = result[answer].contributions.items()
     print(
@@ -330,7 +329,7 @@ for answer in answers:
 #   below 1e-12; 1e-10 m/s and rad/s leave room for another processor.
 # - The two methods agree within two standard deviations of their difference, with friction, lock and contact as they were
 #   taken and the positions and courses as they were read.
-# - The point answers lie within the ranges, whose means they need not be: the chain is not straight.
+# - The point answers lie within the ranges, but need not be their means: the chain is not linear.
 # - Momentum forward meets the marks: the speeds within 1.5 km/h and the courses within 3 degrees, which is the 0.1 m of
 #   reading over a first segment of 2.4 to 3.1 m on either end (0.1/2.4 is 2.4 degrees); the yaw rates within 20 degrees per
 #   second, which is 5 degrees of heading over the first quarter of a second.

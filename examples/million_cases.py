@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A million cases
 #
-# A rear-end impact of which every input is known with an error, drawn a million times and solved in one call. One learns
-# what becomes of the cases that have no answer, how long a case takes, and that `uncertainty.propagate` gets there with
+# A rear-end impact of which every input is known with an error, drawn a million times and solved in one call. This example
+# shows what becomes of the cases that have no answer, how long a case takes, and that `uncertainty.propagate` gets there with
 # fewer.
 #
 # **The scene is invented.** A runs into the back of B, up to 0.6 m beside the line, in traffic where either may have been
@@ -90,7 +90,7 @@ print(
 # %% [markdown]
 # ## Cases without an answer
 #
-# They are NaN in every answer, and `status` says why. To leave them out is to say that they cannot have been. Here that is
+# They are NaN in every answer, and `status` says why. To leave them out is to say that they cannot have happened. Here that is
 # true: the impact did happen, so A was the faster, and no restitution is negative.
 
 # %%
@@ -108,9 +108,9 @@ print(
 # %% [markdown]
 # ## The same by `propagate`
 #
-# It takes units, and draws points that are spread evenly, so that fewer do; `mean_standard_error` says how far the mean may
-# be off. `truncate=` cuts off what cannot be. The closing speed is no input, so cases that separate remain, and a warning
-# counts them.
+# It takes units, and draws points that are spread evenly, so that fewer are enough; `mean_standard_error` says how far the
+# mean may be off. `truncate=` cuts off what cannot be. The closing speed is not an input, so cases that separate remain, and
+# a warning counts them.
 
 # %%
 known = {
@@ -151,9 +151,9 @@ legend = axes.legend(loc="upper right", fontsize="small")
 #
 # - Every one of the million conserves momentum, and angular momentum about the origin: some 1e4 in SI, to the rounding of
 #   such sums, which is below 1e-9.
-# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation (8² + 6²)^½ = 10 km/h: negative with the
-#   probability of -2 standard deviations, 0.02275 in any table. So is the restitution. The count is within 4 standard
-#   deviations of a binomial count.
+# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h: it is negative with the
+#   probability of falling below -2 standard deviations, 0.02275 in any table. So is the restitution. The count is within 4
+#   standard deviations of a binomial count.
 # - The mean closing speed of those that approach is that of a normal distribution cut off at 0, in closed form. It and the
 #   mean delta-V by `propagate` agree with the batch within 4 standard errors.
 

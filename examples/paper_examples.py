@@ -128,13 +128,13 @@ separation = impact.b.after.velocity_at((0.0, L))[0] - va_after
 
 heading("Example 3: 900 kg at 60 km/h strikes 1000 kg, which turns about O")
 row("yaw rate of B after", "5.47", turn, "rad/s", f"the minus sign: {sense}")
-cut = "exactly 950/111; the paper cuts off"
+cut = "exactly 950/111; the paper truncates"
 row("velocity of A after", "8.55", va_after, "m/s", cut)
 row("velocity of A after", "31", impact.a.after.q.vx.m_as("km/h"), "km/h")
 row("separation speed at the contact", "13.33", separation, "m/s", "eq (21)")
 row("energy lost", "-", impact.energy_loss / 1000, "kJ")
 pivot, unprinted = impact.b.pivot_impulse_x, "not worked out in the paper"
-row("impulse of the pivot on B, to the right", "-", pivot / 1000, "kN s", unprinted)
+row("impulse of the pivot on B, to the right", "-", pivot / 1000, "kN·s", unprinted)
 
 check("Example 3, yaw rate", turn, -405 / 74, 1e-13)
 moments = 3600 * va_after - 16000 / 3 * turn
@@ -150,7 +150,7 @@ check("Example 3, pivot impulse", pivot, 3.65e3, 0.005 / 3.65)
 # ## Checks
 #
 # The exact fractions are met to 1e-13. The figures printed in the paper were worked out from speeds rounded to two decimals,
-# or cut off, so they are met to 1 percent only.
+# or truncated, so they are met to 1 percent only.
 
 # %%
 failed = [

@@ -55,8 +55,8 @@ axes = plot.scene(
 # ## The inertia
 #
 # `yaw_inertia` is always about the centre of mass: here m L²/12. The paper calls this 1333 kg m² "about O", which is a
-# misprint, for it then adds 1000 · 2² and goes on with the right 5333 kg m². The library adds it by itself. Do not give the
-# sum.
+# misprint, for it then adds 1000 · 2² and goes on with the right 5333 kg m². The library adds that part itself. Do not give
+# the sum.
 #
 # ## What the pivot takes, and what if there were none
 #
@@ -75,15 +75,17 @@ for label, paper, unit, read in (
     ("energy lost", "", "kJ", lambda hit: hit.q.energy_loss),
 ):
     print(
-        f"{f'{label}, {unit}':<34}{paper:>9}"
+        f"{f'{label}, {unit}'.replace('*', '·'):<34}{paper:>9}"
         f"{read(pinned).m_as(unit):>9.2f}{read(free).m_as(unit):>9.2f}"
     )
 
 # %% [markdown]
-# The paper prints the size of the yaw rate; counter-clockwise is positive here, and B turns clockwise. Its 8.55 is cut off.
+# The paper prints the size of the yaw rate; counter-clockwise is positive here, and B turns clockwise. The paper's 8.55 is
+# truncated.
 #
 # The pivot pushes B the same way as A does: struck so far from O, a free B would have swung its other end backwards. Struck
-# nearer to O it is the other way round. Between them is the centre of percussion, where the pivot takes nothing.
+# nearer to O it is the other way round. Between them, at two thirds of the length, is the centre of percussion, where the
+# pivot takes nothing.
 
 # %%
 heights = np.linspace(0.5, LENGTH, 200)
@@ -95,23 +97,21 @@ axes.plot(
 )
 axes.plot(heights, many.b.q.pivot_impulse_x.m_as("kN*s"), "k--", label="of the pivot")
 axes.axhline(0.0, color="0.6", linewidth=0.8)
-axes.axvline(percussion, color="0.6", linewidth=0.8)
+axes.axvline(percussion, color="0.6", linewidth=0.8, label="centre of percussion")
 axes.set(
     xlabel="height of the contact above O [m]",
-    ylabel="impulse on B, to the right [kN s]",
+    ylabel="impulse on B, to the right [kN·s]",
 )
-legend = axes.legend(
-    loc="lower right", title="the vertical line is at two thirds of the length"
-)
+legend = figure.legend(loc="outside lower center", ncols=3)
 
 # %% [markdown]
-# So a pivot that is assumed where there is none, or forgotten where a wheel stood against a kerb, is no detail. What it had
-# to take says whether it could have held.
+# So a pivot that is assumed where there is none, or forgotten where a wheel stood against a kerb, is no small matter. What it
+# had to take says whether it could have held.
 #
 # ## Checks
 #
-# - The printed figures, to 1 in the last place, as one of them is cut off.
-# - The exact solution of the paper's equations (20) and (21): 405/74 rad/s and 950/111 m/s, to some eps (1e-12).
+# - The printed figures, to 1 in the last place, as one of them is truncated.
+# - The exact solution of the paper's equations (20) and (21): 405/74 rad/s and 950/111 m/s, to a few eps (1e-12).
 # - The momentum that A and B gained together came from the pivot; angular momentum about O is the same after as before.
 # - The pivot takes nothing at two thirds of the length, the centre of percussion of a rod that hangs by its end (in any
 #   textbook of mechanics). By the same rule a free rod struck at its end turns about the point at one third of its length,

@@ -83,7 +83,7 @@ FRICTIONS = {
     "friction 0.5": (0.5, "-"),
     "never slips": (math.inf, ":"),
 }
-figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+figure, (left, right) = plt.subplots(1, 2, figsize=(8, 4), layout="constrained")
 for label, (friction, dashes) in FRICTIONS.items():
     many = struck(ahead, friction)
     left.plot(ahead, many.a.q.delta_v.m_as("km/h"), "k" + dashes, label=label)
@@ -103,7 +103,7 @@ legend = figure.legend(loc="outside lower center", ncols=3)
 #
 # ## Checks
 #
-# Against formulas of mechanics, to some eps (1e-12):
+# Against formulas of mechanics, to a few eps (1e-12):
 #
 # - Without friction, impulse = (1 + e) m v / (1 + d²/k²), with offset d and radius of gyration k. Yaw rate is (1 + e) v d /
 #   (k² + d²), so it is greatest at d = k.

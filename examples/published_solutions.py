@@ -3,7 +3,7 @@
 #
 # Two oblique frontal crash tests between two vehicles (NHTSA 4363 and 4474) and one small-overlap test against a fixed barrier
 # (CF11016), solved in the units they were published in: pounds, slug ft², feet, miles per hour or feet per second, degrees.
-# At the end every other published case of the sources is solved too, and compared with its print.
+# At the end every other published case of the sources is solved too, and compared with what was printed.
 #
 # **What the published numbers are.** They are *not* instrument readings to be predicted. For the two vehicle-to-vehicle tests
 # they are planar-impact solutions, whose contact point, normal and restitution others chose so that the solution fits the test.
@@ -104,8 +104,8 @@ for case, test in solutions.TESTS.items():
 # infinite mass and yaw inertia and needs no position. The vehicle heads along +x from the origin. The impulse ratio is 98.9
 # percent of the one that just stops slip.
 #
-# The sheet counts delta-V x rearward and prints the lateral and yaw figures as magnitudes, so the sizes are compared. Its
-# "measured" columns are the motion to which the parameters were fitted.
+# The sheet counts delta-V x positive rearward and prints the lateral and yaw figures as magnitudes, so the sizes are
+# compared. Its "measured" columns are the motion to which the parameters were fitted.
 
 # %%
 print(inspect.getsource(solutions.barrier_impact))
@@ -114,24 +114,19 @@ impact, other = (
     solutions.barrier_impact(row, law) for law in ("brach", "kudlich-slibar")
 )
 print(
-    f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}   "
-    f"{'':<7}{'kudlich-slibar':>14}"
+    f"{'CF11016, Ford Fusion':<32}{'published':>10}{'brach':>9}{'kudlich-slibar':>17}"
 )
 for label, name, column, unit in (
     ("delta-V x, rearward", "delta_vx", "measured_delta_vx_ft_s_rearward", "ft/s"),
     ("delta-V y, size", "delta_vy", "measured_delta_vy_ft_s", "ft/s"),
     ("delta-V", "delta_v", "tabulated_delta_v_ft_s", "ft/s"),
-    (
-        "change of yaw rate, size",
-        "delta_yaw_rate",
-        "measured_delta_yaw_rate_deg_s",
-        "deg/s",
-    ),
+    ("yaw rate change", "delta_yaw_rate", "measured_delta_yaw_rate_deg_s", "deg/s"),
 ):
     ours, under_other = (
         abs(getattr(found.a.q, name).m_as(unit)) for found in (impact, other)
     )
-    print(f"{label:<32}{row[column]:>10}{ours:>9.2f}   {unit:<7}{under_other:>14.2f}")
+    what = f"{label}, {unit}"
+    print(f"{what:<32}{row[column]:>10}{ours:>9.2f}{under_other:>17.2f}")
     printed = float(row[column])
     if unit == "deg/s":
         check(f"CF11016, {label}", ours, printed, 1.0, unit)
@@ -149,14 +144,15 @@ print(
 # %% [markdown]
 # ## Every worked example
 #
-# Each is solved, and its figures are compared with the printed digits and with what was worked out apart from this library: to
-# half a unit in the last digit, or as the record says. What is known to be wrong in print must differ.
+# Each case of `validation/data/worked_examples.json` is solved, and its figures are compared with the printed digits and with
+# what was worked out apart from this library: to half a unit in the last digit, or as the record says. What is known to be
+# wrong in print must differ.
 
 # %%
 for case, record in published_cases.CASES.items():
     found = list(published_cases.comparisons(case))
     wrong = sum(comparison.wrong for comparison in found)
-    misprints = f", {wrong} of them misprints" if wrong else ""
+    misprints = f", misprints: {wrong}" if wrong else ""
     title = textwrap.shorten(record["source"]["title"], 44, placeholder=" ...")
     print(f"{case}  {title:<45}{len(found):>3} comparisons{misprints}")
     for comparison in found:
@@ -166,8 +162,8 @@ for case, record in published_cases.CASES.items():
 # %% [markdown]
 # ## Checks
 #
-# In the two sections above 0.2 mph and 1 deg/s: the inputs are printed to a tenth of a foot and a degree or a tenth of one, and
-# some results to whole degrees per second, which does not allow more.
+# The two sections of tests above allow 0.2 mph and 1 deg/s: the inputs are printed to a tenth of a foot and to a degree or a
+# tenth of one, and some results to whole degrees per second, so no closer agreement can be asked.
 
 # %%
 failed = [

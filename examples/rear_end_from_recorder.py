@@ -2,7 +2,7 @@
 # # A low-speed rear-end collision from a recorder
 #
 # The recorder of a struck car holds its delta-V. How fast was the car behind? The restitution decides, and at low speed it
-# falls as the closing speed rises. So it is given as a function, and both are solved together.
+# falls as the closing speed rises. So it is given as a function, and speed and restitution are solved together.
 #
 # The function is `reference.restitution`, a published fit; it is used here from 2 to 15 mph. A recorder
 # counts longitudinal delta-V positive forward, at the centre of mass, as `delta_v` is.
@@ -51,6 +51,7 @@ for label, restitution in (
 # GBB, a test at 5.5 mph: a Ford Fiesta (950 kg with occupants) into the back of a standing Volkswagen Polo (770 kg), delta-V
 # 3.1 and 3.5 mph (gbbuk.com/rear-to-front-collision-5-5-mph). Suppose that only the 3.5 mph of the Polo were known.
 # `reconstruct.speeds` takes the full geometry; the cars meet squarely here, so the levers are zero and friction does nothing.
+# The last column is the condition: how many times larger a relative error in what was given may come out in the speed.
 
 # %%
 FIESTA = col.Vehicle(
@@ -95,12 +96,12 @@ print(f"{'measured':<24}{'':>6}{5.5:>13.2f}{3.1:>18.2f}")
 
 # %% [markdown]
 # The test shows what a fit cannot tell: this pair had a restitution of 0.2 at a speed where the fit says about 0.4, and the fit
-# comes out one mile per hour low. The two measured delta-Vs do not balance either: the impulses differ by 9 percent, which
-# tyres and the reading of the instruments may explain. Give a range.
+# comes out one mile per hour low. Nor do the two measured delta-Vs balance: the impulses differ by 9 percent, which tyres and
+# the reading of the instruments may explain. Give a range.
 #
 # ## An offset
 #
-# The Fiesta 0.6 m to the left of the line, which `inline_closing_speed` has no place for.
+# The Fiesta is 0.6 m to the left of the line, for which `inline_closing_speed` has no place.
 
 # %%
 offset = FIESTA.replace(y=0.6)
@@ -113,7 +114,7 @@ print(
     f"square: {square.a.before.speed / MPH:.2f} mph; "
     f"offset by 0.6 m: {aside.a.before.speed / MPH:.2f} mph"
 )
-print(f"Polo turns by {math.degrees(aside.b.delta_yaw_rate):.0f} deg/s")
+print(f"yaw rate of the Polo after: {math.degrees(aside.b.delta_yaw_rate):.0f} deg/s")
 
 # %% [markdown]
 # ## Outside the range of the fit
@@ -131,7 +132,7 @@ except col.InputError as error:
 # %% [markdown]
 # ## Checks
 #
-# - 9.1 and 7.2 km/h to their printed digit.
+# - In line, 9.1 and 7.2 km/h, to their last digit.
 # - The impact found has the restitution of its own closing speed. The joint solution is bisected to the last digit; 1e-12
 #   leaves room for the slope of the fit.
 # - Run forward, the delta-V is the recorder's, to the rounding of a solution polished by Newton's method.

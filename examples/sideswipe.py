@@ -62,13 +62,13 @@ for published in (FRICTION, reference.IMPULSE_RATIO_OBLIQUE, SNAGGED):
     print(f"{published.low:5.2f} to {published.high:.2f}  {published.name}")
 
 # %% [markdown]
-# None of these ranges is of a sideswipe between two cars. Panels that slide have a friction up to about 1. Where wheels or
-# corners snag the ratio is above 1, as in the small-overlap tests, and is no friction of surfaces. The damage must show
+# None of these ranges is of a sideswipe between two cars. Panels that slide have a friction of up to about 1. Where wheels or
+# corners snag, the ratio is above 1, as in the small-overlap tests, and is not a friction of surfaces. The damage must show
 # which it was.
 #
-# ## What the ratio costs
+# ## What a wrong ratio costs
 #
-# Beyond the critical ratio slip turns round. The answer may then gain energy, which is warned of and never clipped.
+# Beyond the critical ratio the slip reverses. The answer may then gain energy, which is warned of and never clipped.
 
 # %%
 print(
@@ -101,7 +101,7 @@ for tangential in contacts:
 sizes = np.linspace(0.0, abs(critical), 200)
 swept = col.eccentric(A, B, impulse_ratio=against * sizes, **CONTACT)
 delta_v, turn = swept.a.q.delta_v, swept.a.q.delta_yaw_rate
-figure, charts = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+figure, charts = plt.subplots(1, 2, figsize=(8, 4), layout="constrained")
 for chart, label, curve in (
     (charts[0], "delta-V of A [km/h]", delta_v.m_as("km/h")),
     (charts[1], "change of yaw rate of A [deg/s]", turn.m_as("deg/s")),
@@ -111,7 +111,7 @@ for chart, label, curve in (
     chart.plot(sizes, curve, "k", label="up to the critical ratio")
     chart.set(xlabel="size of the impulse ratio", ylabel=label)
 legend = figure.legend(
-    *charts[0].get_legend_handles_labels(), loc="outside lower center", ncols=3
+    *charts[0].get_legend_handles_labels(), loc="outside lower center", ncols=2
 )
 
 # %% [markdown]
@@ -121,7 +121,7 @@ legend = figure.legend(
 # ## Checks
 #
 # - While it slides, friction is the ratio of that size against the slip; without a limit it is the critical ratio. Each
-#   pair is one impulse reached in two ways, so it agrees to some eps: 1e-12.
+#   pair is one impulse reached in two ways, so it agrees to a few eps: 1e-12.
 # - Linear momentum (some 1e4 kg m/s) and angular momentum about the contact (some 1e4 kg m²/s) are conserved, to the
 #   rounding of such sums, which is below 1e-9.
 # - Published: small-overlap test CF11016, in class "Sideswipe" of the sheet "Brach Matrix.xlsx" in

@@ -90,7 +90,7 @@ if __name__ == "__main__":
 # %% [markdown]
 # ## Checks
 #
-# Bit for bit, because every case is worked out by itself: what else is in its block decides nothing.
+# Bit for bit, because every case is worked out by itself: what else is in its block makes no difference.
 
 # %%
 if __name__ == "__main__":
@@ -118,5 +118,5 @@ if __name__ == "__main__":
         raise AssertionError("the blocks do not hold the answers of the whole")
     if not whole.ok.all():
         raise AssertionError("a case of this study was refused")
-    print(f"{len(compared)} columns of {CASES} cases, the same bits")
+    print(f"{len(compared)} columns of {CASES:,} cases, the same to the last bit")
     print("all checks passed")

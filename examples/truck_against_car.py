@@ -2,8 +2,8 @@
 # # A truck against a car
 #
 # A truck of 12 t and a car of 1.3 t meet head-on, half the width of the car against the truck, and both turn. The impulse is
-# the same for both and the delta-V is not: it goes by the ratio of the masses, and that of the car stays below what a moving
-# wall would give it.
+# the same for both and the delta-V is not: it goes by the inverse ratio of the masses, and that of the car stays below what a
+# moving wall would give it.
 #
 # The model is in the plane of the road: a car that goes under the truck is not described by it.
 
@@ -41,11 +41,11 @@ print(
     f"closing speed {impact.closing_speed * 3.6:.1f} km/h, contact: {impact.regime}\n"
 )
 print(
-    f"{'':<6}{'impulse':>9}{'delta-V':>9}{'pdof':>7}{'yaw':>8}"
+    f"{'':<6}{'impulse':>9}{'delta-V':>9}{'PDOF':>7}{'yaw':>8}"
     f"{'speed after':>13}{'course':>9}{'energy change':>15}"
 )
 print(
-    f"{'':<6}{'kN s':>9}{'km/h':>9}{'deg':>7}{'deg/s':>8}"
+    f"{'':<6}{'kN·s':>9}{'km/h':>9}{'deg':>7}{'deg/s':>8}"
     f"{'km/h':>13}{'deg':>9}{'kJ':>15}"
 )
 for side in (impact.a, impact.b):
@@ -63,8 +63,8 @@ for side in (impact.a, impact.b):
 #
 # ## The mass of the truck
 #
-# All at once, with an array for the mass, from that of the car on. The radius of gyration stays what it is. The last of
-# the array is there for the checks.
+# All at once, with an array of masses that starts at that of the car. The radius of gyration stays the same. The last mass is
+# there for the checks.
 
 # %%
 masses = np.array([1.3, 2.0, 3.5, 7.5, 12.0, 20.0, 40.0, 1e12]) * 1000
@@ -82,28 +82,28 @@ for mass, car, truck in zip(
 print(f"{'wall':>10}{limit.a.delta_v * 3.6:>14.1f}{limit.b.delta_v * 3.6:>15.1f}")
 
 # %%
-figure, (left, right) = plt.subplots(
-    1, 2, figsize=(14, 5.6), layout="constrained", width_ratios=(1.5, 1)
+figure, (above, below) = plt.subplots(
+    2, 1, figsize=(7, 10), layout="constrained", height_ratios=(1.3, 1)
 )
 plot.scene(
     impact,
     outline_a=("4 m", "1.8 m"),
     outline_b=("8 m", "2.5 m"),
-    axes=left,
+    axes=above,
     units="metric",
 )
-right.plot(masses[:-1] / 1000, heavier.a.delta_v[:-1] * 3.6, "o-", label="car")
-right.plot(masses[:-1] / 1000, heavier.b.delta_v[:-1] * 3.6, "s--", label="truck")
-right.axhline(
+below.plot(masses[:-1] / 1000, heavier.a.delta_v[:-1] * 3.6, "o-", label="car")
+below.plot(masses[:-1] / 1000, heavier.b.delta_v[:-1] * 3.6, "s--", label="truck")
+below.axhline(
     limit.a.delta_v * 3.6, color="0.4", ls=":", label="car against a wall that moves"
 )
-right.set(
+below.set(
     xlabel="mass of the truck [t]",
     ylabel="delta-V [km/h]",
     title="The lighter takes the delta-V",
     ylim=(0, None),
 )
-right.legend()
+below.legend()
 
 # %% [markdown]
 # ## Checks
@@ -115,7 +115,7 @@ right.legend()
 # - Centre against centre and plastic, as in any textbook: the delta-V of the car is the closing speed times the mass of
 #   the truck over that of both.
 #
-# The first three to 1e-13 of what they are made of: a few products of floats.
+# The first three hold to 1e-13 of what they are made of: a few products of floats.
 
 # %%
 for one, other in (

@@ -64,14 +64,16 @@ impact = col.eccentric(
 
 # %%
 print(
-    f"{'':<10}{'delta-V':>11}{'yaw rate after':>18}"
-    f"{'force from':>12}{'speed after':>14}"
+    f"{'':<10}{'delta-V':>10}{'yaw rate after':>17}"
+    f"{'force from':>13}{'speed after':>14}"
 )
 for side in (impact.a.q, impact.b.q):
+    delta_v, after = f"{side.delta_v.to('mph'):.1f~P}", side.after
+    yaw_rate, speed = f"{after.yaw_rate.to('deg/s'):.0f~P}", after.speed.to("mph")
+    pdof = f"{side.pdof.to('deg'):.0f~P}"
     print(
-        f"{side.before.name:<10}{side.delta_v.to('mph'):>11.1f~P}"
-        f"{side.after.yaw_rate.to('deg/s'):>18.0f~P}"
-        f"{side.pdof.to('deg'):>12.0f~P}{side.after.speed.to('mph'):>14.1f~P}"
+        f"{side.before.name:<10}{delta_v:>10}{yaw_rate:>17}"
+        f"{pdof:>13}{f'{speed:.1f~P}':>14}"
     )
 print(
     f"normal impulse {impact.q.normal_impulse.to('lbf*s'):.0f~P}, "
@@ -82,11 +84,11 @@ axes = plot.scene(
 )
 
 # %% [markdown]
-# `explain` and `report` are asked for US units, too. They show what was given beside what it became:
+# `explain` and `report` take US units too, and show what was given beside what it became:
 
 # %%
 text = col.explain(impact, units="us", form="text")
-print(text[text.index("Closing speed:") : text.index("Slip, of B")])
+print(text[text.index("Closing speed:") : text.index("Slip, of B")].rstrip() + "\n")
 
 page = col.report(impact, units="us", form="markdown", title="NHTSA 4474")
 rows = [
@@ -101,8 +103,8 @@ for who, what, value in (row for row in rows if len(row) == 3):
 #
 # ## Pounds that go wrong
 #
-# A force for a mass is refused, and says what to write. An inertia in lb·ft² is an inertia: only its size gives away that
-# slug·ft² was meant. It is `diagnose` that says so.
+# A force given for a mass is refused, and the message says what to write. An inertia in lb·ft² is an inertia: only its size
+# gives away that slug·ft² was meant. It is `diagnose` that says so.
 
 # %%
 refusal = None
@@ -121,7 +123,7 @@ mistaken = col.eccentric(
     point=("0 ft", "0 ft"),
     critical_fraction="100 %",
 )
-print(f"Montero would turn by {mistaken.a.q.delta_yaw_rate.to('deg/s'):.0f~P}")
+print(f"the Montero would spin at {mistaken.a.q.delta_yaw_rate.to('deg/s'):.0f~P}")
 findings = {finding.code: finding.sentence for finding in col.diagnose(mistaken)}
 print(findings["suspect_inertia_low"])
 
@@ -132,8 +134,9 @@ print(findings["suspect_inertia_low"])
 #   -0.40. The contact is printed to a tenth of a foot or degree, which allows 0.2 mph and 1 deg/s; the ratio to two
 #   decimals.
 # - By the definitions of the units (mile 1609.344 m, foot 0.3048 m, pound 0.45359237 kg, g 9.80665 m/s²) what went in is
-#   there in SI, to some eps.
-# - The energy lost is what the vehicles had less what they have, added up in foot pounds. Each part is rounded: 1e-12.
+#   there in SI, to a few eps.
+# - The energy lost is what the vehicles had before less what they have after, added up in foot pounds. Each part is rounded,
+#   so the two agree to 1e-12.
 
 # %%
 for side, delta_v, turn in ((impact.a.q, 28.7, 194), (impact.b.q, 40.5, 40)):

@@ -431,12 +431,13 @@ def placed(row: Row) -> col.Vehicle:
         x=0.0,
         y=0.0,
     )
-    px, py = vehicle.point(distance=f"{row[CENTRES[0]]} ft", angle=f"{row[CENTRES[1]]} deg")
+    distance, angle = f"{row[CENTRES[0]]} ft", f"{row[CENTRES[1]]} deg"
+    px, py = vehicle.point(distance=distance, angle=angle)
     return vehicle.replace(x=-px, y=-py)
 
 
 def oblique_impact(one: Row, two: Row, law: str = "brach") -> col.Impact:
-    """An NHTSA test; the printed normal points from vehicle 2 into vehicle 1, so vehicle 2 is A."""
+    """An NHTSA test; its normal points from vehicle 2 into vehicle 1, so vehicle 2 is A."""
     return col.eccentric(
         placed(two),
         placed(one),
@@ -564,16 +565,25 @@ def barrier_rows() -> dict[str, Row]:
     return {row["test_id"]: row for row in rows_of(OVERLAP)}
 
 
-def barrier_impact(row: Row, law: str = "brach", normal: str = "contact_normal_angle_deg", **tuned: Any) -> col.Impact:
-    """A small-overlap test against a fixed barrier; ``tuned`` are the restitution and the share of the critical ratio."""
-    car = col.Vehicle(**FUSION, vx=f"{row['impact_speed_ft_s']} ft/s", x=0.0, y=0.0, heading=0.0)
+def barrier_impact(
+    row: Row,
+    law: str = "brach",
+    normal: str = "contact_normal_angle_deg",
+    **tuned: Any,
+) -> col.Impact:
+    """A small-overlap test; tuned: the restitution, the share of the critical ratio."""
+    speed = f"{row['impact_speed_ft_s']} ft/s"
+    car = col.Vehicle(**FUSION, vx=speed, x=0.0, y=0.0, heading=0.0)
+    distance = f"{row['impact_center_distance_ft']} ft"
+    angle = f"{row['impact_center_angle_deg']} deg"
+    share = float(row["impulse_ratio_percent_of_critical"]) / 100
     return col.eccentric(
         car,
         FIXED,
         tuned.get("restitution", float(row["restitution_e"])),
         normal=f"{row[normal]} deg",
-        point=car.point(distance=f"{row['impact_center_distance_ft']} ft", angle=f"{row['impact_center_angle_deg']} deg"),
-        critical_fraction=tuned.get("share", float(row["impulse_ratio_percent_of_critical"]) / 100),
+        point=car.point(distance=distance, angle=angle),
+        critical_fraction=tuned.get("share", share),
         law=law,
         incomplete=True,
     )
