@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A chain of three cars, front to back
 #
-# The rear car runs up to the middle one and that up to the front one, which stands; the car after one impact is the car before
-# the next, until no car catches up with another. Two scenes differ in nothing but the gaps: these decide the order of the
-# impacts, and the order decides who is struck from which side, and how hard.
+# The rear car runs into the middle one, and that into the front one, which stands; the state of a car after one impact is its
+# state before the next, until no car catches up with another. Two scenes differ in nothing but the gaps: these decide the
+# order of the impacts, and the order decides who is struck from which side, and how hard.
 
 # %%
 import itertools

@@ -6,8 +6,8 @@
 # line of impact makes the difference, and whether the contact slips.
 #
 # "Application of Impulse Momentum Theory to Vehicle Collisions" solves such cases as oblique central impacts: the line of
-# impact goes through both centres of mass, so nobody turns. The places and speeds here are ours. What an impact beside the
-# centre adds is in "Types of eccentric collision".
+# impact goes through both centres of mass, so neither car turns. The places and speeds here are ours. What an impact beside
+# the centre of mass adds is in "Types of eccentric collision".
 
 # %%
 import math

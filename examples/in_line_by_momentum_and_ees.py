@@ -176,13 +176,13 @@ for share in (0.9, 1.0, 1.1):
         head_on = degrees, solution
 
 # %% [markdown]
-# Ten percent of the energy moves the speeds far less than a degree of course does in the table above it. That the course
-# found is within a quarter of a degree of the heading of the Mercedes speaks for the data.
+# Ten percent of the energy changes the speeds far less than a degree of course does in the table above. That the course found
+# is within a quarter of a degree of the heading of the Mercedes speaks for the data.
 #
 # ## Checks
 #
-# - With 30 for the constant of a US sheet the common speed of TAR Origin is 35.8748 mph and the impact speed 83.7078 mph;
-#   standard gravity has 29.914, a known factor for both, so they are met to the last of six digits.
+# - With 30 for the constant, as in US worksheets, TAR Origin has a common speed of 35.8748 mph and an impact speed of 83.7078
+#   mph; with standard gravity it is 29.914, a known factor for both, so they are met to the last of six digits.
 # - Plastic and in line: EES through `inline_closing_speed` and through the energy must have the same closing speed, up to
 #   rounding.
 # - Case X01 to its printed digits.

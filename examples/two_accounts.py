@@ -22,7 +22,7 @@ SAMPLES = 2048
 
 
 def crash(speed_a, speed_b, restitution, friction, contact, drag):
-    """What the marks and the recorder would be."""
+    """What the marks and the recorder would show."""
     a = col.Vehicle(mass=1500, vx=speed_a, yaw_inertia=2500, x=-2.1, y=0.0)
     b = col.Vehicle(mass=1250, vy=speed_b, yaw_inertia=1900, x=0.9, y=-0.4)
     impact = col.eccentric(
