@@ -46,7 +46,12 @@ def test_totals_of_a_known_pulse():
     with pytest.raises(ValueError, match="read-only"):
         pulse.forward[0] = 1.0
     assert "ended=True" in repr(pulse)
-    assert re.search(r"ended +yes\n", str(pulse.summary()))
+    assert [re.split(" {2,}", line)[0] for line in str(pulse.summary()).splitlines()] == [
+        "Recorded pulse", "delta-V", "delta-V forward", "delta-V left", "PDOF", "duration", "ended",
+        "recorded time", "recorded forward", "recorded left",
+    ]  # fmt: skip
+    assert re.search(r"delta-V forward +-40.0 km/h, within 4.0 km/h\n", str(pulse.summary("metric")))
+    assert re.search(r"ended +yes\nrecorded time +0 to 0.250 s\n", str(pulse.summary()))
     assert "to -0 m" not in repr(pulse)
 
 

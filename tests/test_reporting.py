@@ -471,15 +471,15 @@ def test_uncertainty_is_told():
     part = section(text, "Uncertainty, given the stated inputs")
     output = known["b.delta_v"]
     # Two figures of the standard deviation.
-    assert ("b.delta_v", "mean ± standard deviation", f"{output.mean:.2f} ± {output.std:.2f} m/s") in rows(part)
+    assert ("B: delta-V", "mean ± standard deviation", f"{output.mean:.2f} ± {output.std:.2f} m/s") in rows(part)
     low, high = output.interval()
-    assert ("b.delta_v", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
+    assert ("B: delta-V", "95 percent interval", f"{low:.2f} to {high:.2f} m/s") in rows(part)
     shares = (output.contributions["speed"], output.total_contributions["speed"])
     alone, in_all = (
         f"{100 * share:.0f} ± {100 * error:.0f} %"
         for share, error in zip(shares, output.contribution_standard_errors["speed"], strict=True)
     )
-    assert ("b.delta_v", "variance from speed", f"{alone}, in all {in_all}") in rows(part)
+    assert ("B: delta-V", "variance from speed", f"{alone}, in all {in_all}") in rows(part)
     assert any(row[:2] == ("own", "mean ± standard deviation") for row in rows(part))
     assert "64 cases, 0 without an answer, seed 1" in part
     assert "54 ± 2 km/h" in part
@@ -941,7 +941,7 @@ def test_intervals_alone_have_no_mean():
                                   inputs, method="interval")  # fmt: skip
     part = section(report(crash(), form="markdown", units="si", uncertainty=known), "Uncertainty, given the stated inputs")
     low, high = known["b.delta_v"].interval()
-    assert ("b.delta_v", "range, wherever in the intervals the truth is", f"{low:.2f} to {high:.2f} m/s") in rows(part)
+    assert ("B: delta-V", "range, wherever in the intervals the truth is", f"{low:.2f} to {high:.2f} m/s") in rows(part)
     assert "mean" not in part
     assert "95 percent" not in part
 
@@ -954,15 +954,15 @@ def test_rounding_is_no_deviation(method):
     impact = crash(friction=0.02)
     page = report(impact, uncertainty=known, form="markdown", units="metric")
     part = section(page, "Uncertainty, given the stated inputs")
-    assert [row[1:] for row in rows(part) if row[0] == "impulse_ratio"] == [
-        ("the same in every case", f"{impact.impulse_ratio:.2f}")
+    assert [row[1:] for row in rows(part) if row[0] == "impulse ratio"] == [
+        ("the same in every case", f"{impact.impulse_ratio:.3f}")
     ]
     assert "nan" not in part
     assert not re.search(r"\d\.\d{6}", part)
     assert "lies outside" not in page
-    assert ("contact", "impulse ratio", f"{impact.impulse_ratio:.2f}") in rows(section(page, "Results"))
+    assert ("contact", "impulse ratio", f"{impact.impulse_ratio:.3f}") in rows(section(page, "Results"))
     drawn = Page(report(rear_end(), uncertainty=known))
-    assert "impulse_ratio: no figures, because it is the same in every case." in drawn.of("p")
+    assert "impulse ratio has no figures, because it is the same in every case." in drawn.of("p")
 
 
 def test_shares_stay_within_0_and_100_percent():
@@ -1239,7 +1239,41 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     )
     page = report(solution, form="html", units="metric", uncertainty=known)
     assert any(" ± 1.5 km/h" in text for text in Page(page).of("td"))
-    assert "svg" in Page(page).tags
+    # One input and nothing drawn: its share of the variance is no figure.
+    assert "None: the variance is all of one input, and no cases were drawn." in Page(page).of("p")
+    assert "svg" not in Page(page).tags
+    assert "A: speed before" in Page(page).of("caption")
+
+
+def test_samples_drawn_together_are_told_without_shares():
+    """A joint group has all variance; bare numbers are SI, and in the unit of the page where their input is the impact's."""
+    impact = crash(golf(vx=15.0))
+    values = np.linspace(14.0, 16.0, 64)
+    columns = {
+        "speed_a": values,
+        "normal": values / 15.0 * impact.normal_angle,
+        "restitution": values / 150.0,
+        "speed_b": values,
+    }
+    known = uncertainty.propagate(
+        lambda speed_a, **_: {"a.before.speed": 1.0 * speed_a, "impulse_ratio": speed_a / 1000.0, "own": speed_a},
+        uncertainty.Samples.joint(**columns),
+        method="quasi_random", samples=64, seed=1,
+    )  # fmt: skip
+    page = report(impact, form="markdown", units="metric", uncertainty=known)
+    shown = rows(section(page, "Uncertainty, given the stated inputs"))
+    assert {of for of, *_ in shown} == {"of", "A: speed before", "impulse ratio", "own", "Inputs as stated"}
+    assert not any("variance" in what or "shares" in what for _, what, _ in shown)
+    stated = {what: text for of, what, text in shown if of == "Inputs as stated"}
+    assert stated["speed_a"] == "one of 64 values from 50.4 km/h to 57.6 km/h"
+    assert stated["normal"] == "one of 64 values from 9.333° to 10.67°"
+    assert stated["restitution"] == "one of 64 values from 0.09333 to 0.1067"
+    # That of B is another: whether this one is a speed is not known.
+    assert stated["speed_b"] == "one of 64 values from 14 to 16, in SI units"
+    drawn = Page(report(impact, units="metric", uncertainty=known))
+    assert any(text.startswith("A: speed before, in the cases drawn") for text in drawn.of("figcaption"))
+    assert any("A: speed before" in text for text in drawn.of("text"))
+    assert not any("share of its variance" in text for text in drawn.of("figcaption"))
 
 
 @pytest.mark.parametrize(

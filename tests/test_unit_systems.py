@@ -35,9 +35,10 @@ def test_mass_length_and_inertia_go_together(system):
 
 
 def test_a_unit_is_that_of_one_kind():
-    """A number of which only the unit is known has one kind; seconds are those of any time but a contact's."""
-    assert len(KIND_OF) == len(SI_UNITS) - 1
+    """A number of which only the unit is known has one kind; seconds are those of any time but a contact's, plain numbers no impulse ratio."""
+    assert len(KIND_OF) == len(SI_UNITS) - 2
     assert KIND_OF["s"] == "time"
+    assert KIND_OF[""] == "number"
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

@@ -106,7 +106,8 @@ class Numbers:
             decimals = places(spread, 2)
             return f"{rounded(number, decimals)} ± {rounded(spread, decimals)}{unit}"
         known = decimals_of(kind, self.name)
-        return rounded(number, places(number, _FIGURES) if known is None else known) + unit
+        figures = places(number, _FIGURES) if number else 0
+        return rounded(number, figures if known is None else known) + unit
 
 
 # The unit systems of explanations, reports, findings and figures.
@@ -126,6 +127,7 @@ class _Kind(NamedTuple):
 # A contact lasts some hundredths of a second, so its duration is in ms; other times are those of travel.
 _KINDS = {
     "number": _Kind("", "", "", (2, 2, 2)),
+    "ratio": _Kind("", "", "", (3, 3, 3)),
     "mass": _Kind("kg", "kg", "lb"),
     "speed": _Kind("m/s", "km/h", "mph", (2, 1, 1)),
     "acceleration": _Kind("m/s**2", "m/s**2", "ft/s**2"),
@@ -146,7 +148,7 @@ _KINDS = {
 }
 # The SI unit of each kind, and the kind that a number in an SI unit is taken to be of.
 SI_UNITS = {kind: row.si for kind, row in _KINDS.items()}
-KIND_OF = {row.si: kind for kind, row in _KINDS.items() if kind != "duration"}
+KIND_OF = {row.si: kind for kind, row in _KINDS.items() if kind not in ("duration", "ratio")}
 
 
 def unit_of(kind: str, system: str) -> str:

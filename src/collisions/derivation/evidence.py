@@ -27,6 +27,7 @@ _ANSWERS = {
     "translational_energy_loss": ("both", "energy of translation lost", "energy"),
 }
 MOMENTUM_ANSWERS = {name: kind for name, (_, _, kind) in _ANSWERS.items()}
+MOMENTUM_WORDS = {name: f"{of}: {what}" if of in "AB" else what for name, (of, what, _) in _ANSWERS.items()}
 _SPEEDS = tuple(_ANSWERS)[:4]
 _ANGLE_TOL = 1e-9 * math.tau  # rounding of a difference of angles; the short way round differs by a whole turn
 

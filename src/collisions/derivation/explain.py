@@ -21,7 +21,7 @@ from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..units import shown
 from .contact import motions
-from .evidence import MOMENTUM_ANSWERS, fit, momentum
+from .evidence import MOMENTUM_ANSWERS, MOMENTUM_WORDS, fit, momentum
 from .expressions import Function, System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
@@ -87,13 +87,17 @@ _CONTACT = {
     "restitution": ("restitution", "number"),
     "normal_impulse": ("normal impulse", "impulse"),
     "tangential_impulse": ("tangential impulse", "impulse"),
-    "impulse_ratio": ("impulse ratio", "number"),
+    "impulse_ratio": ("impulse ratio", "ratio"),
     "energy_absorbed": ("energy absorbed along the normal at the end of compression", "energy"),
     "energy_loss": ("energy lost", "energy"),
 }
 _OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
 _IMPACT_ANSWERS = {f"{label}.{name}": kind for label in "ab" for name, (_, kind) in (_BEFORE | _SIDE).items()}
 _IMPACT_ANSWERS |= {name: kind for name, (_, kind) in _CONTACT.items()}
+_IMPACT_WORDS = {
+    f"{label}.{name}": f"{label.upper()}: {what}" for label in "ab" for name, (what, _) in (_BEFORE | _SIDE).items()
+}
+_IMPACT_WORDS |= {name: what for name, (what, _) in _CONTACT.items()}
 
 
 @computing
@@ -114,8 +118,8 @@ def explain(
     small speeds, angles, lengths and ratios two decimals more than an answer has). Where a line needs more figures than that to
     give the result printed below it, its numbers have more: keyed into a pocket calculator as printed, and rounded, every line
     gives its result, and where one cannot, the page says so below it. The answers at the end are rounded: speeds to 0.1 km/h,
-    0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01 rad/s, ratios to 0.01, impulses and
-    energies to three figures; or to two figures of their standard deviation where that is known.
+    0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01 rad/s, restitution to 0.01, impulse
+    ratios to 0.001, impulses and energies to three figures; or to two figures of their standard deviation where that is known.
 
     Parameters
     ----------
@@ -201,6 +205,11 @@ def no_uncertainty(kind: str = "Fit") -> InputError:
 def kinds_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
     """The results that an uncertainty may be given for, by name, with their kind."""
     return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
+
+
+def words_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
+    """The same results in words, such as "A: delta-V"."""
+    return MOMENTUM_WORDS if isinstance(result, MomentumSolution) else _IMPACT_WORDS
 
 
 def _impact(page: Page, impact: Impact) -> None:

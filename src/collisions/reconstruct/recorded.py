@@ -15,6 +15,7 @@ from ..hints import hinted
 from ..quantities import Shown, derived, in_units_of, lock
 from ..reading import ArgumentReader
 from ..reference import RECORDER_ACCURACY, RECORDER_RESOLUTION
+from ..summary import Cells, Part, Summary, all_numbers
 from ..uncertainty import Censored, Normal, Uniform
 from ..units import Input, shown, texts_of
 from ..warning import warn
@@ -72,6 +73,24 @@ class RecordedPulse(Shown):
     def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
         """Forward and left component as observations of ``posterior``: with their error, of a cut pulse at least so far."""
         return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
+
+    def _summary(self, numbers: Cells) -> Summary:
+        values = {
+            "delta-V": (self.delta_v, "m/s"),
+            "delta-V forward": (self.delta_v_forward, "m/s"),
+            "delta-V left": (self.delta_v_left, "m/s"),
+            "PDOF": (self.pdof, "rad"),
+            "duration": (self.duration, "s"),
+            "ended": (self.ended, None),
+            "recorded time": (self.time, "s"),
+            "recorded forward": (self.forward, "m/s"),
+            "recorded left": (self.left, "m/s"),
+        }
+        rows = {name: numbers.text(value, unit) for name, (value, unit) in values.items() if value is not None}
+        for name, error in (("delta-V forward", self.error_forward), ("delta-V left", self.error_left)):
+            if error is not None:
+                rows[name] += f", within {numbers.text(error, 'm/s')}"
+        return Summary(self._title, [Part(list(rows.items())), all_numbers(self._rows())])
 
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
         """The components with their errors by the names of arguments of ``reconstruct.speeds``, as inputs of ``propagate``.

@@ -35,7 +35,7 @@ from ..units import Input, Pair, shown
 from . import sections
 from .record import EVIDENCE, plain_options, record
 from .render import Html, Markdown, plain, visible
-from .uncertainty import Spread
+from .uncertainty import Spread, single
 
 Form: TypeAlias = Literal["html", "markdown"]
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -181,7 +181,7 @@ def report(
     if figures and (isinstance(impact, (Impact, Posterior)) or uncertainty is not None):
         sheet.heading("Figures")
         if isinstance(sheet, Html):
-            _figures(sheet, readable, uncertainty, options)
+            _figures(sheet, readable, spread, uncertainty, options)
         else:
             sheet.say("The figures are in the HTML form of this report.")
     if derivation and not isinstance(readable, Posterior):
@@ -288,14 +288,14 @@ def _readable(impact: Impact) -> Impact:
     return whole
 
 
-def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options: Mapping[str, Any]) -> None:
+def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation | None, options: Mapping[str, Any]) -> None:
     """The figures of the impact and of its uncertainty, or a sentence where there can be none."""
     try:
         import_module("matplotlib.figure")
     except ImportError:
         sheet.say("None: matplotlib cannot be imported here. Install it with: python -m pip install matplotlib")
         return
-    units = options["units"]
+    units, before = options["units"], sheet.blocks[-1]
     if isinstance(impact, Impact):
         outlines = {name: options[name] for name in ("outline_a", "outline_b")}
         _draw(sheet, "scene", "The scene from above at the moment of impact.", plot.scene, impact, units=units, **outlines)
@@ -312,20 +312,22 @@ def _figures(sheet: Html, impact: Any, uncertainty: Propagation | None, options:
         _draw(sheet, "residuals", "Each observation less its computed value, in stated errors.", plot.residuals, impact)
     outputs = impact.unknowns if isinstance(impact, Posterior) else {} if uncertainty is None else uncertainty.outputs
     for number, output in enumerate(outputs.values(), 1):
-        name = plain(output.name)
+        name = spread.heading(output)
         if not varies(output):
-            sheet.say(f"{name}: no figures, because it is the same in every case.")
+            sheet.say(f"{name} has no figures, because it is the same in every case.")
             continue
         if isinstance(output, Sampled):
-            caption = f"{name}: the cases drawn, given {output.given}."
-            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units)
-        if not isinstance(impact, Posterior):
-            caption = f"{name}: the share of its variance that each input brings, by itself and in all."
-            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units)
+            caption = f"{name}, in the cases drawn, given {output.given}."
+            _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units, words=name)
+        if not isinstance(impact, Posterior) and not single(output):
+            caption = f"{name}, and the share of its variance that each input brings, by itself and in all."
+            _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units, words=name)
+    if not isinstance(impact, Impact) and sheet.blocks[-1] == before:
+        sheet.say("None: the variance is all of one input, and no cases were drawn.")
 
 
-def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, **options: Any) -> None:
-    """One figure, drawn with default matplotlib settings; a sentence if the numbers allow none."""
+def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, words: str = "", **options: Any) -> None:
+    """One figure, drawn with default matplotlib settings, with words for its name; a sentence if the numbers allow none."""
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
     from matplotlib.text import Text
@@ -342,7 +344,8 @@ def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown:
             sheet.say(f"{caption} Not drawn: {error}.")
             return
         for text in figure.findobj(Text):
-            text.set_text(visible(text.get_text()))
+            found = text.get_text()
+            text.set_text(visible(found.replace(shown.name, words) if words else found))
         target = io.StringIO()
         figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
     sheet.picture(caption, _standalone(target.getvalue(), name, caption))

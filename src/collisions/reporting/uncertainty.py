@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..derivation.explain import is_mean, kinds_of_answers
+from ..derivation.evidence import momentum_inputs
+from ..derivation.explain import impact_inputs, is_mean, kinds_of_answers, words_of_answers
 from ..errors import InputError
-from ..formatting import SI_UNITS, with_decimals
+from ..formatting import SI_UNITS, Numbers, typeset, with_decimals
 from ..impact import Impact
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..uncertainty import Output, Propagation
+from ..uncertainty import Interval, Output, Propagation
+from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
 
@@ -44,6 +46,11 @@ class Spread:
             if not is_mean(self.impact, name, self.kinds[name], output)
         }
 
+    def heading(self, output: Output) -> str:
+        """The result in words, such as "A: delta-V"; of any other output its name."""
+        words = words_of_answers(self.impact)
+        return next((words[name] for name, answer in self.outputs.items() if answer is output), plain(output.name))
+
     def write(self, sheet: Sheet, uncertainty: Propagation) -> None:
         """Write the figures of every output and the inputs they assume."""
         sheet.heading("Uncertainty, given the stated inputs")
@@ -51,15 +58,18 @@ class Spread:
             self._check(sheet, name, output)
         rows: list[tuple[str, str, str]] = []
         for output in uncertainty.outputs.values():
-            rows += [(plain(output.name), what, text) for what, text in self._figures(sheet, output)]
+            rows += [(self.heading(output), what, text) for what, text in self._figures(sheet, output)]
         sheet.table(rows)
         if any(what.startswith("variance from") for _, what, _ in rows):
             sheet.say(
                 "Variance from an input: its share by itself, and in all, with its interactions with other inputs. Where the "
                 "shares fall short of 100 % by more than their errors, the rest comes from interactions."
             )
-        stated = [("Inputs as stated", plain(name), plain(str(value))) for name, value in uncertainty.inputs.items()]
-        sheet.table(stated)
+        known = _inputs(self.impact)
+        stated = [
+            (plain(name), _stated(sheet.system, value, *known.get(name, ()))) for name, value in uncertainty.inputs.items()
+        ]
+        sheet.table([("Inputs as stated", *row) for row in stated])
         cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
         sheet.say(
@@ -92,13 +102,49 @@ class Spread:
         return found if output.bounds_only else [*found, *_shares(output)]
 
 
+def _inputs(result: Any) -> dict[str, tuple[str, float]]:
+    """Kind and number of the inputs of a result, by the names of arguments: "mass_a", "speed_a", "restitution"."""
+    if isinstance(result, MomentumSolution):
+        return {name: (kind, number) for _, _, name, number, kind in momentum_inputs(result)}
+    found = {
+        name if of == "contact" else f"{name}_{of.lower()}": (kind, number)
+        for of, _, names, numbers, kind in impact_inputs(result)
+        for name, number in zip(names, numbers, strict=True)
+    }
+    for label, vehicle in (("a", result.a.before), ("b", result.b.before)):
+        found |= {f"speed_{label}": ("speed", vehicle.speed), f"course_{label}": ("angle", vehicle.course)}
+    return found
+
+
+def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.nan) -> str:
+    """An input as stated; bare numbers in the unit of the page if they are about the result's own input of that name."""
+    if getattr(value, "unit", None) != "":
+        return plain(str(value))
+    low, high = (value.low, value.high) if isinstance(value, Interval) else map(value.quantile, (0.0005, 0.9995))
+    if not low <= number <= high:
+        return f"{value}, in SI units"
+    if SI_UNITS[kind]:
+        unit = GivenUnit(SI_UNITS[kind])
+        unit.written, unit.factor = system.label(kind), 1.0 / system.scale(kind)
+        value = from_numbers(type(value), unit, value._parts)
+    return typeset(str(value))
+
+
+def single(output: Output) -> bool:
+    """Whether all variance is of one input, or of one group that was drawn together: its share says nothing."""
+    try:
+        return len(output.contributions) == 1
+    except InputError:
+        return False
+
+
 def _shares(output: Output) -> list[tuple[str, str]]:
     """Table rows with each input's share of the variance, by itself and in all."""
     try:
         shares = output.contributions
     except InputError:
         return []
-    if not varies(output):
+    if not varies(output) or len(shares) == 1:
         return []
     whole, errors = output.total_contributions, output.contribution_standard_errors
     rows = [
