@@ -275,7 +275,7 @@ def contact():
     )
     impact = col.eccentric(a, b, 0.1, normal=f"{normal} deg", point=(0.0, 0.0), friction=0.3)
     u_a, u_b = (np.array(vehicle.velocity_at((0.0, 0.0))) for vehicle in (a, b))
-    fig, (ax, seen) = plt.subplots(1, 2, figsize=(11.5, 5.4), width_ratios=(1.45, 1))
+    fig, (ax, seen) = plt.subplots(1, 2, figsize=(10.6, 5.0), width_ratios=(1.45, 1))
     canvas(ax, (-5.6, 4.6), (-4.4, 4.4))
     car(ax, centre_a, normal, A, "A", name_at=(-1.7, 0.0))
     car(ax, centre_b, normal + 90.0, B, "B", name_at=(-1.8, 0.0))
@@ -285,7 +285,7 @@ def contact():
         start = -130.0 if spin > 0 else -35.0
         turn(ax, centre, 1.25, start, start + 85.0 * spin, colour)
     label(ax, centre_a + 0.62 * np.array([a.vx, a.vy]) + [-0.45, -0.3], "$v_A$", A)
-    label(ax, centre_b + 0.62 * np.array([b.vx, b.vy]) + [0.35, 0.1], "$v_B$", B)
+    label(ax, centre_b + 0.62 * np.array([b.vx, b.vy]) + [0.45, -0.5], "$v_B$", B)
     label(ax, centre_a + 1.62 * unit(-75), r"$\omega_A > 0$", A)
     label(ax, centre_b + 1.75 * unit(-22) + [0.45, 0.0], r"$\omega_B < 0$", B)
     ax.add_patch(Circle((0, 0), 0.1, color=INK, zorder=7))
@@ -320,7 +320,12 @@ def contact():
         fontsize=10,
     )
     arrow(seen, u_a @ t * t + beside_t, u_b @ t * t + beside_t, INK, 1.6, 11)
-    label(seen, u_b @ t * t + beside_t + 0.62 * t, f"slip\n$s = (u_B-u_A)\\cdot t$ = {impact.slip_before:.1f} m/s", fontsize=10)
+    label(
+        seen,
+        u_b @ t * t + beside_t + 0.62 * t - [0.3, 0.0],
+        f"slip\n$s = (u_B-u_A)\\cdot t$ = {impact.slip_before:.1f} m/s",
+        fontsize=10,
+    )
     seen.set_title("velocities at C", fontsize=11.5)
     fig.tight_layout()
     return fig
@@ -328,7 +333,7 @@ def contact():
 
 def one_vehicle():
     """Heading, course and yaw rate; a place on a vehicle; a pivot."""
-    fig, (moving, place, pinned) = plt.subplots(1, 3, figsize=(13.5, 5.2))
+    fig, (moving, place, pinned) = plt.subplots(1, 3, figsize=(10.8, 4.2))
     heading, course = 55.0, 20.0
     canvas(moving, (-3.4, 4.6), (-3.4, 4.6))
     moving.set_title("where it points, where it moves", fontsize=11.5)
@@ -336,12 +341,12 @@ def one_vehicle():
     moving.plot([0, 4.2], [0, 0], color=INK, lw=0.8)
     label(moving, (4.2, -0.3), "$+x$", fontsize=10)
     arrow(moving, 2.2 * unit(heading), 4.3 * unit(heading), B, 1.6, ls=(0, (4, 2)))
-    label(moving, 4.3 * unit(heading) + [-0.75, 0.1], "heading", B)
+    label(moving, 4.3 * unit(heading) + [-0.2, 0.1], "heading", B, ha="right")
     arrow(moving, (0, 0), 3.4 * unit(course), A, 2.2)
-    label(moving, 3.4 * unit(course) + [0.15, 0.45], "$v$, course", A)
+    label(moving, 3.4 * unit(course) + [0.0, 0.4], "$v$, course", A, ha="left")
     turn(moving, (0, 0), 2.6, 0, course, A)
     turn(moving, (0, 0), 3.1, 0, heading, B)
-    label(moving, 2.5 * unit(9) + [-0.5, 0.0], "+20°", A, fontsize=10)
+    label(moving, (2.05, 0.25), "+20°", A, fontsize=9.5)
     label(moving, 3.55 * unit(38), "+55°", B, fontsize=10)
     turn(moving, (0, 0), 1.5, 150, 250, INK)
     label(moving, 1.95 * unit(180), r"$+\omega$", fontsize=13)
@@ -361,8 +366,8 @@ def one_vehicle():
     arrow(place, ahead, spot, FRAME, 2.0)
     arrow(place, (0, 0), spot, INK, 1.5, 11)
     place.add_patch(Circle(spot, 0.1, color=INK, zorder=7))
-    label(place, 0.62 * ahead + [0.4, -0.55], "forward", FRAME, rotation=heading)
-    label(place, 0.5 * (ahead + spot) + [0.5, -0.02], "left", FRAME, fontsize=10)
+    label(place, 0.48 * ahead - 0.42 * turned(unit(heading)), "forward", FRAME, rotation=heading)
+    label(place, 0.5 * (ahead + spot) + [0.55, 0.1], "left", FRAME, fontsize=10)
     label(place, (-2.6, 2.6), "distance", INK)
     place.plot([-1.9, 0.45 * spot[0]], [2.45, 0.45 * spot[1]], color=GREY, lw=0.8)
     turn(place, (0, 0), 3.2, heading, heading + angle, INK)
@@ -384,12 +389,12 @@ def one_vehicle():
     pinned.add_patch(Circle(pivot, 0.17, fc="white", ec=INK, lw=2.0, zorder=7))
     label(pinned, beside(pivot, -0.4, -0.62), "pivot O", INK)
     arrow(pinned, pivot + 0.17 * unit(heading), centre, INK, 1.4, 10)
-    label(pinned, 0.5 * (pivot + centre) + [-0.3, 0.2], "arm", INK, fontsize=10)
+    label(pinned, 0.5 * (pivot + centre) + [-0.5, 0.2], "arm", INK, fontsize=10)
     velocity = np.array([side.after.vx, side.after.vy])
     arrow(pinned, centre, centre + 0.55 * velocity, B, 2.2)
     label(pinned, centre + 0.55 * velocity + [0.15, -0.35], "velocity after", B, fontsize=10)
     turn(pinned, pivot, 3.6, heading - 12.0, heading - 42.0, INK)
-    label(pinned, pivot + 4.1 * unit(heading - 33.0), r"$\omega < 0$", fontsize=13)
+    label(pinned, pivot + 4.65 * unit(heading - 29.0), r"$\omega < 0$", fontsize=13)
     for place_of, impulse in (
         (struck, np.array([side.impulse_x, side.impulse_y])),
         (pivot, np.array([side.pivot_impulse_x, side.pivot_impulse_y])),
