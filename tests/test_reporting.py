@@ -495,6 +495,7 @@ def test_uncertainty_is_told():
 def test_an_uncertainty_of_another_case_is_seen():
     text = report(crash(golf(vx="30 km/h")), form="markdown", uncertainty=spread())
     assert "of the propagation: are both of the same case?" in text
+    assert re.search(r"B: delta-V, \d+\.\d+ \S+ in this impact, lies outside", text)
 
 
 @pytest.mark.slow

@@ -92,8 +92,8 @@ class Spread:
         if value is None or not any(low - off <= value + 2.0 * math.pi * turn <= high + off for turn in turns):
             text = "none" if value is None else sheet.system.answer(float(value), kind)
             sheet.stress(
-                f"{name} of this impact, {text}, lies outside the 95 percent interval of the propagation: are both of the same "
-                f"case?"
+                f"{self.heading(output)}, {text} in this impact, lies outside the 95 percent interval of the propagation: are "
+                f"both of the same case?"
             )
 
     def _figures(self, sheet: Sheet, output: Output) -> list[tuple[str, str]]:
