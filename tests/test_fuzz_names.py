@@ -1350,7 +1350,7 @@ def test_pictures_of_an_uncertainty(case: Case) -> None:
     if not isinstance(found, uncertainty.Propagation):
         found = known_propagation()
     output = case.option(found[case.choice(list(found))])
-    drawn(case, "distribution", output, coverage=case.option(0.95, 0.5, case.value("share_a")), bins=case.option(40, 10, 1))
+    drawn(case, "distribution", output, coverage=case.option(0.95, 0.5, case.value("share_a")), bins=case.option(30, 10, 1))
     drawn(case, "contributions", *case.choice(((output,), (found, case.option(*found)), (found,))))
 
 

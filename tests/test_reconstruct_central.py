@@ -426,8 +426,8 @@ REFUSED = [
     ("no_closing", M, {"va_after": 12, "vb_after": 12, "restitution": 0.1}, ["closing speed of 0"]),
     ("no_closing", M, {"va": 20, "restitution": 0.5, "energy_loss": 0}, ["closing speed of 0"]),
     # What leaves no trace.
-    ("inverse_e0", M, {"va_after": 12, "vb_after": 12, "restitution": 0}, ["va_after = 12, vb_after = 12, restitution = 0: after a plastic impact (restitution = 0) both have one velocity, and nothing is left of the closing speed", "energy_loss, va or vb"]),
-    ("inverse_e0", M, {"va_after": 9, "vb_after": 10, "restitution": 0}, ["va_after = 9, vb_after = 10", "both have one velocity (here vb_after - va_after is 1 m/s, which contradicts that)", "instead of restitution"]),
+    ("inverse_e0", M, {"va_after": 12, "vb_after": 12, "restitution": 0}, ["va_after = 12 m/s, vb_after = 12 m/s, restitution = 0: after a plastic impact (restitution = 0) both have one velocity, and nothing is left of the closing speed", "energy_loss, va or vb"]),
+    ("inverse_e0", M, {"va_after": 9, "vb_after": 10, "restitution": 0}, ["va_after = 9 m/s, vb_after = 10 m/s", "both have one velocity (here vb_after - va_after is 1 m/s, which contradicts that)", "instead of restitution"]),
     ("undetermined", M, {"vb": 20, "restitution": 1, "energy_loss": 0}, ["any closing speed", "another velocity"]),
     ("undetermined", (1000, 1000), {"va": 10, "vb_after": 10, "restitution": 1}, ["any closing speed"]),
     ("undetermined", (1000, 1000), {"vb": 10, "va_after": 10, "energy_loss": 0}, ["any closing speed"]),

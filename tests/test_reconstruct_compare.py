@@ -79,7 +79,7 @@ def test_the_sentence(accounts):
     found = compare(accounts)
     assert found.sentence.startswith("The evidence is ")
     assert 'more probable if "16" is true than if "17" is and ' in found.sentence
-    assert 'than if "14" is. Prior probabilities of 0.333 for "14"; 0.333 for "16"; 0.333 for "17" become ' in found.sentence
+    assert 'than if "14" is. Prior probabilities of 0.333 for "14", 0.333 for "16" and 0.333 for "17" become ' in found.sentence
     with pytest.warns(col.CollisionsWarning, match="contradicts itself"):
         far = account(Normal(30, 1))
     found = compare({"here": accounts["16"], "far": far})

@@ -383,11 +383,11 @@ def test_nearly_collinear_warns_with_the_numbers(base, apart):
     assert warning.code == "nearly_collinear"
     assert warning.fields["condition"] == found.condition
     near = abs(math.remainder(apart, 180.0))
-    stated = re.search(r"courses of speed_a and speed_b are (\S+) degrees from one line \(condition (\S+)\)", text)
+    stated = re.search(r"course_a and course_b are (\S+) degrees from one line \(condition (\S+)\)", text)
     assert float(stated[1]) == pytest.approx(near, rel=0.05)
     assert float(stated[2]) == pytest.approx(found.condition, rel=0.005)
     for answer in ("speed_a", "speed_b"):
-        most, name = re.search(rf"{answer} moves by (\S+) m/s per degree of (course_\w+)", text).groups()
+        most, name = re.search(rf"{answer} changes by (\S+) m/s per degree of (course_\w+)", text).groups()
         row = {
             key: abs(value.m_as("m/s/deg")) for key, value in found.q.sensitivity[answer].items() if key.startswith("course")
         }

@@ -377,9 +377,9 @@ def test_assumptions_say_what_is_left_out(impacts):
     # 0.5 x 9.80665 m/s2 x 0.05 s, two decimals.
     share = 100.0 * 0.5 * 9.80665 * 0.05 / impact.a.delta_v
     assert ("A (Golf)", "delta-V from its own tyres, upper bound", f"0.25 m/s ({share:.0f} percent)") in rows(printed)
-    assert "**Law:** brach" in printed
+    assert "**Law:** Brach" in printed
     assert f"**Tangential impulse:** {impact.regime}" in printed
-    assert "**Law:** kudlich" in report(impacts["other law"], form="markdown")
+    assert "**Law:** Kudlich" in report(impacts["other law"], form="markdown")
     assert "Law:" not in report(impacts["wall"], form="markdown")
     # A wall has no tyres.
     assert {row[0] for row in rows(section(report(impacts["wall"], form="markdown"), "Assumptions"))} == {
@@ -481,7 +481,7 @@ def test_uncertainty_is_told():
     )
     assert ("B: delta-V", "variance from speed", f"{alone}, in all {in_all}") in rows(part)
     assert any(row[:2] == ("own", "mean ± standard deviation") for row in rows(part))
-    assert "64 cases, 0 without an answer, seed 1" in part
+    assert "64 cases, all with an answer, seed 1" in part
     assert "54 ± 2 km/h" in part
     # The answers of that name are rounded to it, also under the other spelling.
     assert ("B (Polo)", "delta-V", f"{impact.b.delta_v:.2f} ± {output.std:.2f} m/s") in rows(section(text, "Results"))

@@ -389,7 +389,7 @@ def test_the_reason_for_a_model_is_in_the_units_of_the_inputs():
     choice = col.required_model(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="2 mph")
     error = choice.errors["oblique_central"] / MPH
     table = " ".join(str(choice.summary()).split())
-    assert f"would err by {error:.3g} mph, and 2 mph are accepted" in table
+    assert f"would err by {error:.3g} mph, and 2 mph is accepted" in table
     assert " m/s" not in table
     assert " m/s" in choice.reason  # as data it stays in SI
     taken = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="2 mph").choice

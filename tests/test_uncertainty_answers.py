@@ -1024,3 +1024,13 @@ def test_histograms_are_equal_by_value():
     assert found.histogram(3) == found.histogram(3)
     assert found.histogram(3).__ne__(found.histogram(3)) is False
     assert found.histogram(3) != found.histogram(4)
+
+
+def test_the_bars_of_few_quasi_random_inputs_are_no_comb():
+    """Neighbouring bars differ by chance at most: three standard deviations of counts."""
+    for seed in range(5):
+        inputs = {"speed": Normal("54 km/h", "2 km/h"), "e": Uniform(0.05, 0.2)}
+        found = propagate(lambda speed, e: {"speed": speed * (1.0 + e) / 2.0}, inputs, method="quasi_random", seed=seed)
+        counts = np.asarray(found["speed"].histogram().shares)[10:20] * found.samples
+        bends = counts[1:-1] - 0.5 * (counts[2:] + counts[:-2])
+        assert np.all(abs(bends) <= 3.0 * np.sqrt(1.5 * counts[1:-1]))

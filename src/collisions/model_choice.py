@@ -379,7 +379,7 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
     def would(at: int) -> str:
         return f"{_NAMES[at]} {'has no answer' if errors[at] == math.inf else f'would err by {speed(errors[at])}'}"
 
-    model, accepted = _NAMES[which], f", and {speed(tolerance)} are accepted"
+    model, accepted = _NAMES[which], f", and {speed(tolerance)} is accepted"
     fullest = _LAST if timed else ECCENTRIC
     if which != fullest:
         how = "over this duration it errs" if timed else "it errs"

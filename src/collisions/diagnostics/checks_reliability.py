@@ -41,7 +41,7 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
         moves = []
         for speed, row in case.answer.sensitivity.items():
             course = max((name for name in row if name.startswith("course")), key=lambda name: abs(row[name]))
-            moves.append(f"{speed} moves by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} per degree of {course}")
+            moves.append(f"{speed} changes by {case.text(abs(row[course]) * math.pi / 180.0, 'speed')} per degree of {course}")
         condition = case.answer.condition
         yield Measured(condition, f"reconstruct.momentum has a condition of {plain(condition)}: {'; '.join(moves)}")
     elif (origin := case.answer.reconstruction) is not None:

@@ -71,7 +71,8 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
         text = f"{value:.3e}"
     else:
         wanted = 0 if size == 0.0 else places(value, 4)
-        text = with_decimals(value, min(wanted, decimals) if size >= 0.5 * 10.0**-decimals else wanted, THIN)
+        thousands = THIN if size >= 9999.5 else ""
+        text = with_decimals(value, min(wanted, decimals) if size >= 0.5 * 10.0**-decimals else wanted, thousands)
     return text.replace("-", MINUS)
 
 

@@ -250,7 +250,8 @@ def _faults(known: dict[str, Any], found: Candidate) -> list[tuple[Any, int]]:
 def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete: bool) -> CollisionsError:
     closing, e = float(found.closing), float(found.restitution)
     known = {name: float(value) for name, value in numbers.items() if not name.startswith("mass")}
-    given = ", ".join(f"{name} = {show(value)}" for name, value in known.items())
+    units = {"energy_loss": "J", "restitution": ""}
+    given = ", ".join(f"{name} = {show(value, units.get(name, 'm/s'))}" for name, value in known.items())
     along = "velocities are counted along the line from A to B, A behind"
     match status:
         case Status.SEPARATING:
@@ -260,8 +261,8 @@ def _refusal(status: int, found: Candidate, numbers: dict[str, Any], incomplete:
             text = f"{given} mean a closing speed of 0, so there was no impact; {along}"
         case Status.NOT_SEPARATING:
             text = (
-                f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}); {along}: one of them "
-                f"would pass through the other{_allowed_losses(numbers, incomplete)}"
+                f"{given} mean that the bodies still approach after the impact (restitution {e:.4g}): one of them would pass "
+                f"through the other; {along}{_allowed_losses(numbers, incomplete)}"
             )
             if not incomplete and e > -1.0:
                 text += "; if they passed or tore before they had a common velocity, write incomplete=True"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import permutations
 from typing import Any
@@ -209,8 +209,14 @@ def _sentence(before: Mapping[str, float], after: Mapping[str, float], logs: Map
             low, high = (math.exp(factor + 2.0 * side * error) for side in (-1.0, 1.0))
             times = f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g}, allowing for sampling error)"
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
-    stated, found = ("; ".join(f'{of[name]:.3g} for "{name}"' for name in of) for of in (before, after))
+    stated = _listed(f'{before[name]:.3g} for "{name}"' for name in before)
+    found = _listed(f"{after[name]:.3g}" for name in before)
     return (
         f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. This holds for the priors of "
         f"each account as they are stated; wider or narrower ones would change these figures."
     )
+
+
+def _listed(parts: Iterable[str]) -> str:
+    *first, last = parts
+    return f"{', '.join(first)} and {last}"

@@ -380,7 +380,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
         numbers = "; ".join(_largest_by_degree(answer, row, near, texts) for answer, row in solution.sensitivity.items())
-        courses = f"the courses of {' and '.join(solution.unknowns)} are"
+        courses = f"{' and '.join(solution.unknowns).replace('speed', 'course')} are"
         sentence = f"{courses} within 10 degrees of one line, and small errors of a course move both far"
         text = f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an in-line method may tell more"
         say(IllConditionedWarning, near, text, "nearly_collinear", "", sentence, condition=found["condition"])
@@ -408,4 +408,4 @@ def _largest_by_degree(answer: str, row: dict[str, Any], near: Any, texts: Colle
     """The course to which a speed is most sensitive, and the sensitivity per degree."""
     moves = {name: float(np.max(np.where(near, abs(value), 0.0))) for name, value in row.items() if name.startswith("course")}
     name = max(moves, key=moves.__getitem__)
-    return f"{answer} moves by {said(moves[name] * math.pi / 180.0, 'speed', texts, 3)} per degree of {name}"
+    return f"{answer} changes by {said(moves[name] * math.pi / 180.0, 'speed', texts, 3)} per degree of {name}"

@@ -164,7 +164,7 @@ class ComponentScene(Scene):
         if len(self.unknown) > 1 and sine < math.sin(NEARLY_COLLINEAR):
             warn_of_cases(
                 IllConditionedWarning(
-                    f"the courses of speed_a and speed_b are {math.degrees(math.asin(sine)):.2g} degrees from one line: small "
+                    f"course_a and course_b are {math.degrees(math.asin(sine)):.2g} degrees from one line: small "
                     f"errors of delta-V and of the courses move both speeds far; give one of them",
                     code="nearly_collinear",
                     sine=sine,

@@ -91,7 +91,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
                 text = plain(texts[what]) if number is None else _as_text(sheet, what, number, texts)
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
-        rows.append(("contact", "law of restitution and no slip", impact.law or ""))
+        rows.append(("contact", "law of restitution and no slip", impact.law.title()))
     rows += _damage(sheet, evidence)
     sheet.table(rows)
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
@@ -270,7 +270,7 @@ def assumptions(
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
         if impact.pulse is None:
-            lines.append(("Law:", f"{impact.law}: {LAWS[str(impact.law)].assumption}."))
+            lines.append(("Law:", f"{str(impact.law).title()}: {LAWS[str(impact.law)].assumption}."))
         back = impact.regime == "sticking" and sheet.system.working(abs(impact.slip_after), "speed") != "0"
         ends = ", and comes back" if back else ""
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))

@@ -70,11 +70,13 @@ class Spread:
             (plain(name), _stated(sheet.system, value, *known.get(name, ()))) for name, value in uncertainty.inputs.items()
         ]
         sheet.table([("Inputs as stated", *row) for row in stated])
-        cases = f"{uncertainty.samples} cases, {uncertainty.failed} without an answer"
+        cases = (
+            f"{uncertainty.samples} cases, {f'{uncertainty.failed} without an' if uncertainty.failed else 'all with an'} answer"
+        )
         seed = "" if uncertainty.seed is None else f", seed {uncertainty.seed}"
         sheet.say(
-            f"± is one standard deviation. Method: {uncertainty.method}, {cases}{seed}. Whatever the stated inputs leave "
-            f"out, these figures leave out too."
+            f"± is one standard deviation. Method: {uncertainty.method.replace('_', '-')}, {cases}{seed}. Whatever the stated "
+            f"inputs leave out, these figures leave out too."
         )
         if uncertainty.failed:
             sheet.say("Cases without an answer are left out: the figures hold for those that have one.")

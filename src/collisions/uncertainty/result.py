@@ -187,7 +187,7 @@ class Output(Summarized):
         found = self._shares()
         return {name: (found.first_error[name], found.total_error[name]) for name in _ranked(found.total)}
 
-    def histogram(self, bins: int = 40) -> Histogram:
+    def histogram(self, bins: int = 30) -> Histogram:
         """Edges, shares of the cases between them and their standard errors: for a chart; only from sampling."""
         raise InputError(
             f"{self.name!r} has no histogram, because nothing was sampled; take method='quasi_random'",
@@ -300,7 +300,7 @@ class Sampled(Output):
             found = np.array([self._quantile_error(one) for one in np.ravel(share)]).reshape(np.shape(share))
         return found if found.ndim else float(found)
 
-    def histogram(self, bins: int = 40) -> Histogram:
+    def histogram(self, bins: int = 30) -> Histogram:
         """Edges, shares of the cases between them and their standard errors: for a chart."""
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
