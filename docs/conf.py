@@ -4,9 +4,11 @@ import os
 import re
 import shutil
 import sys
+from functools import partialmethod
 from pathlib import Path
 
 import jupytext
+from nbclient import NotebookClient
 from nbformat import NotebookNode
 
 HERE = Path(__file__).parent
@@ -46,6 +48,8 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
+# Otherwise a line that a slow kernel sends in two pieces is printed as two lines.
+NotebookClient.__init__ = partialmethod(NotebookClient.__init__, coalesce_streams=True)
 nb_render_markdown_format = "myst"
 nb_ipywidgets_js = {}  # would be fetched from elsewhere
 
