@@ -516,7 +516,7 @@ def test_a_study_warns_once_with_the_number_of_its_cases():
     negative = int((whole.propagation["speed_b"].values < 0.0).sum())
     assert 0 < negative < 8192
     assert [line for line in whole.warnings if "backwards" in line] == [
-        f"{negative} of 8192 cases: speed_b is below 0, backwards along its course; check the courses, or turn this one by 180 deg"
+        f"{negative} of 8192 cases: speed_b is below 0, backwards along its course; check the courses, or turn its course by 180 deg"
     ]
     alone = re.sub(r"20 deg \.\. 60", "40", re.sub(r" \+/- [^\"]*", "", text))
     (line,) = answers(read_text(alone.encode())).warnings

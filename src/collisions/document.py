@@ -57,7 +57,7 @@ class Document(str):
         # In a frame: the page has a style of its own, which is not that of the notebook.
         if self.form != "html":
             return None
-        return f'<iframe srcdoc="{escape(self)}" style="width:100%;height:48em;border:1px solid #d0d0d0"></iframe>'
+        return f'<iframe srcdoc="{escape(self)}" style="width:100%;height:64em;max-height:95vh;border:1px solid #ccc"></iframe>'
 
     def _repr_markdown_(self) -> str | None:
         return str(self) if self.form == "markdown" else None

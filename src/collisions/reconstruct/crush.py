@@ -287,7 +287,7 @@ def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[An
     elif len(gaps) != len(crush) - 1:
         raise ShapeError(
             f"widths has {len(gaps)} values and depths {len(crush)}: give one width between each two depths, {len(crush) - 1} "
-            f"in all, or the whole width alone; of many cases, a list of one array for each gap",
+            f"in all, or the whole width; for many cases, a list with one array per gap",
             code="bad_shape",
             argument="widths",
         )

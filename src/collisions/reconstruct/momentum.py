@@ -385,7 +385,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
         text = f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an in-line method may tell more"
         say(IllConditionedWarning, near, text, "nearly_collinear", "", sentence, condition=found["condition"])
     for name in solution.unknowns:
-        cure = "backwards along its course; check the courses, or turn this one by 180 deg"
+        cure = "backwards along its course; check the courses, or turn its course by 180 deg"
         text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
         # A negative speed within rounding of 0 is not a backward motion.
         say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", "speed", sentence, value=found[name])

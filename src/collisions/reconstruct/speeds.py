@@ -280,7 +280,7 @@ def _refuse_combinations(inputs: Inputs, known: dict[str, Any], function: bool) 
         # fmax passes over the NaN of infinite masses.
         apart = float(np.fmax.reduce(abs(on_a - on_b) / np.maximum(on_a, on_b), axis=None, initial=0.0))
         raise InputError(
-            f"delta_v_a and delta_v_b tell the same, the impulse (here they differ by {apart:.1%}); give one of them and a "
+            f"delta_v_a and delta_v_b both give the impulse (here they differ by {apart:.1%}); give one of them and a "
             f"speed or an energy",
             code="same_information",
             argument="delta_v_b",

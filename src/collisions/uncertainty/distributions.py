@@ -288,7 +288,7 @@ class Interval(Stated):
 
     __slots__ = ("high", "low")
 
-    _words = "{low} to {high}, no value likelier than another"
+    _words = "{low} to {high}, no distribution assumed"
 
     low: float
     high: float
