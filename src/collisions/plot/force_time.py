@@ -105,7 +105,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     ):
         label = f"{name} = {labels.text(impulse, 'N*s')}, {what}"
         if end <= start or impulse <= 0.0:
-            axes.plot([], [], " ", label=label)
+            axes.fill([start * in_time], [0.0], fc=shade, ec=FORCE, hatch=hatch, label=label)  # for the legend alone
             continue
         x, y = (start + (end - start) * share) * in_time, heights * highest * in_force
         outline = [x[0], *x, x[-1]], [0.0, *y, 0.0]
@@ -120,7 +120,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     text = f"mean force {labels.text(mean_force, 'N')}"
     axes.plot([0.0, time * in_time], [mean, mean], color=INK, ls=(0, (6, 3)), gid="mean force", label=text, **line)
     text = f"{'end of compression' if impact.complete else 'cut short'}, peak {labels.text(peak, 'N')}"
-    axes.plot([top * in_time] * 2, [0.0, peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
+    axes.plot([top * in_time] * 2, [0.0, 1.14 * peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
     axes.set_xlabel(labels.label("time", "duration"))
