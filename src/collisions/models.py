@@ -85,24 +85,24 @@ LINEAR, OBLIQUE, ECCENTRIC = MODELS = (
         linear_central,
         _takes(body=_POINT_MASS),
         lambda rule, law, pinned_a, pinned_b, carrying: (carrying,),
-        "Linear central: momentum along the normal (2) with restitution, which gives (5) and (6). The vehicles are point "
-        "masses that move along one line; rotation and forces along the tangent are left out.",
+        "Linear central: momentum along the normal, equation (2), with restitution, which gives (5) and (6). The vehicles are "
+        "point masses that move along one line; rotation and forces along the tangent are left out.",
     ),
     Model(
         "oblique_central",
         oblique_central,
         _takes("rule_value", body=_POINT_MASS),
         lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, carrying),
-        "Oblique central: restitution along the normal (9), friction along the tangent. The vehicles are point masses; "
-        "rotation is left out.",
+        "Oblique central: restitution along the normal, equation (9), friction along the tangent. The vehicles are point "
+        "masses; rotation is left out.",
     ),
     Model(
         "eccentric",
         eccentric,
         _takes("rule_value", "point[0]", "point[1]", body=_BODY),
         lambda rule, law, pinned_a, pinned_b, carrying: (rule, law, pinned_a, pinned_b),
-        "Eccentric: momentum and angular momentum (10) to (19), with restitution along the normal and friction along the "
-        "tangent at one contact point; free, pinned and fixed bodies.",
+        "Eccentric: momentum and angular momentum, equations (10) to (19), with restitution along the normal and friction "
+        "along the tangent at one contact point; free, pinned and fixed bodies.",
     ),
 )
 TIME_RESOLVED = Model(

@@ -120,7 +120,9 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     text = f"mean force {labels.text(mean_force, 'N')}"
     axes.plot([0.0, time * in_time], [mean, mean], color=INK, ls=(0, (6, 3)), gid="mean force", label=text, **line)
     text = f"{'end of compression' if impact.complete else 'cut short'}, peak {labels.text(peak, 'N')}"
-    axes.plot([top * in_time] * 2, [0.0, 1.14 * peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line)
+    axes.plot(
+        [top * in_time] * 2, [0.0, 1.14 * peak * in_force], color=GREY, ls=":", gid="end of compression", label=text, **line
+    )
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
     axes.set_xlabel(labels.label("time", "duration"))

@@ -26,6 +26,7 @@ from ..plot.canvas import who
 from ..provenance import KNOWN
 from ..reading import ArgumentReader
 from ..reconstruct import MomentumSolution, Posterior
+from ..summary import label_of
 from ..units import Input
 from ..vehicle import Vehicle
 from .render import Sheet, given_as, plain
@@ -294,7 +295,7 @@ def assumptions(
         )
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
-            lines.append((f"Limit of {code}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
+            lines.append((f"Limit of {label_of(code)}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
     sheet.items(lines)
     if found is None:
         _pulse(sheet, impact)
@@ -425,8 +426,8 @@ def posterior(sheet: Sheet, found: Posterior) -> None:
 def findings(sheet: Sheet, found: Findings) -> None:
     """Write the findings, each with measure and limit; also the checks that were made, and those that were not."""
     sheet.heading("Findings")
-    others = ", ".join(code for code in LIMITS if code not in found.measured)
-    others = f" Not made, by code, because they lack an input, do not apply or are switched off: {others}." if others else ""
+    others = ", ".join(label_of(code) for code in LIMITS if code not in found.measured)
+    others = f" Not made, because they lack an input, do not apply or are switched off: {others}." if others else ""
     if not found:
         sheet.say(
             f"None of the {len(found.measured)} checks that were made found anything, which proves nothing by itself.{others}"
@@ -438,7 +439,9 @@ def findings(sheet: Sheet, found: Findings) -> None:
         of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
-        lines.append((f"{finding.code}{of}:", f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}."))
+        lines.append(
+            (f"{label_of(finding.code)}{of}:", f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}.")
+        )
     sheet.items(lines)
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
