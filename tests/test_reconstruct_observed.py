@@ -701,7 +701,7 @@ CRUSH = [
         "bad_shape",
         (np.ones(3), [np.ones(2), 0.2], 4e4, 6e5),
         {},
-        ["widths has 3 values and depths 2", "one array for each gap"],
+        ["widths has 3 values and depths 2", "one array per gap"],
     ),
     ("bad_shape", ([np.ones(3)], [np.ones(2), 0.2], 4e4, 6e5), {}, ["depths[0] (2,)", "widths[0] (3,)"]),
     ("negative_length", (1.5, [0.3, -0.1], 4e4, 6e5), {}, ["depths[1] must be >= 0, got -0.1"]),

@@ -343,7 +343,7 @@ def test_figures_of_bounds():
 @pytest.mark.slow
 def test_a_spread_that_is_not_known_is_strict_json():
     """With this seed one of 64 cases has an answer at both ends, which has no spread: NaN is written by name."""
-    with pytest.warns(col.OutOfRangeWarning, match="cases had no answer"):
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
         found = propagate(
             lambda x, e: {"y": np.where(x < 0.02, x + e, np.nan)},
             {"x": Uniform(0, 1), "e": Interval(0.1, 0.2)},
