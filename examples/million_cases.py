@@ -97,7 +97,7 @@ print(
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):
     status = col.Status(code)
     print(f"{count:>8}  {count / COUNT:7.2%}  {status.label}")
-    print(f"{'':>8}{status.sentence}")
+    print(f"{'':>4}{status.sentence}")
 answered = delta_v[batch.ok]
 low, middle, high = np.quantile(answered, (0.025, 0.5, 0.975)) / KMH
 print(

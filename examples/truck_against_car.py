@@ -103,7 +103,7 @@ below.set(
     title="The lighter takes the delta-V",
     ylim=(0, None),
 )
-below.legend()
+legend = below.legend()
 
 # %% [markdown]
 # ## Checks
