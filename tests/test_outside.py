@@ -394,3 +394,14 @@ def test_an_impulse_from_outside_beyond_all_measure_is_refused_under_stronge():
     contact = {"normal": -2.0, "point": (4.8, -1.0), "friction": math.inf, "law": "stronge"}
     with pytest.raises(col.CollisionsError):
         col.eccentric(a, b, 0.38, outside_a=(-33.0, 1e200), **contact)
+
+
+def test_no_speed_of_maximum_crush_where_the_contact_gave_energy():
+    """Under a huge moment the work of the contact, at the mean of the velocities, is below 0: NaN by itself as in a batch."""
+    moments = np.array([1e30, 0.0])
+    together = col.eccentric(A, B, 0.3, **PLACE, friction=0.5, law="stronge", outside_a=(0.0, 0.0, moments))
+    alone = col.eccentric(A, B, 0.3, **PLACE, friction=0.5, law="stronge", outside_a=(0.0, 0.0, 1e30))
+    assert alone.energy_absorbed < 0.0 < together.energy_absorbed[1]
+    assert all(map(math.isnan, alone.max_crush_speeds(0.5)))
+    for speeds in together.max_crush_speeds(0.5):
+        assert np.isnan(speeds).tolist() == [True, False]

@@ -26,6 +26,7 @@ import collisions as col
 from collisions import plot, reconstruct, travel, uncertainty
 from collisions.plot.canvas import Units, number
 from scenes import cases, solved
+from strategies import Nasty
 
 ROOT = Path(__file__).resolve().parent.parent
 SYSTEMS = ("si", "metric", "us")
@@ -1548,6 +1549,7 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
     for call, code in (
         (lambda: plot.corner(3.0), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=[]), "bad_option"),
+        (lambda: plot.corner(two_speeds, unknowns=Nasty()), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=3), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=np.array(3.0)), "bad_option"),
         (lambda: plot.corner(two_speeds, unknowns=["z"]), "unknown_name"),

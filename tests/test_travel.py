@@ -443,6 +443,7 @@ def test_all_wrong_arguments_are_named_at_once():
         (10, {"drag": [0.7]}, "bad_shape", "drag is a list, and takes one value"),
         (np.ones(3), {"drag": np.ones(2)}, "bad_shape", "speed (3,), drag (2,)"),
         (1e200, {"drag": 0.7}, "out_of_range", "too large"),
+        (20, {"drag": "1e308 m/s**2"}, "out_of_range", "too large"),
     ],
 )
 def test_refused_distances(speed, rest, code, said):

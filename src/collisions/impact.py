@@ -276,9 +276,10 @@ class Impact(Frozen, Summarized):
         """Speeds (A, B) [m/s] of maximum crush, when A took up this share of ``energy_absorbed`` and B the rest.
 
         The speed at which the vehicle alone would take up as much energy at maximum crush against a rigid wall, before
-        restitution gives a part back. Some authors call this one EES; by ISO 12353 that is ``ees``.
+        restitution gives a part back. Some authors call this one EES; by ISO 12353 that is ``ees``. NaN stands where
+        ``energy_absorbed`` is below 0, as impulses from outside far above that of the contact can make it.
         """
-        return self._shared(share_a, self.energy_absorbed)
+        return self._shared(share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan))
 
     def _shared(self, share_a: Input, energy: Value) -> tuple[Value, Value]:
         """The speeds of both vehicles at which each has its share of an energy."""

@@ -68,8 +68,8 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
             code="bad_option",
             argument="posterior",
         )
-    given: Any = posterior if unknowns is None else [unknowns] if isinstance(unknowns, str) else unknowns
-    names = list(given) if np.iterable(given) else []
+    given: Any = list(posterior) if unknowns is None else [unknowns] if isinstance(unknowns, str) else unknowns
+    names = list(given) if isinstance(given, (list, tuple)) else []
     if not 1 <= len(names) <= _MOST:
         got = f"{len(names)}" if names else shown(unknowns)
         raise InputError(

@@ -150,7 +150,8 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
         # A change that the ground works against would need a negative distance.
         fits = ((change > 0.0) & (drop > 0.0)) | ((change < 0.0) & (drop < 0.0)) | ((change == 0.0) & (drop != 0.0))
         rate = select(drop == 0.0, math.nan, 2.0 * GRAVITY * drop)
-        found = change / rate * (start + end) + 0.0
+        # A rate that overflows would give a distance of 0.
+        found = select(abs(rate) < math.inf, change / rate * (start + end) + 0.0, math.inf)
         answer: Value = _answer(select(fits, found, math.nan), named, shape)
     return answer
 
