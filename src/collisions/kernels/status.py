@@ -96,7 +96,7 @@ class Status(IntEnum):
     NOT_FINITE = _Outcome(9, "input", "an input is NaN, or infinite where it may not be")
     NOT_POSITIVE = _Outcome(10, "input", "a mass, a yaw inertia, a duration, a stiffness or a length is not greater than 0")
     BAD_RESTITUTION = _Outcome(
-        11, "input", "the restitution is outside 0 to 1 or, with incomplete=True, not above -1 and up to 1"
+        11, "input", "the restitution is outside 0 to 1; with incomplete=True, it is not between -1 and 1"
     )
     BAD_FRICTION = _Outcome(12, "input", "the friction is below 0")
     BAD_FRACTION = _Outcome(13, "input", "the critical fraction is outside 0 to 1")
