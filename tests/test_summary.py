@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import re
 from html import unescape
@@ -14,6 +15,7 @@ import collisions as col
 from collisions import plot, quantity_names, reconstruct, travel
 from collisions.diagnostics import diagnose
 from collisions.reporting import options, replay, report
+from collisions.summary import Cells
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 MPH, FT, LB = 0.44704, 0.3048, 0.45359237  # exact by definition
@@ -394,3 +396,53 @@ def test_the_reason_for_a_model_is_in_the_units_of_the_inputs():
     assert " m/s" in choice.reason  # as data it stays in SI
     taken = col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance="2 mph").choice
     assert str(taken.summary()) == str(choice.summary())
+
+
+@pytest.mark.parametrize(
+    ("degrees", "cell"),
+    [
+        ([-174.0, 174.0], "174 to 186°"),
+        ([170.0, -100.0, 175.0, math.nan], "170 to 260°"),
+        ([-90.0, 90.0], "-90 to 90°"),
+        ([-20.0, 100.0], "-20 to 100°"),
+        ([-120.0, 0.0, 120.0], "-120 to 120°"),
+        ([10.0, 350.0], "-10 to 10°"),
+        ([200.0, 300.0], "200 to 300°"),
+        ([0.0, 720.0], "0 to 720°"),
+        ([-180.0, 180.0], "180°"),
+        ([-174.0], "-174°"),
+    ],
+)
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+def test_directions_of_a_batch_are_shown_by_the_shortest_arc(degrees, cell, kind):
+    """A rotation over time goes from its least to its greatest value."""
+    numbers, values = Cells("metric"), np.radians(np.array(degrees)).astype(kind)
+    for name in ("course", "heading", "pdof", "course_b_after", "heading_a", "normal_angle", "straight_course"):
+        assert numbers.text(values, "rad", name) == cell
+    assert numbers.text((values, values), "rad", "crab_angles") == f"{cell}, {cell}"
+    known = [one for one in degrees if not math.isnan(one)]
+    plain = f"{min(known):.0f} to {max(known):.0f}°" if len(known) > 1 else cell
+    for name in ("a.rotation", "rotation", "course_error", ""):
+        assert numbers.text(values, "rad", name) == plain
+    numbers.over_time = True
+    assert numbers.text(values, "rad", "heading") == plain
+
+
+def test_tables_show_courses_and_pdof_across_180_degrees():
+    """atan(1/10) is 5.7 degrees; struck from behind, B's PDOF is to both sides of 180 degrees."""
+    v = np.array([-1.0, 1.0])
+    assert "course  174 to 186°" in str(col.Vehicle(mass=1000.0, vx=-10.0, vy=v).summary())
+    a, b = col.Vehicle(mass=1000.0, vx=10.0, heading=0.0), col.Vehicle(mass=1000.0, vx=1.0, vy=v, heading=0.0)
+    many = col.oblique_central(a, b, 0.1, normal=0.0, friction=0.1)
+    assert np.ptp(np.degrees(many.b.pdof)) > 340.0
+    assert re.search(r"PDOF +-6 to 6° +174 to 186°", str(many.summary()))
+    courses = {"course_a": pint.Quantity(np.array([178.0, -178.0]), "deg"), "course_b": "90 deg"}
+    courses |= {"course_a_after": "150 deg", "course_b_after": "120 deg", "speed_a_after": 9.0, "speed_b_after": 9.0}
+    assert re.search(r"course +178 to 182° +90°", str(reconstruct.momentum(1500.0, 1200.0, **courses).summary()))
+
+
+def test_a_path_over_time_shows_how_far_it_turned():
+    vehicle = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading="-170 deg", vx=15.0, vy=0.0, yaw_rate=4.0)
+    path = travel.simulate(vehicle, friction=0.7, lock=1.0, moments=4)
+    low, high = np.degrees([path.heading.min(), path.heading.max()])
+    assert f"{low:.0f} to {high:.0f}°" in str(path.summary())

@@ -414,7 +414,7 @@ def _of_state(vehicle: Vehicle, name: str, numbers: Cells) -> str:
     value = getattr(vehicle, name)
     if isinstance(value, float) and math.isnan(value) and vehicle.speed == 0.0:
         return "at rest"
-    return numbers.text(value, unit_of(Vehicle, name))
+    return numbers.text(value, unit_of(Vehicle, name), name)
 
 
 def _changed(value: Value, change: Value) -> Value:
@@ -429,4 +429,4 @@ def _of_change(side: Side, name: str, numbers: Cells) -> str:
     if value is None:
         return "no heading"
     clock = f" ({hour} o'clock)" if name == "pdof" and isinstance(hour, int) else ""
-    return numbers.text(value, unit_of(Side, name)) + clock
+    return numbers.text(value, unit_of(Side, name), name) + clock

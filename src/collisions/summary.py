@@ -19,6 +19,9 @@ _PAGE, _LEAST = 88, 24  # characters of a line of the plain table, and at least 
 _NOT_KNOWN = "\u2013"
 # Names of one of the two vehicles: "delta_v_a", "speed_a_after", "a.tyre_delta_v".
 _SIDED = r"(?:(?P<lead>[ab])\.(?P<inner>.+)|(?P<stem>.+)_(?P<side>[ab])(?P<after>_after)?)"
+# Names of angles that are directions, of which 180 and -180 degrees are one; others, such as a rotation, may count turns.
+_DIRECTION = r"(?:(?:straight_)?course|heading|pdof|normal_angle|crab_angles|course_difference)(?:_[ab](?:_after)?)?"
+_ANGLE_TOL = 1e-6  # more than the rounding of a direction in float32
 _WORDS = {"delta v": "delta-V", "pdof": "PDOF", "ees": "EES"}
 
 
@@ -37,15 +40,17 @@ class Cells(Numbers):
     typeset = True
     # Of a batch, which cases have an answer: ranges are of these alone.
     answered: Any = None
+    # Whether arrays go on over time, in which headings count their turns.
+    over_time = False
 
-    def text(self, value: Any, unit: str | None) -> str:
-        """A number in this SI unit; the range of an array; other values as they are."""
+    def text(self, value: Any, unit: str | None, name: str = "") -> str:
+        """A number in this SI unit; the range of an array, of directions by its name; other values as they are."""
         if value is None:
             return _NOT_KNOWN
         if isinstance(value, tuple):
-            return ", ".join(self.text(part, unit) for part in value)
+            return ", ".join(self.text(part, unit, name) for part in value)
         if isinstance(value, np.ndarray):
-            return self._range(value, unit)
+            return self._range(value, unit, name)
         if isinstance(value, bool):
             return "yes" if value else "no"
         if not isinstance(value, float) or unit is None:
@@ -61,8 +66,8 @@ class Cells(Numbers):
             return Cells("metric").text(value, unit)
         return self.answer(value, kind)
 
-    def _range(self, values: Any, unit: str | None) -> str:
-        """An array by its least and greatest value, and how many cases have none."""
+    def _range(self, values: Any, unit: str | None, name: str) -> str:
+        """An array by its least and greatest value, of directions by the ends of their arc."""
         if isinstance(self.answered, np.ndarray):
             values = np.broadcast_to(values, self.answered.shape)[self.answered]
         if values.dtype.kind != "f" or unit is None:
@@ -70,9 +75,29 @@ class Cells(Numbers):
         known = values[~np.isnan(values)]
         if not known.size:
             return in_words(math.nan)
-        low, high = (self.text(float(end), unit) for end in (known.min(), known.max()))
+        directions = re.fullmatch(_DIRECTION, name) and not self.over_time
+        ends = _arc(known) if directions else (float(known.min()), float(known.max()))
+        low, high = (self.text(end, unit) for end in ends)
         unit = re.sub(r"^.*\d", "", high)
         return low if low == high else f"{low.removesuffix(unit)} to {high}"
+
+
+def _arc(directions: Any) -> tuple[float, float]:
+    """The ends of the shortest arc that holds all directions, rising: 174 to 186 degrees for 174 and -174.
+
+    Where it does not cross 180 degrees they are the least and the greatest value, and so for values that span more than a turn.
+    """
+    found = np.sort(directions, axis=None).astype(np.float64)
+    low, high = float(found[0]), float(found[-1])
+    if len(found) == 1 or not high - low <= math.tau + _ANGLE_TOL:
+        return low, high
+    gaps = np.diff(found)
+    widest = int(np.argmax(gaps))
+    if gaps[widest] <= math.tau - (high - low) + _ANGLE_TOL:
+        return low, high
+    low, high = float(found[widest + 1]), float(found[widest]) + math.tau
+    back = math.tau if low > math.pi + _ANGLE_TOL else 0.0
+    return low - back, high - back
 
 
 def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
@@ -190,7 +215,7 @@ def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells) -> list
     single: list[tuple[str, str]] = []
     for name, value, unit in values:
         found = re.fullmatch(_SIDED, name)
-        text = numbers.text(value, unit)
+        text = numbers.text(value, unit, name)
         if found is None:
             single.append((label_of(name), text))
         else:

@@ -344,7 +344,7 @@ class Vehicle(_AsGiven):
         if without_turning(self.yaw_rate):
             del kept["yaw_rate"]
         units = {"speed": "m/s", "course": "rad", **UNITS}
-        rows = [(label_of(name), numbers.text(value, units[name])) for name, value in kept.items()]
+        rows = [(label_of(name), numbers.text(value, units[name], name)) for name, value in kept.items()]
         return Summary(self.name or "Vehicle", [Part(rows), all_numbers(self._rows())])
 
     def _texts(self) -> Iterable[Any]:

@@ -17,6 +17,7 @@ from ..kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
 from ..quantities import Shown, hypot, in_units_of
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
+from ..summary import Cells, Summary
 from ..units import Input, Pair, Texts, shown, texts_of
 from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
@@ -60,6 +61,10 @@ class SimulatedPath(Shown):
     heading: Any = field(metadata={"unit": "rad"})
     marks: tuple[tuple[Any, Any], ...] = field(metadata={"unit": "m"})
     rest: Vehicle
+
+    def _summary(self, numbers: Cells) -> Summary:
+        numbers.over_time = True
+        return Shown._summary(self, numbers)
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         # The marks are for drawing; the end is what is compared with the scene.
