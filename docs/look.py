@@ -1,5 +1,5 @@
-"""Looks at pages in a browser: ``python docs/look.py docs/_build/html`` fails on raw markup, a page that scrolls sideways, and
-labels of a figure that cover one another. Without Chromium it says so and passes.
+"""Looks at pages in a browser: ``python docs/look.py docs/_build/html`` fails on raw markup, errors in outputs, a page or cell
+that scrolls sideways, labels of a figure that cover one another, and no answer. Without Chromium it says so and passes.
 
 Looked at are a report, the view of a notebook, and pages of the documentation, at 1400 and 800 pixels.
 """
@@ -17,7 +17,8 @@ from pathlib import Path
 
 WIDTHS = (1400, 800)
 PAGES = ("index", "start_here", "three_impacts", "glossary", "plots", "report")
-RAW = re.compile(r"\$\\math|\\mathdefault|\\\*|ERROR:|&lt;(?:table|div|span)\b")
+RAW = re.compile(r"\$\\math|\\mathdefault|\\\*|ERROR:|<(?:table|div|span)\b")
+SECONDS = 180
 # Loads the page in a frame of some width and writes what it measures into the page that is dumped.
 MEASURE = """<!DOCTYPE html><meta charset="utf-8">
 <iframe id="page" style="width:%(width)dpx;height:3000px;border:0" src="%(url)s"></iframe>
@@ -32,10 +33,15 @@ document.getElementById("page").onload = event => {
       if (one && other && x > 3 && y > 0.4 * Math.min(a.height, b.height)) covered.push(one + " / " + other);
     }
   }
+  const cells = [...page.querySelectorAll(".cell pre, .output pre")];
+  const wide = cells.filter(pre => pre.scrollWidth > pre.clientWidth + 1);
+  const printed = [...page.querySelectorAll(".cell_output pre, .output pre")].map(pre => pre.textContent);
   const clone = page.body.cloneNode(true);
-  clone.querySelectorAll("script, style, pre, code, details, svg, math").forEach(node => node.remove());
+  clone.querySelectorAll("script, style, pre, code, details, math").forEach(node => node.remove());
   document.getElementById("found").textContent = JSON.stringify({
-    scrolls: page.documentElement.scrollWidth - page.documentElement.clientWidth, covered: covered, text: clone.textContent});
+    scrolls: page.documentElement.scrollWidth - page.documentElement.clientWidth, covered: covered, text: clone.textContent,
+    wide: wide.map(pre => pre.textContent.split("\\n").reduce((one, other) => other.length > one.length ? other : one).trim()),
+    errors: printed.flatMap(text => text.split("\\n")).filter(line => line.includes("ERROR:"))});
 };
 </script>"""
 
@@ -77,16 +83,25 @@ def look(chromium: str, page: Path, width: int, folder: Path) -> list[str]:
     command = [
         chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
         "--disable-background-networking", "--disable-component-update", "--allow-file-access-from-files",
-        f"--user-data-dir={folder / 'profile'}", f"--window-size={width + 40},1200", "--virtual-time-budget=8000", "--dump-dom",
-        frame.as_uri(),
+        f"--window-size={width + 40},1200", "--virtual-time-budget=8000", "--dump-dom",
     ]  # fmt: skip
-    dump = subprocess.run(command, capture_output=True, text=True, timeout=180, check=True).stdout
+    for profile in ("profile", "another"):
+        run = [*command, f"--user-data-dir={folder / profile}", frame.as_uri()]
+        try:
+            dump = subprocess.run(run, capture_output=True, text=True, timeout=SECONDS, check=True).stdout
+            break
+        except subprocess.TimeoutExpired:
+            continue
+    else:
+        return [f"could not be measured: twice no answer from the browser within {SECONDS} seconds"]
     found = re.search(r'<pre id="found">(.*?)</pre>', dump, re.DOTALL)
     if found is None or not found[1]:
         return ["could not be measured"]
     measured = json.loads(unescape(found[1]))
     faults = [f"scrolls sideways by {measured['scrolls']} pixels"] if measured["scrolls"] > 1 else []
     faults += [f"a label covers another: {pair}" for pair in measured["covered"]]
+    faults += [f"a cell scrolls sideways: {line!r}" for line in measured["wide"]]
+    faults += [f"an error in an output: {line.strip()!r}" for line in measured["errors"]]
     return faults + [f"raw markup: {raw[0]!r}" for raw in RAW.finditer(measured["text"])]
 
 

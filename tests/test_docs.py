@@ -2,7 +2,9 @@
 
 import ast
 import importlib
+import importlib.util
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -144,3 +146,61 @@ def too_wide(path):
 def test_code_on_pages_is_at_most_88_wide(path):
     """So that no line wraps or scrolls."""
     assert too_wide(path) == []
+
+
+@pytest.fixture(scope="module")
+def looking():
+    """The module ``docs/look.py``."""
+    spec = importlib.util.spec_from_file_location("look", DOCS / "look.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(
+    ("body", "fault"),
+    [
+        ("<p>An offset of 3 m</p>", None),
+        ('<div class="cell"><pre>offset = 3  # &lt;table&gt;</pre></div>', None),
+        (r"<figure><svg><text x='9' y='9'>$\mathdefault{10}$</text></svg></figure>", "raw markup: '$\\\\math'"),
+        (r"<svg><text x='9' y='9'>\mathdefault{10}</text></svg>", "raw markup: '\\\\mathdefault'"),
+        ("<p>&lt;table&gt;&lt;tr&gt;</p>", "raw markup: '<table'"),
+        (
+            "<div class='cell_output'><div class='output stderr'><pre>\nERROR: no\n</pre></div></div>",
+            "an error in an output: 'ERROR: no'",
+        ),
+        (f"<div class='cell'><pre>a\n{'x' * 400}</pre></div>", f"a cell scrolls sideways: {'x' * 400!r}"),
+    ],
+)
+def test_a_page_with_a_fault_is_found_at_fault(body, fault, looking, tmp_path):
+    """Each fault is found, and found alone; what only looks like one is not."""
+    chromium = looking.browser()
+    if chromium is None:
+        pytest.skip("needs Chromium")
+    style = "<style>pre { overflow: auto; }</style>"
+    page = tmp_path / "page.html"
+    page.write_text(f"<!DOCTYPE html><meta charset='utf-8'>{style}<body>{body}</body>", encoding="utf-8")
+    assert looking.look(chromium, page, 800, tmp_path) == ([] if fault is None else [fault])
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_a_browser_that_gives_no_answer_is_asked_once_more(times, looking, tmp_path, monkeypatch, capsys):
+    """A page that it answers neither time is at fault, by its name."""
+    asked = []
+
+    def run(command, **settings):
+        asked.append(command)
+        if len(asked) <= times:
+            raise subprocess.TimeoutExpired(command, settings["timeout"])
+        return subprocess.CompletedProcess(
+            command, 0, '<pre id="found">{"scrolls":0,"covered":[],"text":"","wide":[],"errors":[]}</pre>'
+        )
+
+    monkeypatch.setattr(looking.subprocess, "run", run)
+    monkeypatch.setattr(looking, "browser", lambda: "chromium")
+    monkeypatch.setattr(looking, "made", lambda folder: [])
+    monkeypatch.setattr(looking, "PAGES", ("slow",))
+    monkeypatch.setattr(looking, "WIDTHS", (800,))
+    assert looking.main(tmp_path) == times - 1
+    assert len(asked) == 2
+    assert ("slow.html at 800 pixels: could not be measured: twice no answer" in capsys.readouterr().out) == (times == 2)
