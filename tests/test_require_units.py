@@ -8,7 +8,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import plot, reconstruct, travel, uncertainty
+from collisions import plot, reconstruct, reference, travel, uncertainty
 from collisions.reporting import options, replay
 
 WITH_UNITS = {
@@ -77,6 +77,59 @@ def test_solvers_and_travel_refuse_too():
         assert travel.speed("20 m", drag=0.7) == pytest.approx((2 * 0.7 * 9.80665 * 20) ** 0.5, rel=1e-12)
         with pytest.raises(col.UnitsError, match="mass_a"):
             reconstruct.inline_closing_speed(1500, "1500 kg", 0.1, delta_v_b="10 mph")
+
+
+ASKED_OF_RESULTS = [
+    ("outline_a", (4.5, 2.0)),
+    ("outline_b", np.array([(2.0, 1.0), (-2.0, 1.0), (-2.0, -1.0), (2.0, -1.0)])),
+    ("duration", 0.1),
+    ("limits", {"suspect_angle": 1.0}),
+    ("limits", {"near_collinear": 0.5}),
+    ("crush_energy", 1e4),
+    ("damage_pdof_a", 0.2),
+    ("damage_delta_v_a", 10),
+    ("damage_delta_v_b", (10.0, "2 m/s")),
+]
+
+
+@pytest.mark.parametrize(("name", "value"), ASKED_OF_RESULTS)
+def test_what_is_asked_of_a_result_needs_a_unit(name, value):
+    with col.options(require_units=True):
+        impact = crash()
+        for ask in (col.diagnose, lambda one, **given: col.report(one, figures=False, **given)):
+            with pytest.raises(col.UnitsError, match=f"(?s){name}.* has no unit, and options"):
+                ask(impact, **{name: value})
+            ask(impact)  # the package's own duration has none, and is none of the caller's
+    col.diagnose(impact, **{name: value})
+
+
+def test_functions_of_a_result_and_published_values_refuse_too():
+    with col.options(require_units=True):
+        impact = crash()
+        for name, ask in {
+            "duration": lambda: col.left_out(impact, duration=0.1),
+            "a.delta_v": lambda: col.explain(impact, uncertainty={"a.delta_v": 0.5}),
+            "speed_a": lambda: col.what_if(impact, {"speed_a": (10, 30)}),
+            "outline_a": lambda: col.what_if(impact, {"restitution": (0.0, 0.5)}, outline_a=(4.5, 2.0)),
+            "closing_speed": lambda: reference.restitution_range(4.0),
+            "speed": lambda: reference.drag_factor("travelled dry asphalt", speed=20),
+            "value": lambda: 0.1 in reference.CONTACT_DURATION,
+        }.items():
+            with pytest.raises(col.UnitsError, match=f"{name}.* has no unit, and options"):
+                ask()
+        assert col.left_out(impact) == col.left_out(impact, duration="0.1 s")
+        col.explain(impact, uncertainty={"a.delta_v": "1 mph"})
+        # In SI again within, and as asked after an error.
+        with pytest.raises(col.UnitsError):
+            col.Vehicle(mass=1500.0)
+
+
+def test_a_report_can_be_made_again_where_units_are_required():
+    with col.options(require_units=True):
+        given = {"outline_a": ("4.5 m", "2 m"), "limits": {"near_collinear": "20 deg"}, "damage_delta_v_b": ("10 m/s", "2 m/s")}
+        page = col.report(crash(), figures=False, duration="90 ms", crush_energy="10 kJ", **given)
+        assert col.report(replay(page), **options(page)) == page
+    assert col.report(replay(page), **options(page)) == page
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import pulse
-from .drag import GRAVITY, read_drag, read_duration
+from .drag import GRAVITY, USUAL_DURATION, read_drag, read_duration
 from .during_contact import Pull, finite_mass, with_motion, with_tyres
 from .errors import InputError
 from .impact import Impact, part_of_impact
@@ -17,7 +17,7 @@ from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, hypot, in_units_of, lock
 from .reading import ArgumentReader, broadcast, widened
-from .settings import computing
+from .settings import as_asked, computing
 from .travel.surfaces import out_of_range, settle
 from .units import Input, Value
 from .warning import quietly
@@ -115,7 +115,7 @@ class LeftOut(Shown):
 
 
 @computing
-def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> LeftOut:
+def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 0.7) -> LeftOut:
     """What an impact that takes no time and has no tyres leaves out, as numbers: is the idealisation fit for this case?
 
     An impulse acts at once, at one place; a real contact takes about 0.1 s, in which tyres push too, and the vehicles move and
@@ -208,8 +208,9 @@ def left_out(impact: Impact, *, duration: Input = 0.1, drag: Input = 0.7) -> Lef
                 argument="impact",
             )
         )
-    time = read_duration(reader, duration)
-    pull = read_drag(reader, drag, "drag")
+    with as_asked():
+        time = read_duration(reader, duration)
+        pull = read_drag(reader, drag, "drag")
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())

@@ -7,6 +7,7 @@ from typing import Any
 from .errors import ShapeError, UnitsError
 from .kernels.elementwise import FINITE, Domain
 from .reading import ArgumentReader, at_least_zero, warn_if_large
+from .settings import Default
 from .units import is_quantity, shown
 
 GRAVITY = 9.80665
@@ -16,6 +17,8 @@ GRAVITY = 9.80665
 HIGHEST_DRAG = 1.5
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
 _LONGEST = 1.0
+USUAL_DURATION = Default(0.1)
+"""Of a contact [s], where none is given."""
 
 
 def one_value(reader: ArgumentReader, value: Any, unit: str, name: str, domain: Domain = FINITE) -> Any:

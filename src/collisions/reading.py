@@ -13,7 +13,7 @@ import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, POSITIVE_FINITE, RESTITUTION, UNIT_INTERVAL, Domain
-from .settings import units_required
+from .settings import Default, units_required
 from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown, si_unit, unit_as_written
 from .warning import warn
 
@@ -69,7 +69,8 @@ class ArgumentReader:
             if problem_found is not None:
                 return self.refuse(problem_found)
         if not text and argument not in self.trusted:
-            if unit and units_required.get() and 0.0 < largest(read) < math.inf:
+            strict = unit and units_required.get() and not isinstance(value, Default)
+            if strict and 0.0 < largest(read) < math.inf:
                 return self.refuse(_without_unit(value, unit, argument))
             _warn_if_implausible(read, unit, argument)
         return read

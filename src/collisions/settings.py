@@ -15,6 +15,11 @@ from .units import shown
 F = TypeVar("F", bound=Callable[..., Any])
 
 units_required: ContextVar[bool] = ContextVar("units_required", default=False)
+_asked: ContextVar[bool] = ContextVar("_asked", default=False)
+
+
+class Default(float):
+    """A default in SI, which needs no unit where numbers of the caller do."""
 
 
 class options:
@@ -24,8 +29,9 @@ class options:
     ----------
     require_units : bool
         Whether a number without a unit is refused where one with a unit is meant, such as ``vx=20``: by vehicles,
-        solvers, reverse solvers and ``travel``. 0 and infinity need none. Models of ``propagate``, ``fit`` and ``posterior``
-        are called with SI numbers, and may give them on.
+        solvers, reverse solvers, ``travel``, ``diagnose``, ``left_out``, ``explain``, ``report`` and pictures. 0 and infinity
+        need none, nor do the numbers of a distribution, such as ``Normal(13, 1)``, of which no dimension is known. Models of
+        ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may give them on.
 
     Raises
     ------
@@ -67,13 +73,30 @@ def in_si() -> Iterator[None]:
         units_required.reset(token)
 
 
+@contextmanager
+def as_asked() -> Iterator[None]:
+    """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
+    token = units_required.set(_asked.get())
+    try:
+        yield
+    finally:
+        units_required.reset(token)
+
+
 def computing(function: F) -> F:
-    """Decorate a function that works on results: the numbers it gives on are the package's own, in SI."""
+    """Decorate a function that works on results: the numbers it gives on are the package's own, in SI.
+
+    Its arguments are the caller's, and are read in ``as_asked``.
+    """
     named = hinted(function)
 
     @wraps(function)
     def inside(*args: Any, **options: Any) -> Any:
-        with in_si():
-            return named(*args, **options)
+        token = _asked.set(units_required.get())
+        try:
+            with in_si():
+                return named(*args, **options)
+        finally:
+            _asked.reset(token)
 
     return cast(F, inside)

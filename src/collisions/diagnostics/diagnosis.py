@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..contact_effects import left_out
-from ..drag import read_drag, read_duration
+from ..drag import USUAL_DURATION, read_drag, read_duration
 from ..errors import InputError, MissingInputError, ShapeError
 from ..formatting import UnitSystem, bad_system
 from ..impact import Impact
@@ -17,7 +17,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
-from ..settings import computing
+from ..settings import as_asked, computing, units_required
 from ..summary import spoken_system
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
@@ -38,7 +38,7 @@ def diagnose(
     *,
     outline_a: Any = None,
     outline_b: Any = None,
-    duration: Input = 0.1,
+    duration: Input = USUAL_DURATION,
     drag: Input = 0.7,
     limits: Mapping[str, Any] | None = None,
     crush_energy: Input | None = None,
@@ -120,38 +120,40 @@ def diagnose(
     25 checks were made.
     A finding is a reason to look again, not an error; no finding is no proof.
     """
-    # An implausible limit is intended, so the unit check is skipped.
-    reader = ArgumentReader(trusted=("limits['suspect_yaw_rate']", "limits['suspect_angle']"))
+    # An implausible limit is intended, so it is not warned of; where units are required, it has one.
+    implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
-    outlines = {
-        label: _read_outline(reader, impact, given, label)
-        for label, given in (("a", outline_a), ("b", outline_b))
-        if given is not None
-    }
-    if units is None:
-        units = cast(UnitSystem, spoken_system(impact._texts()))
-    problem = bad_system(units)
-    if problem is not None:
-        reader.refuse(problem)
-    allowed = read_limits(limits, reader)
-    if crush_energy is not None:
-        crush_energy = _single(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
-    known: dict[str, Any] = {
-        "damage": {
-            "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
-            "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
-        },
-        "crush_energy": crush_energy,
-        "units": units,
-    }
-    left = None
-    if isinstance(impact, Impact):
+    with as_asked():
+        reader = ArgumentReader(trusted=() if units_required.get() else implausible)
+        outlines = {
+            label: _read_outline(reader, impact, given, label)
+            for label, given in (("a", outline_a), ("b", outline_b))
+            if given is not None
+        }
+        if units is None:
+            units = cast(UnitSystem, spoken_system(impact._texts()))
+        problem = bad_system(units)
+        if problem is not None:
+            reader.refuse(problem)
+        allowed = read_limits(limits, reader)
+        if crush_energy is not None:
+            crush_energy = _single(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
+        known: dict[str, Any] = {
+            "damage": {
+                "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
+                "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
+            },
+            "crush_energy": crush_energy,
+            "units": units,
+        }
+        left = None
+        if isinstance(impact, Impact):
+            reader.close()
+            left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
+        # What an impulse leaves out comes with the duration and drag that it was asked for.
+        time = _single(reader, read_duration(reader, duration) if left is None else left.duration, "duration")
+        pull = _single(reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag")
         reader.close()
-        left = left_out(impact, duration=duration, drag=drag) if impact.pulse is None else None
-    # What an impulse leaves out comes with the duration and drag that it was asked for.
-    time = _single(reader, read_duration(reader, duration) if left is None else left.duration, "duration")
-    pull = _single(reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag")
-    reader.close()
     known |= {"duration": time, "drag": pull}
     case: Case
     if isinstance(impact, Impact):

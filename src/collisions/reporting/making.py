@@ -19,6 +19,7 @@ from ..derivation.evidence import fit, momentum_inputs
 from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_inputs, no_uncertainty
 from ..diagnostics import diagnose
 from ..document import Document
+from ..drag import USUAL_DURATION
 from ..errors import InputError, ShapeError
 from ..formatting import UnitSystem
 from ..impact import Impact, with_vehicles
@@ -27,7 +28,7 @@ from ..outlines import read_outline
 from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..settings import computing
+from ..settings import as_asked, computing
 from ..summary import cells
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
@@ -64,7 +65,7 @@ def report(
     uncertainty: Propagation | None = None,
     outline_a: Any = None,
     outline_b: Any = None,
-    duration: Input = 0.1,
+    duration: Input = USUAL_DURATION,
     drag: Input = 0.7,
     limits: Mapping[str, Any] | None = None,
     crush_energy: Input | None = None,
@@ -149,11 +150,13 @@ def report(
     options = plain_options(given)
     paragraphs, by_input, outlines = _checked(impact, options, uncertainty)
     evidence = {name: options[name] for name in EVIDENCE}
-    looked_at = {name: options[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units")}
+    looked_at = {name: given[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)}
     spread = Spread(impact, uncertainty)
     sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
-    findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at, **evidence)
+    # As they were given, so that it sees which have a unit.
+    with as_asked():
+        findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at)
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, evidence, by_input)
@@ -198,7 +201,7 @@ def report(
     return Document(sheet.whole(__version__), form)
 
 
-_USUAL = {name: parameter.default for name, parameter in signature(report).parameters.items()}
+_USUAL = plain_options({name: parameter.default for name, parameter in signature(report).parameters.items()})
 
 
 def _is_usual(name: str, value: Any) -> bool:

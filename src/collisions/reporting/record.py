@@ -21,7 +21,7 @@ from ..quantities import unit_of
 from ..reading import ArgumentReader
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
 from ..records import strict
-from ..settings import computing
+from ..settings import computing, units_required
 from ..uncertainty import Propagation
 from ..units import Texts, shown
 from ..vehicle import DOMAINS, Vehicle, with_given
@@ -251,7 +251,10 @@ def options(text: str) -> dict[str, Any]:
         found = dict(whole.get("options", {}))
         known = found.keys() <= _UNITS.keys()
         for name in {"outline_a", "outline_b"} & found.keys():
-            found[name] = [tuple(corner) for corner in found[name]]
+            # In metres, which they have to say where units are required.
+            found[name] = [
+                tuple(f"{part!r} m" for part in corner) if units_required.get() else tuple(corner) for corner in found[name]
+            ]
         if "limits" in found:
             found["limits"] = {code: math.inf if limit == "inf" else limit for code, limit in found["limits"].items()}
     except (AttributeError, TypeError, ValueError):
