@@ -42,6 +42,9 @@ def test_an_attribute_is_looked_up_where_it_is():
         (impact, "delta_v", "impact.a.delta_v or impact.b.delta_v"),
         (impact, "speed", "impact.a.after.speed"),
         (impact.a, "speed", "before.speed or after.speed"),
+        (impact.q, "delta_v", "impact.a.q.delta_v or impact.b.q.delta_v"),
+        (impact.q, "speed", "impact.a.after.q.speed"),
+        (impact.a.q, "speed", "before.q.speed or after.q.speed"),
     ):
         with pytest.raises(AttributeError, match=re.escape(where)):
             getattr(owner, name)
@@ -49,6 +52,8 @@ def test_an_attribute_is_looked_up_where_it_is():
     for name in ("nothing", "_delta_v"):
         with pytest.raises(AttributeError, match=rf"no attribute '{name}'$"):
             getattr(impact, name)
+        with pytest.raises(AttributeError, match=rf"no attribute '{name}'$"):
+            getattr(impact.q, name)
 
 
 @pytest.mark.parametrize(

@@ -638,9 +638,18 @@ def test_a_model_that_is_no_function(model):
 @pytest.mark.parametrize(
     ("answer", "code", "words"),
     [
-        (lambda x: x, "bad_model", "must return a dict of named outputs"),
+        (
+            lambda x: x,
+            "bad_model",
+            r"must return a dict of named outputs, such as \{'delta_v': impact\.a\.q\.delta_v\}, got nd",
+        ),
         (lambda x: None, "bad_model", "got NoneType"),
-        (lambda x: {}, "bad_model", "must return a dict"),
+        (lambda x: {}, "bad_model", "must return a dict of named outputs, .*, got an empty one$"),
+        (
+            lambda x: {"y": col.Vehicle(mass=1.0, vx=f"{x} mph").q.vx},
+            "bad_units",
+            r"belongs in the distribution, Normal\('30 mph'",
+        ),
         (lambda x: {3: x}, "bad_model", "must name its outputs by texts, got 3"),
         (lambda x: {"y": 1.0}, "bad_shape", r"output 'y' of the model has shape \(\)"),
         (lambda x: {"y": x[:-1]}, "bad_shape", r"an array of shape \(1024,\)"),

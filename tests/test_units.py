@@ -734,3 +734,8 @@ def test_a_proportion_in_a_yaw_rate_is_not_said_to_count_turns(text):
         col.Vehicle(mass=1.0, yaw_rate=text)
     with pytest.raises(col.UnitsError, match="Hz counts turns"):
         col.Vehicle(mass=1.0, yaw_rate="3 Hz")
+
+
+def test_a_unit_that_pint_refuses_without_a_word_leaves_no_empty_brackets():
+    with pytest.raises(col.UnitsError, match=r"'3 dB\*m/s' cannot be taken as m/s; write for example"):
+        col.Vehicle(mass=1000.0, vx="3 dB*m/s")

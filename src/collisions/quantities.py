@@ -71,15 +71,20 @@ class Frozen:
             if hasattr(type(self), name):
                 # Working it out raised an AttributeError, which is raised again.
                 return object.__getattribute__(self, name)
-            places = [where for kind, where in self._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
-            hint = f"; write {places[0].format(name)}" if places else ""
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=self)
+            raise _no_attribute(self, name, name)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be deleted")
+
+
+def _no_attribute(owner: Frozen, name: str, written: str) -> AttributeError:
+    """The error for an attribute that an object does not have, with where it is and how it is written there."""
+    places = [where for kind, where in owner._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
+    hint = f"; write {places[0].format(written)}" if places else ""
+    return AttributeError(f"{type(owner).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=owner)
 
 
 def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T]]:
@@ -127,7 +132,12 @@ class Quantities:
     def __getattr__(self, name: str) -> Any:
         if name == "q" or name.startswith("__"):
             raise AttributeError(f"{name!r} is no quantity")
-        value = getattr(self._owner, name)
+        try:
+            value = getattr(self._owner, name)
+        except AttributeError:
+            if not isinstance(self._owner, Frozen) or hasattr(type(self._owner), name):
+                raise
+            raise _no_attribute(self._owner, name, f"q.{name}") from None
         unit = unit_of(type(self._owner), name)
         if unit == OWN:
             unit = self._owner.unit

@@ -310,6 +310,11 @@ def parse(text: str, unit: str, argument: str) -> Any:
 
 def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
+    if re.match(r"\[[\[\s]*(?:[-+.]?\d|nan\b|[-+]?inf\b)", text):
+        return (
+            ": this is a printed array. A model of propagate is called with arrays of cases, and the unit belongs in the "
+            "distribution, Normal('30 mph', '2 mph')"
+        )
     if unit == "rad" and re.match(r"(north|south|east|west|[ns] ?\d|[nsew]{1,3}$)", text.lower()):
         return ": angles are counted from the x axis, counter-clockwise; with x to the east, north is '90 deg'"
     if mark := re.fullmatch(rf"({_NUMBER})\s*('|\"|''|#|\w+\.)", text):
@@ -439,7 +444,7 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     elif unit == "kg*m**2" and is_force:
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
     # pint's own words are about dimensions, and the hint says it better.
-    reason = f" ({error})" if error is not None and not hint else ""
+    reason = f" ({error})" if str(error or "") and not hint else ""
     return UnitsError(
         f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",
         code="bad_units",

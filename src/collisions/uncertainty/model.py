@@ -83,10 +83,8 @@ class Model:
             error.add_note(f"The model is {called}.")
             raise
         if not isinstance(answered, Mapping) or not answered:
-            raise _bad_model(
-                f"model must return a dict of named outputs, such as {{'delta_v': impact.a.delta_v}}, got "
-                f"{type(answered).__name__}"
-            )
+            got = "an empty one" if isinstance(answered, Mapping) else type(answered).__name__
+            raise _bad_model(f"model must return a dict of named outputs, such as {{'delta_v': impact.a.q.delta_v}}, got {got}")
         units = {name: si_unit(value, per_angle=True) if is_quantity(value) else None for name, value in answered.items()}
         if self.units and units != self.units:
             raise _bad_model(
