@@ -446,3 +446,41 @@ def test_a_path_over_time_shows_how_far_it_turned():
     path = travel.simulate(vehicle, friction=0.7, lock=1.0, moments=4)
     low, high = np.degrees([path.heading.min(), path.heading.max()])
     assert f"{low:.0f} to {high:.0f}°" in str(path.summary())
+
+
+def test_a_table_of_planar_momentum_says_in_words_what_became_of_it():
+    """Parallel courses are refused; two vehicles thrown apart at 180 degrees to each other gain energy."""
+    known = {"course_a": 0.0, "course_b": "90 deg", "speed_a_after": 20.0, "speed_b_after": 20.0}
+    solved = known | {"course_a_after": "30 deg", "course_b_after": "40 deg"}
+    gain = known | {"course_a_after": "-60 deg", "course_b_after": "120 deg"}
+    whole = reconstruct.momentum(1500.0, 1200.0, **solved).summary()
+    assert not re.search(r"^ok\b", str(whole), re.MULTILINE)
+    assert whole.notes == ()
+    assert ("ok", "True") in whole.parts[-1].rows
+    with pytest.warns(col.CollisionsWarning):
+        gained = reconstruct.momentum(1500.0, 1200.0, **gain).summary()
+    assert gained.notes == ("Solved, but the model ends with more energy than it began with.",)
+    refused = reconstruct.momentum(1500.0, 1200.0, **solved | {"course_b": 0.0}, on_failure="nan")
+    assert refused.summary().notes == (f"Refused: {refused.status.sentence}.",)
+    both = {"course_a_after": pint.Quantity(np.array([30.0, -60.0, 30.0]), "deg")}
+    both |= {"course_b_after": pint.Quantity(np.array([40.0, 120.0, 40.0]), "deg")}
+    both |= {"course_b": pint.Quantity(np.array([90.0, 90.0, 0.0]), "deg")}
+    with pytest.warns(col.CollisionsWarning):
+        many = reconstruct.momentum(1500.0, 1200.0, **solved | both, on_failure="nan").summary()
+    assert [note[:28] for note in many.notes] == ["1 of 3 cases were refused, f", "1 of 3 cases end with more e"]
+
+
+def test_a_refused_impact_has_no_blank_cell():
+    apart = {"a": col.Vehicle(mass=1500.0, vx=-5.0), "b": col.Vehicle(mass=1500.0, vx=1.0)}
+    impact = col.oblique_central(**apart, restitution=0.1, normal=0.0, friction=0.5, on_failure="nan")
+    assert lines(impact.summary())["Contact", "regime"] == ["not known"]
+
+
+def test_a_fit_without_degrees_of_freedom_shows_no_chi_squared():
+    def fitted(**evidence):
+        return reconstruct.fit(
+            lambda speed: dict.fromkeys(evidence, speed), {"speed": Interval(1.0, 40.0)}, dict.fromkeys(evidence, (20.0, 1.0))
+        )
+
+    assert "chi-squared" not in str(fitted(one=0).summary())
+    assert "with 1 degree of freedom" in str(fitted(one=0, two=0).summary())

@@ -54,7 +54,7 @@ class Cells(Numbers):
         if isinstance(value, bool):
             return "yes" if value else "no"
         if not isinstance(value, float) or unit is None:
-            return str(value)
+            return str(value) or "not known"
         kind = KIND_OF.get(unit)
         if not math.isfinite(value):
             return in_words(value)

@@ -280,7 +280,7 @@ class Fit(Shown):
         parts = [
             Part([row(self[name]) for name in self.names], "Unknown", ("estimate", "standard error", "95 percent interval")),
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
-            Part([("chi-squared", _chi_squared(self))]),
+            Part([("chi-squared", _chi_squared(self))] if self.degrees_of_freedom else []),
         ]
         return Summary(self._title, parts, (*(f"{text[0].upper()}{text[1:]}." for text in self.statements), _GIVEN_ERRORS))
 

@@ -13,7 +13,7 @@ from ..errors import MissingInputError
 from ..kernels.status import Status
 from ..quantities import Shown, derived, same
 from ..quantity_names import MomentumSolutionQuantities
-from ..summary import Cells, Part, Summary
+from ..summary import Cells, Part, Summary, all_numbers, sided
 from ..units import Value, to_quantity
 
 # The arguments that give attributes which may be None.
@@ -96,12 +96,26 @@ class MomentumSolution(Shown):
 
     def _summary(self, numbers: Cells) -> Summary:
         numbers.answered = np.less_equal(self.status, Status.ENERGY_GAIN)
-        whole = Shown._summary(self, numbers)
+        values = (row for row in self._values() if row[0] != "ok")
         degree, speeds = math.pi / 180.0, self.sensitivity
         courses = [name for name in next(iter(speeds.values()), ()) if name.startswith("course")]
         rows = [(_of_vehicle(name), *(numbers.text(degree * row[name], "m/s") for row in speeds.values())) for name in courses]
         changes = Part(rows, "Change per degree of", tuple(map(_of_vehicle, speeds)))
-        return Summary(whole.title, [*whole.parts[:-1], changes, whole.parts[-1]])
+        return Summary(self._title, [*sided(values, numbers), changes, all_numbers(self._rows())], self._outcome())
+
+    def _outcome(self) -> list[str]:
+        """Sentences on cases that were refused or gain energy."""
+        if isinstance(self.status, Status):
+            sentence = f"{self.status.sentence}."
+            if self.status > Status.ENERGY_GAIN:
+                return [f"Refused: {sentence}"]
+            return [] if self.status is Status.OK else [sentence[0].upper() + sentence[1:]]
+        many = f"of {np.size(self.status)} cases"
+        said = (
+            (self.status > Status.ENERGY_GAIN, "were refused, for what their status says; the ranges are those of the others."),
+            (self.status == Status.ENERGY_GAIN, "end with more energy than they began with."),
+        )
+        return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
 
     def _texts(self) -> Iterable[Any]:
         return (self.given or {}).values() or Shown._texts(self)
