@@ -248,12 +248,26 @@ def test_a_page_saved_where_there_is_no_folder_names_the_folder(tmp_path):
     page = col.explain(col.linear_central(A, B, 0.1))
     missing = tmp_path / "cases" / "17"
     with pytest.raises(FileNotFoundError, match=re.escape(f"there is no folder {str(missing)!r}; make it first")) as refused:
-        page.save(missing / "page.html")
-    assert refused.value.filename == str(missing / "page.html")
-    with pytest.raises(IsADirectoryError, match=re.escape(f"name a file in it, such as {str(tmp_path / 'report.html')!r}")):
+        page.save(missing / "page.md")
+    assert refused.value.filename == str(missing / "page.md")
+    with pytest.raises(IsADirectoryError, match=re.escape(f"name a file in it, such as {str(tmp_path / 'report.md')!r}")):
         page.save(tmp_path)
     missing.mkdir(parents=True)
-    assert page.save(missing / "page.html").read_text(encoding="utf-8") == page
+    assert page.save(missing / "page.md").read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(("form", "kind", "suffix"), [("markdown", "Markdown", ".md"), ("text", "plain text", ".txt")])
+@pytest.mark.parametrize("ending", [".html", ".HTM"])
+def test_only_a_page_of_html_is_saved_under_the_name_of_one(form, kind, suffix, ending, tmp_path):
+    impact = col.linear_central(A, B, 0.1)
+    said = f"path ends in {ending}, but this page is {kind}, not HTML; write save({str(tmp_path / f'v1.2{suffix}')!r})"
+    for make in (col.explain, col.report) if form == "markdown" else (col.explain,):
+        page = make(impact, form=form)
+        with pytest.raises(col.InputError, match=re.escape(said)) as refused:
+            page.save(str(tmp_path / f"v1.2{ending}"))
+        assert refused.value.code == "bad_option"
+        assert not list(tmp_path.iterdir())
+    assert col.report(impact, figures=False).save(tmp_path / f"v1.2{ending}").is_file()
 
 
 def test_a_vehicle_named_by_its_letter_is_not_named_twice():

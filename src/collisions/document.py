@@ -7,6 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from .errors import InputError
+
 
 class Document(str):
     """The text of a page: a ``str`` that a notebook shows as the page it is, and that ``save`` writes to a file.
@@ -30,7 +32,7 @@ class Document(str):
         Parameters
         ----------
         path : str or path
-            An existing file is replaced.
+            An existing file is replaced. Only a page of HTML takes a name that ends in .html or .htm.
 
         Returns
         -------
@@ -38,10 +40,20 @@ class Document(str):
 
         Raises
         ------
+        InputError
+            The name is that of a page of HTML, and this is none.
         OSError
             The file cannot be written.
         """
         target = Path(path)
+        kind, suffix = {"html": ("HTML", ".html"), "markdown": ("Markdown", ".md")}.get(self.form, ("plain text", ".txt"))
+        if self.form != "html" and target.suffix.lower() in (".html", ".htm"):
+            instead = str(target.with_suffix(suffix))
+            raise InputError(
+                f"path ends in {target.suffix}, but this page is {kind}, not HTML; write save({instead!r})",
+                code="bad_option",
+                argument="path",
+            )
         try:
             target.write_text(self, encoding="utf-8", newline="\n")
         except FileNotFoundError as error:
@@ -49,7 +61,7 @@ class Document(str):
             text = f"there is no folder {folder!r}; make it first, by pathlib.Path({folder!r}).mkdir(parents=True), to save"
             raise FileNotFoundError(error.errno, text, str(target)) from None
         except IsADirectoryError as error:
-            text = f"this is a folder; name a file in it, such as {str(target / 'report.html')!r}, in place of"
+            text = f"this is a folder; name a file in it, such as {str(target / f'report{suffix}')!r}, in place of"
             raise IsADirectoryError(error.errno, text, str(target)) from None
         return target
 
