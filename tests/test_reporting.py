@@ -1370,3 +1370,58 @@ def test_each_vehicle_has_one_table_and_the_evidence_is_not_called_stated():
     )
     (row,) = [row for row in rows(text) if row[0] == "log evidence"]
     assert "stated" not in row[1]
+
+
+def published(impact, what):
+    """The published values that a page has beside one of its inputs."""
+    page = report(impact, form="markdown")
+    return re.findall(rf"\| \w+ \| {what} published [^|]* \| ([^|]*) \|", page), page
+
+
+def test_the_published_drag_stands_beside_the_drag_with_its_source(impacts):
+    """The manual of Baker, travelled dry asphalt: 0.60 to 0.80 below 30 mph, 0.55 to 0.70 above."""
+    impact = impacts["eccentric"]
+    found, page = published(impact, "drag")
+    text = "0.6 to 0.8 below 30 mph, 0.55 to 0.7 from there on (Baker, Traffic Accident Investigation Manual)"
+    assert found == [text]
+    assert "| contact | drag of the tyres taken | 0.7 |" in page
+    assert "drag published for locked wheels on travelled dry asphalt" in page
+    assert "For comparison with the drag: drag factor, travelled dry asphalt, above 30 mph; Baker" in page
+    place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=2.2, y=0.0, heading=0.0)
+    followed = col.time_resolved(a, b, 0.1, **place, duration="100 ms", drag=0.7, geometry="fixed")
+    assert published(followed, "drag")[0] == [text]
+
+
+def test_each_published_restitution_has_its_source():
+    """By the closing speed: nothing below 2 mph, the fit up to 15 mph, a rule and tests above."""
+    for speed, source in {
+        "1 mph": "none: no value is published for so low a speed",
+        "3 mph": "0 to 0.54 (Cipriani and others, SAE 2002-01-0540, plus half the range of SAE 931842)",
+        "40 mph": "0 to 0.3 (EDCRASH manual, to 0.25; tests, to 0.253; rounded up)",
+    }.items():
+        impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1500.0), 0.2)
+        assert published(impact, "restitution")[0] == [source]
+
+
+def test_notes_stand_beside_drag_duration_outlines_and_law():
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=2.2, y=0.0, heading=0.0)
+    place = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+    impact, outline = col.eccentric(a, b, 0.1, **place), ("4.2 m", "1.8 m")
+    notes = {"drag": "Measured.", "duration": "Of the recorder.", "outline_a": "By the maker.", "law": "The usual one."}
+    page = report(impact, form="markdown", outline_a=outline, notes=notes)
+    assert "| contact | duration taken | 0.1 s. Of the recorder. |" in page
+    assert "| contact | drag of the tyres taken | 0.7. Measured. |" in page
+    assert "- **Outline of A:** 4.2 m long and 1.8 m wide, about the centre of mass. By the maker.\n" in page
+    assert "| contact | law of restitution and no slip | Brach. The usual one. |" in page
+    assert report(replay(page), **options(page)) == page
+    with pytest.raises(col.InputError, match="'outline_b', which is no input of this page"):
+        report(impact, outline_a=outline, notes={"outline_b": "By the maker."})
+    followed = col.time_resolved(a, b, 0.1, **place, duration="100 ms", drag=0.7, geometry="fixed")
+    page = report(followed, form="markdown", notes={"drag": "Measured.", "duration": "Of the recorder."})
+    assert re.search(r"\| nominal duration \| [^|]*100 ms\. Of the recorder\. \|", page)
+    assert "| drag of the tyres | 0.7. Measured. |" in page
+    with pytest.raises(col.InputError, match="'law', which is no input of this page"):
+        report(followed, notes={"law": "None here."})

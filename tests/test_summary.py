@@ -237,10 +237,14 @@ def test_a_note_stands_beside_its_input_and_comes_back_with_the_record():
 
 
 def test_published_values_stand_beside_restitution_and_friction():
-    """Above 15 mph no published restitution is higher than 0.3; friction by McHenry, 0.3 to 1."""
+    """Above 15 mph no published restitution is higher than 0.3; friction by McHenry, 0.3 to 1; each with its source."""
     page = col.report(crash(), form="markdown", units="us")
-    assert "| contact | restitution published for such a closing speed | 0 to 0.3 |" in page
-    assert "| contact | friction published between vehicle bodies | 0.3 to 1, typically 0.55 |" in page
+    assert (
+        "| contact | restitution published for such a closing speed | 0 to 0.3 (EDCRASH manual, to 0.25; tests, to 0.253; rounded up) |"
+        in page
+    )
+    friction = "0.3 to 1, typically 0.55 (McHenry and McHenry, SAE 970947)"
+    assert f"| contact | friction published between vehicle bodies | {friction} |" in page
     assert "For comparison with the friction: inter-vehicle friction; McHenry" in page
     assert "friction published" not in col.report(crash(friction=0.0), form="markdown")
     assert "| A (Camry) | delta-V forward | -20.0 mph |" in page

@@ -109,7 +109,8 @@ def report(
         A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
     notes : str, dict or sequence of these, optional
         Your own words, each in a paragraph of its own; or by input, beside which they stand, such as where its value is from:
-        ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``.
+        ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``. So may "duration", "drag", "law" and the
+        outlines that are given, "outline_a" and "outline_b".
     figures : bool
         Whether to draw. They need matplotlib; where it is missing the report says so and goes on.
     derivation : bool
@@ -161,7 +162,7 @@ def report(
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, evidence, by_input)
         found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
-        sections.assumptions(sheet, impact, found, outlines, options["limits"])
+        sections.assumptions(sheet, impact, found, outlines, options["limits"], by_input)
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
         sections.gain(sheet, impact, impact.translational_energy_loss)
@@ -222,8 +223,12 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     parts = notes if isinstance(notes, (list, tuple)) else [notes] if isinstance(notes, (str, Mapping)) else []
     paragraphs = [part for part in parts if not isinstance(part, Mapping)]
     beside = {name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()}
-    for name in [name for name in beside if name not in inputs_of(impact)]:
-        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(inputs_of(impact))}")
+    # Of an impulse duration and drag are no inputs, but options of the page, as the outlines are.
+    own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
+    own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
+    known = list(dict.fromkeys([*inputs_of(impact), *own]))
+    for name in [name for name in beside if name not in known]:
+        refuse("notes", f"notes has {shown(name)}, which is no input of this page; they are {', '.join(known)}")
     texts = [] if title is None else [("title", title)]
     for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
         if not isinstance(text, str) or not plain(text):
@@ -269,6 +274,7 @@ def inputs_of(impact: Impact | MomentumSolution | Fit | Posterior) -> list[str]:
         found = [sections.key_of(of, names) for of, _, names, _, _ in impact_inputs(impact)]
         for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
             found += [f"{label}.{name}" for name, _ in sections.speed_rows(vehicle)]
+        found += [] if impact.law is None or impact.model in ("linear_central", "time_resolved") else ["law"]
         return [*found, *(impact.inputs.given or {}).keys() - set(found)]
     rows = momentum_inputs(impact) if isinstance(impact, MomentumSolution) else ()
     return [name.partition("[")[0] for _, _, name, _, _ in rows]

@@ -62,6 +62,8 @@ _RANGE = (
     reference.RESTITUTION_OBLIQUE,
     reference.RESTITUTION_SMALL_OVERLAP,
 )
+# Below and above 30 mph.
+_DRAG = tuple(value for value in reference.DRAG_FACTORS if value.name.startswith("drag factor, travelled dry asphalt,"))
 
 
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
@@ -92,7 +94,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
                 text = plain(texts[what]) if number is None else _as_text(sheet, what, number, texts)
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
-        rows.append(("contact", "law of restitution and no slip", impact.law.title()))
+        rows.append(("contact", "law of restitution and no slip", _with(impact.law.title(), notes.get("law"))))
     rows += _damage(sheet, evidence)
     sheet.table(rows)
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
@@ -118,13 +120,36 @@ def _with(value: str, note: str | None) -> str:
 
 
 def _published(impact: Impact, name: str) -> Iterator[tuple[str, str]]:
-    """Rows of published values beside a restitution or a friction."""
+    """Rows of published values, with their source, beside a restitution, a friction or a drag."""
     if name == "restitution":
-        low, high = reference.restitution_range(impact.closing_speed)
-        yield "restitution published for such a closing speed", f"{low:.2g} to {high:.2g}"
+        yield "restitution published for such a closing speed", _restitution(impact.closing_speed)
+    elif name == "drag":
+        below, above = (f"{value.low:g} to {value.high:g}" for value in _DRAG)
+        text = f"{below} below 30 mph, {above} from there on ({_short(_DRAG[0])})"
+        yield "drag published for locked wheels on travelled dry asphalt", text
     elif name == FRICTION and 0.0 < impact.inputs.rule_value < math.inf:
         found = reference.INTER_VEHICLE_FRICTION
-        yield "friction published between vehicle bodies", f"{found.low:g} to {found.high:g}, typically {found.typical:g}"
+        text = f"{found.low:g} to {found.high:g}, typically {found.typical:g} ({_short(found)})"
+        yield "friction published between vehicle bodies", text
+
+
+def _restitution(closing_speed: float) -> str:
+    """The published range of the restitution at a closing speed, and what it is from."""
+    low, high = reference.restitution_range(closing_speed)
+    slowest, fastest, _ = reference.RESTITUTION_FIT.ranges["closing_speed"]
+    if closing_speed < slowest:
+        return "none: no value is published for so low a speed"
+    if closing_speed <= fastest:
+        whence = f"{_short(reference.RESTITUTION_FIT)}, plus half the range of {_short(reference.RESTITUTION_LOW_SPEED)}"
+    else:
+        rule, tests = reference.RESTITUTION, (reference.RESTITUTION_OBLIQUE, reference.RESTITUTION_SMALL_OVERLAP)
+        whence = f"{_short(rule)}, to {rule.high:g}; tests, to {max(test.high for test in tests):g}; rounded up"
+    return f"{low:.2g} to {high:.2g} ({whence})"
+
+
+def _short(value: reference.Published | reference.Fit) -> str:
+    """Author and work of a source, short enough for a table."""
+    return re.split(r", as |, chapter|, abstract| \(", value.source)[0]
 
 
 def _input(
@@ -264,7 +289,12 @@ def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, st
 
 
 def assumptions(
-    sheet: Sheet, impact: Impact, found: LeftOut | None, outlines: Mapping[str, Any], limits: Mapping[str, Any] | None
+    sheet: Sheet,
+    impact: Impact,
+    found: LeftOut | None,
+    outlines: Mapping[str, Any],
+    limits: Mapping[str, Any] | None,
+    notes: Mapping[str, str],
 ) -> None:
     """Write the model and its law, the conventions, and numbers for what an impulse neglects, or how the contact passed."""
     sheet.heading("Assumptions")
@@ -290,9 +320,8 @@ def assumptions(
         lines.append(("Impulse:", instant))
     lines.append(("Axes:", "x and y lie in the road plane; angles and yaw are positive counter-clockwise, seen from above."))
     for label, corners in outlines.items():
-        lines.append(
-            (f"Outline of {label.upper()}:", f"{_outline(sheet, [(float(ahead), float(left)) for ahead, left in corners])}.")
-        )
+        outline = _outline(sheet, [(float(ahead), float(left)) for ahead, left in corners])
+        lines.append((f"Outline of {label.upper()}:", f"{outline}. {notes.get(f'outline_{label}', '')}".rstrip()))
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append((f"Limit of {label_of(code)}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
@@ -308,6 +337,9 @@ def assumptions(
     if impact.complete:
         crush = sheet.system.answer(float(found.mutual_crush), "length")
     rows = [
+        ("contact", "duration taken", _with(time, notes.get("duration"))),
+        ("contact", "drag of the tyres taken", _with(drag, notes.get("drag"))),
+        *(("contact", what, text) for what, text in _published(impact, "drag")),
         ("contact", "maximum mutual crush", crush),
         ("contact", "sliding along the contact", sheet.system.answer(float(found.contact_slide), "length")),
     ]
@@ -453,6 +485,7 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
         values += [("friction", reference.INTER_VEHICLE_FRICTION)] * any(True for _ in _published(impact, impact.inputs.rule))
+        values += [("drag", value) for value in _DRAG if impact.pulse is None or impact.inputs.drag is not None]
         lines += [f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}" for what, value in values]
     for finding in found:
         for name in re.findall(r"reference\.(\w+)", finding.source):
