@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A chain of three cars, front to back
 #
-# The rear car runs into the middle one, and that into the front one, which stands; the state of a car after one impact is its
-# state before the next, until no car catches up with another. Two scenes differ in nothing but the gaps: these decide the
-# order of the impacts, and the order decides who is struck from which side, and how hard.
+# The rear car runs into the middle car, and the middle car into the front car, which is standing. The state of a car after one
+# impact is its state before the next, until no car catches up with another. The two scenes differ only in the gaps between the
+# cars. The gaps decide the order of the impacts, and the order decides which car is struck from which side, and how hard.
 
 # %%
 import itertools
@@ -18,7 +18,7 @@ LENGTH = 4.4
 
 
 def chain(cars, restitution):
-    """Let cars in line roll and collide: times and places, impacts, cars at the end."""
+    """Let cars in line roll and collide: times and positions, impacts, final cars."""
     clock, track, impacts = 0.0, [(0.0, [car.x for car in cars])], []
     while True:
         # How long each car needs to reach the one ahead of it.
@@ -39,7 +39,7 @@ def chain(cars, restitution):
 
 
 def row(behind, ahead):
-    """The three before, front car at 0, by the gaps behind and ahead of the middle."""
+    """The three cars before, front car at 0, for the gaps behind and ahead of the middle."""
     middle = -LENGTH - ahead
     rear = middle - LENGTH - behind
     return [
@@ -55,8 +55,8 @@ def row(behind, ahead):
 # %% [markdown]
 # ## The same speeds, two orders
 #
-# The rear car at 60 km/h, the middle one at 30 km/h, the front one standing, restitution 0.2. Nobody brakes. A delta-V is
-# positive forward.
+# The rear car travels at 60 km/h and the middle one at 30 km/h; the front one is standing. The restitution is 0.2, and nobody
+# brakes. A delta-V is positive forward.
 
 # %%
 SCENES = {
@@ -78,9 +78,9 @@ for label, (track, impacts, cars) in played.items():
     print(f"after: {speeds}\n")
 
 # %% [markdown]
-# With the gap ahead, the middle car is first thrown forward and then slowed by its hardest impact, which is also the hardest
-# for the front car. With the gap behind, it is first slowed, and its hardest impact comes from behind. The speeds at the end
-# are nearly the same, so they do not tell which it was.
+# With the larger gap ahead of it, the middle car is first thrown forward and then slowed by its hardest impact, which is also
+# the hardest for the front car. With the larger gap behind it, the middle car is first slowed, and its hardest impact comes
+# from behind. The final speeds are nearly the same in both scenes, so they do not tell which order it was.
 
 # %%
 figure, axes = plt.subplots(2, 1, figsize=(7, 9), sharex=True, layout="constrained")
@@ -102,7 +102,7 @@ axes[0].legend(loc="lower right")
 axes[1].set_xlabel("time [s] (dotted: an impact)")
 
 # %% [markdown]
-# The momenta of the impact with the highest closing speed. In the picture A is the striking car and B the struck one:
+# The momenta in the impact with the highest closing speed. In the picture, A is the striking car and B the struck one:
 
 # %%
 every = [impact for _, impacts, _ in played.values() for impact in impacts]
@@ -111,14 +111,14 @@ plot.momentum(max(every, key=lambda impact: impact.closing_speed), units="metric
 # %% [markdown]
 # ## Checks
 #
-# - Every impact leaves the momentum of the three as it was, and the three lose in energy what the impacts lose.
-# - Between impacts and through them the common centre of mass goes on at one speed.
-# - Equal cars, elastic, two standing: the last one takes all the speed (Newton's cradle).
-# - Cambridge Pre-U 9794/3, question 10 (a.simonm.io/questions?module=Pre-U+9794%2F3): particles of 1, 2 and 5 kg a metre apart,
-#   restitution 0.5, the first at 14 m/s. One is to show that the first comes to rest and that the second turns back from the
-#   third. By hand, it comes back at 0.5 m/s, and the third leaves at 3 m/s.
+# - The total momentum of the three cars is unchanged, and their kinetic energy falls by what the impacts lose.
+# - Between impacts and through them, the common centre of mass moves on at one speed.
+# - With equal cars, elastic impacts and two cars standing, the last car takes all the speed (Newton's cradle).
+# - Cambridge Pre-U 9794/3, question 10 (a.simonm.io/questions?module=Pre-U+9794%2F3): particles of 1, 2 and 5 kg are a metre
+#   apart, the restitution is 0.5, and the first moves at 14 m/s. The candidate is to show that the first comes to rest and that
+#   the second rebounds from the third. Worked by hand, the second comes back at 0.5 m/s, and the third leaves at 3 m/s.
 #
-# A handful of impacts, each with a few roundings of 1e-16: 1e-13 of the whole leaves room.
+# There are only a handful of impacts, each with a few rounding errors of 1e-16, so 1e-13 of the whole leaves room.
 
 # %%
 for label, (track, impacts, after) in played.items():
