@@ -1,13 +1,13 @@
 # %% [markdown]
 # # Types of collision at crossroads
 #
-# Four ways in which two cars meet at crossroads, the subject of the paper's figure 8: from the side, corner to corner, merging,
-# and turning left across the oncoming lane. The cars and their speeds are the same in all four; the closing speed along the
-# line of impact makes the difference, and whether the contact slips.
+# Two cars meet at crossroads in four ways, the subject of the paper's figure 8: from the side, corner to corner, merging, and
+# turning left across the oncoming lane. The cars and their speeds are the same in all four. What makes the difference is the
+# closing speed along the line of impact, and whether the contact slips.
 #
 # "Application of Impulse Momentum Theory to Vehicle Collisions" solves such cases as oblique central impacts: the line of
-# impact goes through both centres of mass, so neither car turns. The places and speeds here are ours. What an impact beside
-# the centre of mass adds is in "Types of eccentric collision".
+# impact goes through both centres of mass, so neither car turns. The positions and speeds here are ours. "Types of eccentric
+# collision" shows what changes when the impulse passes to one side of the centre of mass.
 
 # %%
 import math
@@ -34,7 +34,7 @@ A = col.Vehicle(mass="1500 kg", vx="50 km/h", x=0.0, y=0.0, heading="0 deg", nam
 
 
 def collide(kind, restitution, friction):
-    """A goes east through the origin; the normal is along the centres, from A to B."""
+    """A goes east through the origin; the normal runs from centre to centre, A to B."""
     course, (x, y) = f"{COURSES[kind]} deg", PLACES[kind]
     b = col.Vehicle.from_speed(mass="1200 kg", speed="40 km/h", course=course, name="B")
     b = b.replace(x=x, y=y, heading=course)
@@ -44,8 +44,8 @@ def collide(kind, restitution, friction):
 # %% [markdown]
 # ## One pair of cars, four collisions
 #
-# Restitution 0.1. Frictionless is the paper's contact, which leaves the velocity along the contact as it was. In the other half
-# of the table the contact does not slip at separation. A real contact is between the two: `friction=0.5`, say.
+# The restitution is 0.1. The paper's contact is frictionless, and leaves the velocity along the contact unchanged. In the other
+# half of the table the contact is not slipping at separation. A real contact lies between the two: `friction=0.5`, say.
 
 # %%
 print(
@@ -69,8 +69,8 @@ for kind in COURSES:
     print(f"{kind:<16}{closing:>8.1f}{slip:>7.1f}{cells}")
 
 # %% [markdown]
-# The same 50 and 40 km/h are a light touch when merging and a violent collision when turning left. Delta-V follows the closing
-# speed while the contact is frictionless. Without slip the speed along the contact counts as well.
+# The same 50 and 40 km/h make a light touch when merging and a violent collision when turning left. Delta-V follows the closing
+# speed if the contact is frictionless. If it does not slip, the speed along the contact counts as well.
 
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
@@ -82,16 +82,16 @@ for kind, ax in zip(COURSES, axes.flat, strict=True):
 # %% [markdown]
 # ## Checks
 #
-# - Frictionless: an impulse of (1 + e) times the reduced mass times the closing speed, and no change of speed along the contact
-#   (eqs 5, 6 and 9 of the paper).
-# - Plastic and without slip: both leave with one velocity, their total momentum over their total mass, and what is lost is
-#   half the reduced mass times the square of the relative velocity. Textbooks call them locked together.
+# - Frictionless: the impulse is (1 + e) times the reduced mass times the closing speed, and the speed along the contact does
+#   not change (eqs 5, 6 and 9 of the paper).
+# - Plastic and without slip, which textbooks call locked together: both cars leave with one velocity, their total momentum over
+#   their total mass, and the energy lost is half the reduced mass times the square of the relative velocity.
 # - OpenStax, University Physics volume 1, section 9.5, "Traffic Collision": a car of 1200 kg going east at 60 km/h and a truck
-#   of 3000 kg going north at 40 km/h lock together and leave with 9.25 m/s, 33.3 km/h, in a direction of 59 degrees. The text
-#   calls that east of north. It is north of east, by the speeds of 4.76 m/s east and 7.93 m/s north that it prints.
+#   of 3000 kg going north at 40 km/h lock together and leave at 9.25 m/s, or 33.3 km/h, in a direction of 59 degrees. The text
+#   calls this east of north; by the components it prints, 4.76 m/s east and 7.93 m/s north, it is north of east.
 #
-# A few roundings of 1e-16 each stay below 1e-13 of the speeds. The book rounds on the way, to 0.01
-# m/s; its last digits are met to half a unit in km/h and degrees.
+# A few rounding errors of 1e-16 each stay below 1e-13 of the speeds. The book rounds its intermediate results to 0.01 m/s; its
+# figures in km/h and degrees are met to half a unit of the last digit.
 
 # %%
 for kind in COURSES:
