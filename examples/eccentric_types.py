@@ -79,9 +79,9 @@ for kind in TYPES:
 
 # %% [markdown]
 # Struck ahead of its centre of mass, B turns to the right without friction, and to the left with friction, because its side
-# drags along the front of A. Struck on the rear wing, B is turned the same way by its lever arm and by friction. In both cases
-# only friction turns A, because the normal goes through A's centre of mass. In the two half-width collisions, friction takes
-# most of the rotation away.
+# drags along the front of A. Struck on the rear wing, B is turned the same way by the normal impulse and by friction. In both
+# cases only friction turns A, because the normal goes through A's centre of mass. In the two half-width collisions, friction
+# takes most of the rotation away.
 
 # %%
 figure, axes = plt.subplots(4, 1, figsize=(7, 22), layout="constrained")
