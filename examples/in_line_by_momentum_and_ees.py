@@ -1,8 +1,8 @@
 # %% [markdown]
-# # In line, by momentum and EES
+# # In-line collisions by momentum and EES
 #
-# When the vehicles come along one line, momentum alone cannot tell their speeds apart. The energy of the damage can: its energy
-# equivalent speeds (EES) say how fast the vehicles closed, momentum says how the speed was shared.
+# When the vehicles approach along one line, momentum alone cannot tell their speeds apart. The energy of the damage can: the
+# energy equivalent speeds (EES) say how fast the vehicles closed, and momentum says how the speed was shared between them.
 
 # %%
 import math
@@ -24,8 +24,8 @@ def check(label, ours, expected, within):
 # %% [markdown]
 # ## A rear-end collision: TAR Origin, inline problem 1
 #
-# A car of 3000 lb runs into the back of one of 4000 lb that stands; together they slide 66 ft on a surface of 0.65
-# (tarorigin.com/aangles/Inline). The run-out gives the common speed, momentum the impact speed.
+# A car of 3000 lb runs into the back of a standing car of 4000 lb, and together they slide 66 ft with a drag factor of 0.65
+# (tarorigin.com/aangles/Inline). The run-out gives the common speed, and momentum gives the impact speed.
 
 # %%
 together = travel.speed("66 ft", drag=0.65)
@@ -40,12 +40,13 @@ print(
 print(f"energy lost {stood.energy_loss / 1000:.0f} kJ")
 
 # %% [markdown]
-# ### If nobody knew that it stood
+# ### If nobody knew that the struck car was standing
 #
-# Then the damage has to tell. The following EES are invented: 52 mph for the striking car and 31 mph for the struck one, each
-# uncertain by 10 percent. After a plastic impact the energy absorbed is all dissipated, so it may be given as `energy_loss`.
-# With restitution a part of what was absorbed comes back; `speeds` and `inline_closing_speed` take `ees_a=` and `ees_b=` by ISO
-# 12353, as energy that is gone, and `max_crush_speed_a=` and `max_crush_speed_b=` for the energy at maximum crush.
+# Then the damage has to tell. The EES used here are invented: 52 mph for the striking car and 31 mph for the struck one, each
+# uncertain by 10 percent. In a plastic impact all the energy absorbed is dissipated, so it may be given as `energy_loss`. With
+# restitution, part of what was absorbed comes back. `speeds` and `inline_closing_speed` therefore take `ees_a=` and `ees_b=`,
+# the EES of ISO 12353, for the energy dissipated, and `max_crush_speed_a=` and `max_crush_speed_b=` for the energy at maximum
+# crush.
 
 # %%
 mass_a, mass_b = stood.a.before.mass, stood.b.before.mass
@@ -70,17 +71,17 @@ for label, (ees_a, ees_b) in EES.items():
     )
 
 # %% [markdown]
-# Ten percent of the EES is ten percent of the closing speed; here it decides whether the struck car stood.
+# Ten percent in the EES is ten percent in the closing speed; here it decides whether the struck car was standing.
 #
 # ## Head-on: Schreier and Nelson
 #
 # A VW Rabbit (880 kg) and a Mercedes 240 TD (1600 kg) met nearly head-on. The data are those of Schreier and Nelson, SAE
-# Transactions 96 (1987), as they stand in eeswebgl (github.com/boonich/eeswebgl): speeds and courses after, how far each car
-# turned, EES of 66 and 42 km/h. The results of the paper are not at hand; the figures compared with were worked out apart from
-# this library (case X01 of `validation/data/worked_examples.json`).
+# Transactions 96 (1987), as given in eeswebgl (github.com/boonich/eeswebgl): speeds and courses after the impact, the angle
+# through which each car turned, and EES of 66 and 42 km/h. The results in the paper are not at hand; the figures used for
+# comparison were worked out independently of this library (case X01 of `validation/data/worked_examples.json`).
 #
-# The damage was offset, so both cars kept going past each other. In the in-line model one would pass through the other, so it
-# refuses:
+# The damage was offset, so both cars kept going past each other. In the in-line model one would pass through the other, so the
+# library refuses the case:
 
 # %%
 RABBIT, MERCEDES = 880.0, 1600.0
@@ -100,13 +101,13 @@ except col.NoSolutionError as error:
     print(f"{error.code}: {error}")
 
 # %% [markdown]
-# Planar momentum holds, but the approach is within 4 degrees of one line. The Rabbit came along 0 degrees. The heading of the
-# Mercedes was 184 degrees, and that is only roughly its course. The library answers, and warns:
+# Planar momentum still applies, but the cars approached within 4 degrees of one line. The course of the Rabbit was 0 degrees.
+# The heading of the Mercedes was 184 degrees, and that is only roughly its course. The library answers, with a warning:
 
 
 # %%
 def with_course(degrees):
-    """Both speeds before for a course of the Mercedes, and what was warned of."""
+    """The speeds before, for a course of the Mercedes, and the warnings given."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         found = reconstruct.momentum(
@@ -126,11 +127,12 @@ _, warned = with_course(184.0)
 print(f"{warned[0].code}: {warned[0]}")
 
 # %% [markdown]
-# The energy decides. Before, neither car turned, so what the translation lost went into the damage and into the rotation. The
-# source takes EES as dissipated, and has the rotation from the angle $\varphi$ turned to rest: the tyres rub with the friction
-# $\mu$ at half the wheelbase $l$, so $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and
-# $I = 0.1269\,m\,l\,L$ for a length $L$. It treats turning and sliding as separate; `travel.path` takes them together, where
-# positions along the path are known. Which course of the Mercedes has that energy?
+# The energy decides. Neither car was turning before the impact, so the energy lost in translation went into damage and
+# rotation. The source takes the EES for the energy dissipated, and finds the rotation from the angle $\varphi$ turned before
+# coming to rest: the tyres rub with the friction $\mu$ at half the wheelbase $l$, so
+# $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and $I = 0.1269\,m\,l\,L$ for a car of length $L$. It
+# treats turning and sliding as separate; `travel.path` takes them together, where positions along the path are known. Which
+# course of the Mercedes gives that energy?
 
 
 # %%
@@ -149,7 +151,7 @@ wanted = damage + energy_a + energy_b
 
 
 def course_with(energy):
-    """The course of the Mercedes, by halving: less is lost further from the line."""
+    """The course of the Mercedes, by bisection: less is lost further from the line."""
     low, high = 182.5, 190.0
     for _ in range(50):
         middle = 0.5 * (low + high)
@@ -176,16 +178,17 @@ for share in (0.9, 1.0, 1.1):
         head_on = degrees, solution
 
 # %% [markdown]
-# Ten percent of the energy changes the speeds far less than a degree of course does in the table above. That the course found
-# is within a quarter of a degree of the heading of the Mercedes speaks for the data.
+# Ten percent of the energy changes the speeds far less than a degree of course does in the table above. The course found is
+# within a quarter of a degree of the heading of the Mercedes, which speaks for the data.
 #
 # ## Checks
 #
-# - With 30 for the constant, as in US worksheets, TAR Origin has a common speed of 35.8748 mph and an impact speed of 83.7078
-#   mph; with standard gravity it is 29.914, a known factor for both, so they are met to the last of six digits.
-# - Plastic and in line: EES through `inline_closing_speed` and through the energy must have the same closing speed, up to
-#   rounding.
-# - Case X01 to its printed digits.
+# - TAR Origin uses the constant 30 of US worksheets, and has a common speed of 35.8748 mph and an impact speed of 83.7078 mph.
+#   With standard gravity the constant is 29.914. The difference is a known factor for both speeds, so they are met to the last
+#   of six digits.
+# - In a plastic in-line impact, the EES must give the same closing speed through `inline_closing_speed` and through the energy,
+#   up to rounding.
+# - Case X01 agrees to its printed digits.
 
 # %%
 US_SHEET = math.sqrt(30 / (2 * travel.GRAVITY * 0.3048 / MPH**2))
