@@ -1,12 +1,12 @@
 # %% [markdown]
 # # A million cases
 #
-# A rear-end impact of which every input is known with an error, drawn a million times and solved in one call. This example
-# shows what becomes of the cases that have no answer, how long a case takes, and that `uncertainty.propagate` gets there with
-# fewer.
+# Every input of a rear-end impact is uncertain. The inputs are drawn a million times, and all the cases are solved in one call.
+# This example shows what becomes of the cases that have no answer, how long a case takes, and that `uncertainty.propagate` gets
+# there with fewer.
 #
-# **The scene is invented.** A runs into the back of B, up to 0.6 m beside the line, in traffic where either may have been
-# the faster.
+# **The scene is invented.** A runs into the back of B, offset by up to 0.6 m, in traffic where either car may have been the
+# faster.
 
 # %%
 import math
@@ -24,7 +24,7 @@ KMH = 1 / 3.6
 
 
 def crash(speed_a, speed_b, mass_a, mass_b, offset, restitution, friction, **options):
-    """A behind B and a little beside it; numbers or arrays, in SI."""
+    """A behind B with a small offset to one side; numbers or arrays, in SI."""
     place_a = {"x": -2.2, "y": offset, "heading": 0.0}
     place_b = {"x": 2.1, "y": 0.0, "heading": 0.0}
     a = col.Vehicle(
@@ -40,7 +40,7 @@ def crash(speed_a, speed_b, mass_a, mass_b, offset, restitution, friction, **opt
 # %% [markdown]
 # ## Draw
 #
-# With a seed, so that others get the same million. Bare arrays are SI, which also saves reading a text at every call.
+# The seed lets others draw the same million. Bare arrays are in SI, which also saves parsing text at every call.
 
 # %%
 rng = np.random.default_rng(seed=8)
@@ -57,8 +57,8 @@ drawn = {
 # %% [markdown]
 # ## Solve
 #
-# `progress` takes a function, or `True` for a bar. `on_failure="nan"` says that refused cases are expected; without it one
-# warning would count them. `threads=2` would use two cores.
+# `progress` takes a function, or `True` for a bar. `on_failure="nan"` says that refused cases are expected; without it, a
+# single warning would give their number. `threads=2` would use two cores.
 
 
 # %%
@@ -90,8 +90,8 @@ print(
 # %% [markdown]
 # ## Cases without an answer
 #
-# They are NaN in every answer, and `status` says why. To leave them out is to say that they cannot have happened. Here that is
-# true: the impact did happen, so A was the faster, and no restitution is negative.
+# Such a case is NaN in every answer, and `status` says why. To leave these cases out is to say that they cannot have happened.
+# Here that is true: the impact did happen, so A was the faster, and restitution is never negative.
 
 # %%
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):
@@ -108,9 +108,9 @@ print(
 # %% [markdown]
 # ## The same by `propagate`
 #
-# It takes units, and draws points that are spread evenly, so that fewer are enough; `mean_standard_error` says how far the
-# mean may be off. `truncate=` cuts off what cannot be. The closing speed is not an input, so cases that separate remain, and
-# a warning counts them.
+# `propagate` takes units, and draws points that are spread evenly, so that fewer are enough; `mean_standard_error` says how far
+# off the mean may be. `truncate=` cuts off values that are impossible. The closing speed is not an input, so cases in which the
+# cars separate remain, and a warning gives their number.
 
 # %%
 known = {
@@ -149,13 +149,13 @@ legend = axes.legend(loc="upper right", fontsize="small")
 # %% [markdown]
 # ## Checks
 #
-# - Every one of the million conserves momentum, and angular momentum about the origin: some 1e4 in SI, to the rounding of
-#   such sums, which is below 1e-9.
-# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h: it is negative with the
-#   probability of falling below -2 standard deviations, 0.02275 in any table. So is the restitution. The count is within 4
-#   standard deviations of a binomial count.
-# - The mean closing speed of those that approach is that of a normal distribution cut off at 0, in closed form. It and the
-#   mean delta-V by `propagate` agree with the batch within 4 standard errors.
+# - Momentum, and angular momentum about the origin, are conserved in every case that has an answer. They are some 1e4 in SI,
+#   and the rounding error of such sums is below 1e-9.
+# - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h. It is negative if it falls
+#   more than 2 standard deviations below its mean, with a probability of 0.02275 in any table. The same goes for the
+#   restitution. The number of refused cases is within 4 standard deviations of a binomial count.
+# - The mean closing speed of the cases that approach is that of a normal distribution cut off at 0, in closed form. This mean,
+#   and the mean delta-V from `propagate`, agree with the batch within 4 standard errors.
 
 
 # %%
