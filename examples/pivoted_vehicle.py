@@ -1,11 +1,11 @@
 # %% [markdown]
 # # A struck vehicle that turns about a fixed point
 #
-# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its other end. This page
-# shows how to give a `pivot=`, how to read what the pivot takes, and what would change if B were free.
+# Example 3 of the paper: A strikes B at one end, and B can only turn about a fixed point O at its other end. This page shows
+# how to give a `pivot=`, how to read the impulse at the pivot, and what would change if B were free.
 #
-# The paper is "Application of Impulse Momentum Theory to Vehicle Collisions". A (900 kg, 60 km/h) does not turn. B (1000
-# kg) stands and is a uniform rod, 4 m long. The restitution of 0.80 is the paper's and far above anything measured: an
+# The paper is "Application of Impulse Momentum Theory to Vehicle Collisions". A (900 kg, 60 km/h) does not turn. B (1000 kg) is
+# a uniform rod 4 m long, and is standing. The restitution of 0.80 is the paper's and far above anything measured: this is an
 # exercise, not guidance.
 
 # %%
@@ -39,7 +39,7 @@ B = col.Vehicle(
 
 
 def struck(b, height=LENGTH):
-    """A against B at a height above O: an array of heights for many impacts."""
+    """A strikes B at a height above O; give an array of heights for many impacts."""
     a = A.replace(y=height)
     return col.eccentric(
         a, b, RESTITUTION, normal="0 deg", point=(0.0, height), friction=0.0
@@ -55,12 +55,12 @@ axes = plot.scene(
 # ## The inertia
 #
 # `yaw_inertia` is always about the centre of mass: here m L²/12. The paper calls this 1333 kg m² "about O", which is a
-# misprint, for it then adds 1000 · 2² and goes on with the right 5333 kg m². The library adds that part itself. Do not give
-# the sum.
+# misprint, because it then adds 1000 · 2² and goes on with the correct 5333 kg m². The library adds that term itself, so do not
+# give the sum.
 #
-# ## What the pivot takes, and what if there were none
+# ## The impulse at the pivot, and B without a pivot
 #
-# The pivot gives an impulse of its own, so the momentum of A and B together is not conserved; the angular momentum about O
+# The pivot exerts an impulse of its own, so the momentum of A and B together is not conserved; their angular momentum about O
 # is.
 
 # %%
@@ -80,12 +80,12 @@ for label, paper, unit, read in (
     )
 
 # %% [markdown]
-# The paper prints the size of the yaw rate; counter-clockwise is positive here, and B turns clockwise. The paper's 8.55 is
+# The paper prints the magnitude of the yaw rate; here counter-clockwise is positive, and B turns clockwise. The paper's 8.55 is
 # truncated.
 #
-# The pivot pushes B the same way as A does: struck so far from O, a free B would have swung its other end backwards. Struck
-# nearer to O it is the other way round. Between them, at two thirds of the length, is the centre of percussion, where the
-# pivot takes nothing.
+# The pivot pushes B the same way as A does: struck so far from O, a free B would have swung its other end backwards. When B is
+# struck nearer to O, the pivot pushes the other way. In between, at two thirds of the length, is the centre of percussion,
+# where the pivot takes no impulse.
 
 # %%
 heights = np.linspace(0.5, LENGTH, 200)
@@ -105,17 +105,17 @@ axes.set(
 legend = figure.legend(loc="outside lower center", ncols=3)
 
 # %% [markdown]
-# So a pivot that is assumed where there is none, or forgotten where a wheel stood against a kerb, is no small matter. What it
-# had to take says whether it could have held.
+# To assume a pivot where there was none, or to forget one where a wheel stood against a kerb, is therefore no small matter. The
+# impulse that the pivot had to take says whether it could have held.
 #
 # ## Checks
 #
-# - The printed figures, to 1 in the last place, as one of them is truncated.
-# - The exact solution of the paper's equations (20) and (21): 405/74 rad/s and 950/111 m/s, to a few eps (1e-12).
-# - The momentum that A and B gained together came from the pivot; angular momentum about O is the same after as before.
-# - The pivot takes nothing at two thirds of the length, the centre of percussion of a rod that hangs by its end (in any
-#   textbook of mechanics). By the same rule a free rod struck at its end turns about the point at one third of its length,
-#   which stays where it is.
+# - The printed figures are met to 1 in the last place, as one of them is truncated.
+# - The exact solution of the paper's equations (20) and (21), 405/74 rad/s and 950/111 m/s, is met to a few eps (1e-12).
+# - The momentum that A and B gain together comes from the pivot; their angular momentum about O is the same after as before.
+# - The pivot takes nothing when B is struck at two thirds of its length, the centre of percussion of a rod that hangs by its
+#   end (see any textbook of mechanics). By the same rule a free rod struck at its end turns about the point one third of its
+#   length from the other end, which stays where it is.
 
 # %%
 turn, va = pinned.b.after.yaw_rate, pinned.a.after.vx
