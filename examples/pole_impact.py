@@ -1,12 +1,12 @@
 # %% [markdown]
 # # A car slides sideways into a pole
 #
-# A car that has lost its grip slides with its right side into a pole, off its centre of mass, and turns about it. This
-# example shows how to give a fixed body, and that the distance off centre decides how much of the speed becomes delta-V and how
-# much rotation.
+# A car that has lost its grip slides sideways. A pole strikes its right side, away from the centre of mass, and the car turns
+# about the pole. This example shows how to model a fixed body, and that the distance off centre decides how much of the speed
+# becomes delta-V and how much becomes rotation.
 #
-# **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its place is only needed to draw it:
-# the contact point and the normal say all that the impact has to know.
+# **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its position is needed only to draw it: the
+# contact point and the normal are all that the solver has to know.
 
 # %%
 import math
@@ -18,7 +18,7 @@ import collisions as col
 from collisions import plot
 
 RADIUS = 0.15  # m, of the pole
-DENTED = 0.65  # m, from the centre of mass to the side of the car where it is dented
+DENTED = 0.65  # m, from the centre of mass to the dented side of the car
 POLE = col.Vehicle.barrier(x=0.0, y=0.0, heading=0.0, name="pole")
 CAR = col.Vehicle(
     mass="1400 kg",
@@ -51,8 +51,8 @@ axes = plot.scene(
 # %% [markdown]
 # ## Off centre
 #
-# The further off, the less mass stands behind the contact (`effective_mass`), and the more of the speed goes on as rotation
-# and as motion. The energy lost, which dents the car, falls too.
+# The further off centre the pole, the less mass stands behind the contact (`effective_mass`), and the more of the speed goes on
+# as rotation and as motion. The energy lost, which dents the car, falls too.
 
 # %%
 print(
@@ -73,7 +73,8 @@ for ahead in (0.0, 0.45, 0.9, 1.35, 1.8):
 # %% [markdown]
 # ## Along the whole side
 #
-# One call for all places of the pole. The thin lines are at the radius of gyration, the root of yaw inertia over mass.
+# One call solves all positions of the pole. The thin lines are at the radius of gyration, the square root of yaw inertia over
+# mass.
 
 # %%
 gyration = math.sqrt(CAR.yaw_inertia / CAR.mass)
@@ -98,18 +99,18 @@ for chart in (left, right):
 legend = figure.legend(loc="outside lower center", ncols=3)
 
 # %% [markdown]
-# Without friction the car turns fastest where the pole is off by just the radius of gyration, and delta-V is there half of
-# what it is at the centre. Here the place of the pole is worth more care than the friction or the restitution.
+# Without friction the car turns fastest when the pole is off centre by exactly the radius of gyration, and delta-V there is
+# half of what it is at the centre. Here the position of the pole deserves more care than the friction or the restitution.
 #
 # ## Checks
 #
-# Against formulas of mechanics, to a few eps (1e-12):
+# The results are compared with formulas of mechanics, to a few eps (1e-12):
 #
-# - Without friction, impulse = (1 + e) m v / (1 + d²/k²), with offset d and radius of gyration k. Yaw rate is (1 + e) v d /
-#   (k² + d²), so it is greatest at d = k.
+# - Without friction, the impulse is (1 + e) m v / (1 + d²/k²), with offset d and radius of gyration k. The yaw rate is (1 + e)
+#   v d / (k² + d²), so it is greatest at d = k.
 # - Held by the pole without any restitution, the car turns about it: angular momentum about the contact point is conserved,
-#   as the impulse has no lever there.
-# - What the car has lost in kinetic energy is the energy lost, for a pole does no work.
+#   because the impulse has no lever arm there.
+# - The energy lost is the kinetic energy that the car has lost, since a pole does no work.
 
 # %%
 e, v, k = 0.1, CAR.vx, gyration
