@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A large study over several processes
 #
-# A hundred thousand side impacts with drawn speeds, masses and contact points, solved in blocks by worker processes. Every
-# block is an ordinary batch: `executor.map` calls the solver itself on one pair of vehicles after the other. Workers look for
-# nothing in this file, so the same lines run in a script, in a notebook and where processes are started by spawn. At the end
+# A hundred thousand side impacts with drawn speeds, masses and contact points are solved in blocks by worker processes. Every
+# block is an ordinary batch: `executor.map` calls the solver itself on one pair of vehicles after another. The workers need
+# nothing from this file, so the same lines run in a script, in a notebook and where processes are started by spawn. At the end
 # the blocks are compared with one batch in one process: they are the same to the last bit.
 
 # %%
@@ -46,7 +46,7 @@ def drawn(cases, seed):
 
 
 def vehicles(fields, blocks):
-    """One vehicle a block, each holding many cases."""
+    """One vehicle for each block, each holding many cases."""
     return [
         col.Vehicle(**{name: values[block] for name, values in fields.items()})
         for block in blocks
@@ -55,8 +55,8 @@ def vehicles(fields, blocks):
 
 # %% [markdown]
 # The options that all cases share are bound to the solver by `partial`. A refused case is NaN with a status, as in any batch.
-# Where processes are started by spawn, each imports this file anew: the line with `__main__` keeps it from starting the study
-# again.
+# Where processes are started by spawn, each of them imports this file anew, and the line with `__main__` keeps it from starting
+# the study again.
 
 # %%
 solve = partial(
@@ -90,7 +90,7 @@ if __name__ == "__main__":
 # %% [markdown]
 # ## Checks
 #
-# Bit for bit, because every case is worked out by itself: what else is in its block makes no difference.
+# The answers agree bit for bit, because every case is worked out by itself: what else is in its block makes no difference.
 
 # %%
 if __name__ == "__main__":
@@ -115,7 +115,7 @@ if __name__ == "__main__":
         for column in columns
     ]
     if not all(compared):
-        raise AssertionError("the blocks do not hold the answers of the whole")
+        raise AssertionError("the answers of the blocks differ from those of the whole")
     if not whole.ok.all():
         raise AssertionError("a case of this study was refused")
     print(f"{len(compared)} columns of {CASES:,} cases, the same to the last bit")
