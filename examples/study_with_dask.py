@@ -1,9 +1,10 @@
 # %% [markdown]
 # # A large study with dask
 #
-# The same kind of study for those who have dask: `delayed` puts solver calls into a graph, and dask runs them on threads, on
-# processes or on a cluster. Blocks are ordinary batches; vehicles and answers travel as pickles. What comes next, here three
-# quantiles, is part of the graph. The answers are those of one batch in one process, to the last bit.
+# A study like "A large study over several processes", for those who use dask: `delayed` puts solver calls into a graph, and
+# dask runs them on threads, on processes or on a cluster. Each block is an ordinary batch; vehicles and answers are passed as
+# pickles. The steps that follow, here three quantiles, are part of the graph. The answers are those of one batch in one
+# process, to the last bit.
 
 # %%
 from operator import attrgetter
@@ -42,7 +43,7 @@ def drawn(cases, seed):
 
 
 def part(values, block):
-    """Some cases of a vehicle or of an array."""
+    """The cases of one block, from a vehicle or an array."""
     if isinstance(values, dict):
         return col.Vehicle(
             **{name: part(value, block) for name, value in values.items()}
@@ -54,8 +55,8 @@ SCENE = {"normal": 0.0, "point": (0.0, 0.2), "on_failure": "nan"}
 whole = slice(None)
 
 # %% [markdown]
-# The line with `__main__` is for processes, which import this file anew. The workers never look for anything in it: the task is
-# a function of the library.
+# The line with `__main__` is for processes, which import this file anew. The workers need nothing from it: the task is a
+# function of the library.
 
 # %%
 if __name__ == "__main__":
@@ -87,7 +88,7 @@ if __name__ == "__main__":
 # %% [markdown]
 # ## Checks
 #
-# Bit for bit: every case is worked out by itself, whatever block, thread or process it is in.
+# The answers agree bit for bit: every case is worked out by itself, whatever block, thread or process it is in.
 
 # %%
 if __name__ == "__main__":
