@@ -1,11 +1,11 @@
 # %% [markdown]
 # # Two accounts of one crash
 #
-# At a crossing A, going east, strikes B in the side. "I was doing 50 or 60", says the driver of A. "That car was doing 80",
-# says the driver of B. Marks, a place of rest and half a recording are left. What are they worth, and for whom? The scene is
-# invented.
+# At a crossroads car A, going east, strikes car B in the side. "I was doing 50 or 60", says the driver of A. "That car was
+# doing 80", says the driver of B. The evidence is marks, a rest position and half a recording. What is it worth, and for whom?
+# The scene is invented.
 #
-# What was found is given to both accounts alike. They differ only in what they state beforehand: the prior of one speed.
+# The same evidence is given to both accounts. They differ only in what they state beforehand: the prior of one speed.
 
 # %%
 import math
@@ -43,7 +43,7 @@ def crash(speed_a, speed_b, restitution, friction, contact, drag):
 
 
 observed = {
-    # the recorder of A ended early
+    # the recording of A ended early
     "delta-V of A": Censored(low="24 km/h", error="1 km/h"),
     "course of A after": Normal("8 deg", "3 deg"),
     "course of B after": Normal("27 deg", "3 deg"),
@@ -69,9 +69,9 @@ def account(speed_a, seed=1):
 # %% [markdown]
 # ## Which account does the evidence speak for?
 #
-# `compare` takes one posterior for each account. The factor is how many times more probable the evidence is if the one is
-# true than if the other is. The probabilities need one more thing, how probable each was before: that is for the court; here
-# it is 1 to 1.
+# `compare` takes one posterior for each account. The factor says how many times more probable the evidence is if one account is
+# true than if the other is. The probabilities of the accounts need one thing more: how probable each was before the evidence.
+# That is for the court; here it is 1 to 1.
 
 # %%
 driver_a, driver_b = account(said_by_a), account(said_by_b)
@@ -81,9 +81,9 @@ print(found.summary())
 # %% [markdown]
 # ## How the answer moves with the priors
 #
-# A factor compares what the accounts state, and so it depends on how narrowly they state it. Whoever says "somewhere between
-# 61 and 150" spreads a prediction thin, and what a driver meant by 50 or 60 is a matter of judgement. Show the table, not one
-# line of it.
+# The factor compares what the accounts state, and so it depends on how narrowly they state it. Whoever says "somewhere between
+# 61 and 150" spreads a prediction thinly, and what a driver meant by 50 or 60 is a matter of judgement. Show the whole table,
+# not one line of it.
 
 # %%
 versions_a = {
@@ -111,8 +111,9 @@ for name, log in logs_b.items():
 # %% [markdown]
 # ## The question without the accounts
 #
-# Often the question is not who is right, but how fast A was. Then nobody's statement goes in: one posterior, with a prior that
-# favours neither, and the probability of what is asked. The residuals say whether the evidence agrees with itself at all.
+# Often the question is not who is right, but how fast A was going. Then neither driver's statement goes in: there is one
+# posterior, with a prior that favours neither, and it gives the probability that is asked for. The residuals say whether the
+# evidence agrees with itself at all.
 
 # %%
 open_minded = account(Uniform("20 km/h", "130 km/h"), seed=3)
@@ -122,7 +123,7 @@ print(
     f"speed of A: {3.6 * open_minded['speed_a'].mean:.0f} km/h, "
     f"95 percent from {low:.0f} to {high:.0f} km/h"
 )
-print(f"A was over 60 km/h with a probability of {over:.3f} ± {error:.3f}")
+print(f"probability that A was over 60 km/h: {over:.3f} ± {error:.3f}")
 print(open_minded.statements[0])
 
 figure, (above, below) = plt.subplots(
@@ -134,24 +135,28 @@ plot.residuals(open_minded, axes=below)
 # %% [markdown]
 # ## How to say it
 #
-# The expert speaks of the evidence, the court of the accounts. So the sentence is about the factor, with what it rests on:
+# The expert speaks about the evidence, the court about the accounts. So the expert's sentence gives the factor, and what it
+# rests on:
 #
-# > *Given the marks, the place of rest and the incomplete record, and the priors listed, the findings are [factor] times more
-# > probable if A drove as the driver of B states than if A drove as its own driver states. Over the range of priors in the
-# > table the factor stays between [least] and [greatest]. It is not the probability that either speaks the truth: that depends
-# > on all the other evidence too.*
+# > *The findings are the marks, the rest position and the incomplete recording. With the priors listed, they are [factor] times
+# > more probable if A drove as the driver of B states than if A drove as its own driver states. Over the range of priors in the
+# > table the factor stays between [least] and [greatest]. The factor is not the probability that either driver is telling the
+# > truth: that depends on all the other evidence too.*
 #
-# This is how the guideline of the European forensic institutes has it (ENFSI, Guideline for Evaluative Reporting in Forensic
-# Science, 2015): the probability of the findings given each proposition, not of a proposition given the findings. What belongs
-# beside it: the priors, the stated errors of the readings, the residuals, and that all of this holds if the model does.
+# This follows the guideline of the European forensic institutes (ENFSI, Guideline for Evaluative Reporting in Forensic Science,
+# 2015), which asks for the probability of the findings given each proposition, not of a proposition given the findings. The
+# statement should be accompanied by the priors, the stated errors of the readings, the residuals, and the remark that all of
+# this holds if the model does.
 
 # %% [markdown]
 # ## Checks
 #
-# - The evidence of an account is the mean of the likelihood over its priors: here by plain draws of numpy's own generator, with
-#   the densities written out. The two agree within 5 standard errors, those of the 200,000 draws included.
-# - The odds after are the odds before times the factor.
-# - The posterior of the neutral prior, cut off to what an account says, gives the same speeds as a posterior of that account.
+# - The evidence of an account is the mean of the likelihood over its priors. Here that mean is found again by plain draws from
+#   numpy's own generator, with the densities written out. The two agree within 5 standard errors, those of the 200,000 draws
+#   included.
+# - The posterior odds are the prior odds times the factor.
+# - The posterior from the neutral prior, cut off to the range that an account states, gives the same speeds as the posterior of
+#   that account.
 
 # %%
 rng, count = np.random.default_rng(1), 200_000
