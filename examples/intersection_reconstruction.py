@@ -1,11 +1,11 @@
 # %% [markdown]
 # # An intersection, from the marks on the road to the impact speeds
 #
-# Four steps from the marks to the answer: the run-out gives the motion at separation, the impact solved backwards gives the
-# speeds before, the forward solver says whether those speeds lead to the marks, and the uncertainty of what was read says how
-# far all of it can be trusted.
+# Four steps lead from the marks to the answer: the run-out gives the motion at separation, the impact solved backwards gives
+# the speeds before it, the forward solver shows whether those speeds lead to the marks, and the uncertainty of the readings
+# shows how far the result can be trusted.
 #
-# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as from a plan with the tyre marks.
+# **The scene is invented.** Positions were measured to 0.1 m and headings to 5 degrees, as if from a plan of the tyre marks.
 # Car A (1500 kg) came from the west, course 0. Car B (1250 kg) came from the south, course 90 degrees. The front of A struck
 # the left side of B at the driver's door. A spun to the left and stopped after about 7 m, with its front wheels jammed by the
 # damage. B spun to the right, its wheels nearly free, crossed the asphalt and came to rest on the grass verge.
@@ -37,9 +37,9 @@ def kmh(speed):
 # %% [markdown]
 # ## What was found
 #
-# Positions of the centres of mass along each path, from impact to rest, and the heading at each. A heading is counted on: B
-# turned by 195 degrees to the right, so its headings run on from 90 to -105. `lock` is the braking along the wheels, from 0
-# for free rolling to 1 for locked.
+# The positions of each centre of mass along its path, from impact to rest, and the heading at each. Headings are counted
+# continuously: B turned by 195 degrees to the right, so its headings run from 90 to -105. `lock` is the braking along the
+# wheels, from 0 for free rolling to 1 for locked wheels.
 
 # %%
 PATHS = {
@@ -78,9 +78,9 @@ COURSES = {"course_a": "0 deg", "course_b": "90 deg"}
 # %% [markdown]
 # ## Step 1: the motion at separation
 #
-# `travel.path` works backward from rest, each segment with the drag of its own crab angle. The course at separation is the
-# tangent of the path there, not the straight line to rest. "Full friction" is `travel.speed` over the same distances as if
-# all wheels had slid all the way.
+# `travel.path` works backward from rest; each segment has the drag that belongs to its crab angle (heading less course). The
+# course at separation is the tangent of the path there, not the straight line to rest. The speed "at full friction" is that of
+# `travel.speed` over the same distances, as if all wheels had slid all the way.
 
 
 # %%
@@ -100,7 +100,7 @@ def full_friction(name):
 
 runs = {name: run_out(name) for name in PATHS}
 print(
-    f"{'':<4}{'speed':>8}{'if full friction':>19}"
+    f"{'':<4}{'speed':>8}{'at full friction':>19}"
     f"{'course':>10}{'straight line':>16}{'yaw rate':>12}"
 )
 print(f"{'':<4}{'km/h':>8}{'km/h':>19}{'deg':>10}{'deg':>16}{'deg/s':>12}")
@@ -115,9 +115,10 @@ for name, run in runs.items():
 # %% [markdown]
 # ## Step 2: backwards through the impact
 #
-# Twice, with different knowledge. `reconstruct.momentum` takes the courses before as known, and needs nothing of the contact.
-# `reconstruct.planar` takes the contact, friction and restitution as known; it finds the courses and yaw rates before, so these
-# are a check: A should have come along 0 degrees, B along 90, and neither turned.
+# The impact is solved twice, from different knowledge. `reconstruct.momentum` takes the courses before impact as known, and
+# needs nothing about the contact. `reconstruct.planar` takes the contact, friction and restitution as known and finds the
+# courses and yaw rates before impact. These are a check: A should have come on a course of 0 degrees, B on 90, and neither
+# should have been yawing.
 
 
 # %%
@@ -167,9 +168,9 @@ print(
 )
 
 # %% [markdown]
-# The condition of `planar` is (1 + e)/e: what is left of the closing speed after the impact is a tenth of it, so an error in
-# the separation speed or the restitution comes back elevenfold. So it is used here to check, and momentum to answer. The
-# sensitivities say which course matters:
+# The condition of `planar` is (1 + e)/e: only a tenth of the closing speed is left after the impact, so an error in the
+# separation speed or the restitution comes back elevenfold. `planar` is therefore used here as a check, and momentum gives the
+# answer. The sensitivities show which course matters:
 
 # %%
 COURSE_NAMES = ("course_a", "course_b", "course_a_after", "course_b_after")
@@ -183,9 +184,10 @@ for answer, row in momentum.sensitivity.q.items():
 # %% [markdown]
 # ## Step 3: forward again
 #
-# The states that `planar` found must lead back to the separation it was given, up to rounding. That is a check of the
-# arithmetic. The speeds from momentum, on the courses before and without yaw, through `eccentric` with the same contact are a
-# check of the case: nothing of the contact went into them, so it is evidence that they lead close to the marks.
+# Solved forward, the states that `planar` found must lead back to the separation it was given, up to rounding. That is a check
+# of the arithmetic. The speeds from momentum, on the courses before impact and without yaw, are put through `eccentric` with
+# the same contact. That is a check of the case: nothing about the contact went into these speeds, so it speaks for them that
+# they lead close to the marks.
 
 # %%
 again = col.eccentric(*before, RESTITUTION, **CONTACT)
@@ -204,16 +206,16 @@ print(f"contact: {forward.regime}, closing speed {kmh(forward.closing_speed):.1f
 for side in (forward.a, forward.b):
     print(
         f"{side.before.name}: delta-V {kmh(side.delta_v):.1f} km/h, "
-        f"force from {math.degrees(side.pdof):.0f} deg (0 ahead, clockwise positive)"
+        f"PDOF {math.degrees(side.pdof):.0f} deg (0 ahead, clockwise positive)"
     )
 
 # %% [markdown]
 # ## Step 4: how far the evidence carries
 #
-# What was read, and how well, goes in as distributions: the chain of run-out, momentum and impact is worked out for thousands
-# of cases at once, and the answer is a range, given these inputs. One friction holds for both cars, because it is one road.
-# Positions near the impact decide the courses, so the second and third position of each car are moved across its path, within
-# the 0.1 m to which they were read.
+# The readings and their errors go in as distributions: the chain of run-out, momentum and impact is computed for thousands of
+# cases at once, and the answer is a range, given these inputs. The friction of the asphalt is the same for both cars, because
+# they slid on one road. The positions near the impact decide the courses, so the second and third positions of each car are
+# moved across its path, within the 0.1 m to which they were read.
 
 # %%
 INPUTS = {
@@ -246,7 +248,7 @@ def moved(name, inputs):
 
 
 def separation(inputs):
-    """Both cars at separation, by their run-outs; arrays with one number a case."""
+    """Both cars at separation, from their run-outs; arrays with one number per case."""
     asphalt, grass = inputs["friction of the asphalt"], inputs["friction of the grass"]
     surfaces = {"A": asphalt, "B": [asphalt] * 4 + [grass] * 3}
     for name, car in (("A", CAR_A), ("B", CAR_B)):
@@ -260,7 +262,7 @@ def separation(inputs):
 
 
 def scene(**inputs):
-    """From the readings to the speeds before and the delta-V."""
+    """From the readings to the speeds before impact and the delta-V."""
     ends = tuple(separation(inputs))
     courses = {"course_a": inputs["course of A"], "course_b": inputs["course of B"]}
     found = momentum_of(*ends, courses)
@@ -297,8 +299,8 @@ for name in result:
     )
 
 # %% [markdown]
-# Which reading to improve: the bars are the share of the variance that each input brings. The longest bar is what to measure
-# better; the inputs at the bottom hardly matter, and no expert needs to argue about them.
+# Which reading should be improved? The bars show the share of the variance that each input contributes. The input with the
+# longest bar is the one to measure better; those at the bottom hardly matter, and no expert needs to argue about them.
 
 # %%
 answers = ("speed of A", "speed of B", "delta-V of A")
@@ -325,14 +327,14 @@ for answer in answers:
 # %% [markdown]
 # ## Checks
 #
-# - `planar` and `eccentric` undo each other: each keeps a few eps of speeds below 20 m/s, times a condition of 11, which is
-#   below 1e-12; 1e-10 m/s and rad/s leave room for another processor.
-# - The two methods agree within two standard deviations of their difference, with friction, lock and contact as they were
-#   taken and the positions and courses as they were read.
-# - The point answers lie within the ranges, but need not be their means: the chain is not linear.
-# - Momentum forward meets the marks: the speeds within 1.5 km/h and the courses within 3 degrees, which is the 0.1 m of
-#   reading over a first segment of 2.4 to 3.1 m on either end (0.1/2.4 is 2.4 degrees); the yaw rates within 20 degrees per
-#   second, which is 5 degrees of heading over the first quarter of a second.
+# - `planar` and `eccentric` undo each other: each errs by a few eps of speeds below 20 m/s, times a condition of 11, which is
+#   below 1e-12; the limit of 1e-10 m/s and rad/s leaves room for other processors.
+# - The two methods agree within two standard deviations of their difference, with friction, lock and contact held at the
+#   values above and the positions and courses varied within their reading errors.
+# - The single answers lie within their ranges, but need not be the means, because the chain is not linear.
+# - Solved forward, the speeds from momentum meet the marks: the speeds within 1.5 km/h; the courses within 3 degrees, which is
+#   the reading error of 0.1 m at either end of a first segment of 2.4 to 3.1 m (0.1/2.4 is 2.4 degrees); the yaw rates within
+#   20 degrees per second, which is 5 degrees of heading over the first quarter of a second.
 
 # %%
 for label, found, end in (("A", again.a.after, a_after), ("B", again.b.after, b_after)):
@@ -381,7 +383,7 @@ for name, marks, found in (
     check(f"forward, yaw rate of {name}", one, other, 20.0, "deg/s")
 CHECKS.append(("every case was answered", result.failed == apart.failed == 0))
 sums = [sum(result[name].contributions.values()) for name in answers]
-CHECKS.append(("what the inputs bring adds up", all(0.9 < s < 1.1 for s in sums)))
+CHECKS.append(("the contributions add up", all(0.9 < s < 1.1 for s in sums)))
 
 failed = [label for label, good in CHECKS if not good]
 if failed:
