@@ -56,8 +56,8 @@ def collide(kind, friction, solver=col.eccentric):
 # %% [markdown]
 # ## Which way they turn
 #
-# The restitution is 0.1, and yaw is positive counter-clockwise. The last column is the error of `oblique_central`, in which
-# nothing turns: its error in delta-V and rotation together, as `required_model` measures it.
+# The restitution is 0.1, and yaw is positive counter-clockwise. The last column is the error of `oblique_central`, a model in
+# which nothing turns, in delta-V and rotation together, as `required_model` measures it.
 
 # %%
 print(

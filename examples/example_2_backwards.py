@@ -60,7 +60,7 @@ def found_of(impact):
 
 
 def distance(impact):
-    """Largest difference from Example 2, relative to closing speed, 1 or energy lost."""
+    """Largest difference from Example 2, over closing speed, 1 or energy lost."""
     scales = (*[impact.closing_speed] * 4, 1.0, TRUTH["energy_loss"])
     triples = zip(found_of(impact), TRUTH.values(), scales, strict=True)
     return max(abs(ours - true) / scale for ours, true, scale in triples)

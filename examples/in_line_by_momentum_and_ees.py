@@ -128,11 +128,10 @@ print(f"{warned[0].code}: {warned[0]}")
 
 # %% [markdown]
 # The energy decides. Neither car was turning before the impact, so the energy lost in translation went into damage and
-# rotation. The source takes the EES for the energy dissipated, and finds the rotation from the angle $\varphi$ turned before
-# coming to rest: the tyres rub with the friction $\mu$ at half the wheelbase $l$, so
-# $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ = 9.81 m/s² and $I = 0.1269\,m\,l\,L$ for a car of length $L$. It
-# treats turning and sliding as separate; `travel.path` takes them together, where positions along the path are known. Which
-# course of the Mercedes gives that energy?
+# rotation. The source takes the EES as energy dissipated, and finds the rotation from the angle $\varphi$ turned before coming
+# to rest: tyre friction $\mu$ acts at half the wheelbase $l$, so $\omega = \sqrt{2\,\mu m g\,(l/2)\,\varphi / I}$, with $g$ =
+# 9.81 m/s² and $I = 0.1269\,m\,l\,L$ for a car of length $L$. It treats turning and sliding as separate; `travel.path` takes
+# them together, where positions along the path are known. Which course of the Mercedes gives that energy?
 
 
 # %%
