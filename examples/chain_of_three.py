@@ -39,7 +39,7 @@ def chain(cars, restitution):
 
 
 def row(behind, ahead):
-    """The three cars before, front one at 0; gaps behind and ahead of the middle one."""
+    """The three cars before, front one at 0; gaps behind and ahead of the middle."""
     middle = -LENGTH - ahead
     rear = middle - LENGTH - behind
     return [
