@@ -152,7 +152,7 @@ legend = axes.legend(loc="upper right", fontsize="small")
 # - Momentum, and angular momentum about the origin, are conserved in every case that has an answer. They are some 1e4 in SI,
 #   and the rounding error of such sums is below 1e-9.
 # - The closing speed is normal with mean 50 - 30 = 20 and standard deviation √(8² + 6²) = 10 km/h. It is negative if it falls
-#   more than 2 standard deviations below its mean, with a probability of 0.02275 in any table. The same goes for the
+#   more than 2 standard deviations below its mean, which has a probability of 0.02275 in any table. The same goes for the
 #   restitution. The number of refused cases is within 4 standard deviations of a binomial count.
 # - The mean closing speed of the cases that approach is that of a normal distribution cut off at 0, in closed form. This mean,
 #   and the mean delta-V from `propagate`, agree with the batch within 4 standard errors.

@@ -38,9 +38,9 @@ def check(label, ours, expected, relative):
 # %% [markdown]
 # ## Example 1: a vehicle against a fixed body
 #
-# A vehicle rebounds from a body that does not move with $v' = -e\,v$. The barrier is a body of infinite mass, and nothing else
-# about it is special. The paper gives the rule and the names of the three kinds of impact, but no numbers: the 50 km/h is ours,
-# and the column "paper" is the paper's rule applied to it.
+# A vehicle rebounds from a fixed body with $v' = -e\,v$. The barrier is a body of infinite mass, and nothing else about it is
+# special. The paper gives the rule and the names of the three kinds of impact, but no numbers: the 50 km/h is ours, and the
+# column "paper" is the paper's rule applied to it.
 
 # %%
 heading("Example 1: 1100 kg at 50 km/h against a fixed body")

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A car slides sideways into a pole
 #
-# A car that has lost its grip slides sideways. A pole strikes its right side, away from the centre of mass, and the car turns
-# about the pole. This example shows how to model a fixed body, and that the distance off centre decides how much of the speed
-# becomes delta-V and how much becomes rotation.
+# A car that has lost its grip slides sideways into a pole, which catches its right side away from the centre of mass, and the
+# car turns about the pole. This example shows how to model a fixed body, and that the distance off centre decides how much of
+# the speed becomes delta-V and how much becomes rotation.
 #
 # **The scene is invented.** `Vehicle.barrier()` is any body that does not give way. Its position is needed only to draw it: the
 # contact point and the normal are all that the solver has to know.
