@@ -661,7 +661,9 @@ def test_answers_are_rounded_as_documented():
         for label, side in (("A", impact.a), ("B", impact.b)):
             assert answer(text, label, "delta-V") == f"{side.q.delta_v.m_as(speed):.{places}f} {speed}"
             pdof = side.q.pdof.m_as(angle)
-            assert answer(text, label, "PDOF (0 from ahead, positive clockwise)") == f"{pdof:.{angle_places}f} {angle}"
+            hour = round(side.q.pdof.m_as("deg") / 30.0) % 12 or 12
+            printed = f"{pdof:.{angle_places}f} {angle} ({hour} o'clock)"
+            assert answer(text, label, "PDOF (0 from ahead, positive clockwise)") == printed
             spin = side.after.q.yaw_rate.m_as(rate)
             assert answer(text, label, "yaw rate after") == f"{spin:.{rate_places}f} {rate}"
         loss = float(answer(text, "contact", "energy lost").removesuffix(f" {energy}"))
@@ -1120,7 +1122,8 @@ def test_momentum_tells_its_headings():
     x, y = (float(re.search(rf"  dv_A{axis} = (?:.*\n)+?.*= (-?[\d.]+) km/h", text)[1]) for axis in "xy")
     pdof = (-90.0 - math.degrees(math.atan2(y, x)) + 180.0 + 180.0) % 360.0 - 180.0
     assert pdof == pytest.approx(math.degrees(solution.pdof_a), abs=0.01)
-    assert f"{pdof:.0f} deg" == answer(text, "A", "PDOF (0 from ahead, positive clockwise)")
+    hour = round(pdof / 30.0) % 12 or 12
+    assert f"{pdof:.0f} deg ({hour} o'clock)" == answer(text, "A", "PDOF (0 from ahead, positive clockwise)")
     assert "PDOF_B" not in text
     assert "Closing speed of the centres along the normal phi (definition):" in text
     outside = explain(MOMENTA[1], form="text")

@@ -24,6 +24,16 @@ def percent(share: float, decimals: int = 0) -> str:
     return f"{with_decimals(100.0 * share, decimals)} percent" if math.isfinite(share) else in_words(share)
 
 
+def clock_hour(pdof: float) -> int:
+    """A PDOF as the nearest hour of a clock face: 12 from straight ahead, 3 from the right."""
+    return (round(pdof * (6.0 / math.pi)) - 1) % 12 + 1
+
+
+def clock(name: str, value: float) -> str:
+    """What stands behind a PDOF, by the name of its attribute: the hour; nothing behind other numbers."""
+    return f" ({clock_hour(value)} o'clock)" if "pdof" in name.lower() and math.isfinite(value) else ""
+
+
 def places(value: float, figures: int) -> int:
     """The decimals that show so many figures after rounding; negative to the left of the decimal point."""
     return figures - 1 - int(f"{value:.{figures - 1}e}".partition("e")[2])

@@ -11,6 +11,7 @@ import numpy as np
 
 from .directions import Angle, angle_of
 from .errors import MissingInputError, Status
+from .formatting import clock_hour
 from .inputs import Inputs
 from .kernels.elementwise import select
 from .kernels.status import Passed
@@ -160,10 +161,9 @@ class Side(Frozen, Summarized):
         pdof = self.pdof
         if pdof is None:
             return None
-        hours = pdof * (6.0 / math.pi)
-        if isinstance(hours, np.ndarray):
-            return (np.rint(hours) - 1.0) % 12.0 + 1.0
-        return hours if math.isnan(hours) else (round(hours) - 1) % 12 + 1
+        if isinstance(pdof, np.ndarray):
+            return (np.rint(pdof * (6.0 / math.pi)) - 1.0) % 12.0 + 1.0
+        return pdof if math.isnan(pdof) else clock_hour(pdof)
 
     @derived("m")
     def moment_arm(self) -> Value | None:
@@ -425,8 +425,5 @@ def _changed(value: Value, change: Value) -> Value:
 
 
 def _of_change(side: Side, name: str, numbers: Cells) -> str:
-    value, hour = getattr(side, name), side.pdof_clock
-    if value is None:
-        return "no heading"
-    clock = f" ({hour} o'clock)" if name == "pdof" and isinstance(hour, int) else ""
-    return numbers.text(value, unit_of(Side, name), name) + clock
+    value = getattr(side, name)
+    return "no heading" if value is None else numbers.text(value, unit_of(Side, name), name)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .formatting import KIND_OF, Numbers, bad_system, in_words, number_with_unit
+from .formatting import KIND_OF, Numbers, bad_system, clock, in_words, number_with_unit
 from .units import system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
@@ -63,8 +63,8 @@ class Cells(Numbers):
         if not abs(value * self.scale(kind)) < _LARGEST:
             return number_with_unit(f"{value * self.scale(kind):.4g}", self.label(kind))
         if kind in ("angle", "yaw rate") and self.name == "si":
-            return Cells("metric").text(value, unit)
-        return self.answer(value, kind)
+            return Cells("metric").text(value, unit, name)
+        return self.answer(value, kind) + clock(name, value)
 
     def _range(self, values: Any, unit: str | None, name: str) -> str:
         """An array by its least and greatest value, of directions by the ends of their arc."""

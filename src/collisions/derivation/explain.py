@@ -267,7 +267,7 @@ def _inputs(page: Page, impact: Impact) -> None:
         name = vehicles.get(of, "")
         rows.append((f"{of} ({page.name(name)})" if name not in ("", of) else of, what, text))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
-        rows.append(("contact", "law of restitution and no slip", impact.law.title()))
+        rows.append(("contact", "law of restitution", impact.law.title()))
     page.table(rows)
 
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..document import Document
-from ..formatting import typeset
+from ..formatting import clock, typeset
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 
@@ -94,7 +94,7 @@ class Page:
         """An answer, rounded to its standard deviation where one is known for the attribute of this name, or with its range."""
         printed = self.system.answer(value, kind, self.deviations.get(name))
         if name not in self.ranges:
-            return printed
+            return printed + clock(name, value)
         low, high = (self.system.answer(end, kind) for end in self.ranges[name])
         return f"{printed} ({low.removesuffix(self.system.unit(kind))} to {high})"
 

@@ -211,8 +211,8 @@ class _Room:
         x, y = (_sums(part[None], 1, n)[0] / n for part, n in ((self.x, columns), (self.y, rows)))
         cost += np.min([_away(x - at[0], y[:, None] - at[1], size, direction) + 2.0 * i for i, at in enumerate(places)], axis=0)
         row, column = np.unravel_index(np.argmin(cost), cost.shape)
-        # Of two labels one keeps clear of the other, not both.
-        cells = slice(row + 1, row + rows - 1), slice(column + 1, column + columns - 1)
+        # Above each other one label keeps clear of the other, not both; side by side they would read as one line.
+        cells = slice(row + 1, row + rows - 1), slice(max(column - 1, 0), column + columns + 1)
         self.cost[cells] += _LABEL
         return _Spot(float(x[column]), float(y[row]), cells)
 

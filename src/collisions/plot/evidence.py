@@ -173,9 +173,10 @@ def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_xlim(-(most := max(3.2, 1.15 * max(map(abs, over)))), most)
     axes.set_xlabel("observed less computed, in stated errors")
-    axes.set_title(
-        f"given {'the evidence and the priors' if isinstance(found, Posterior) else 'the fit'}", fontsize=10.5, color=GREY
+    shown_by = (
+        "point and line: mean and 95 % of what is computed" if isinstance(found, Posterior) else "points: at the estimates"
     )
+    axes.set_title(f"{shown_by}\ndark band: one stated error; light band: two", fontsize=10.5, color=GREY)
     tidy(axes)
     return axes
 

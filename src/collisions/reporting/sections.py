@@ -94,13 +94,13 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
                 text = plain(texts[what]) if number is None else _as_text(sheet, what, number, texts)
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
-        rows.append(("contact", "law of restitution and no slip", _with(impact.law.title(), notes.get("law"))))
+        rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
     rows += _damage(sheet, evidence)
     sheet.table(rows)
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
     if any("given as" in text for *_, text in (*rows, *known)):
         sheet.say("“Given as” repeats the text of an input that was given in another unit than that of this page.")
-    sheet.say("Only the direction of the normal matters, not its length. The record at the end has every digit.")
+    sheet.say("The record at the end has every digit.")
     reverse.why_this_model(sheet, impact)
     if impact.reconstruction is not None:
         reverse.what_was_known(sheet, impact.reconstruction)
@@ -472,7 +472,10 @@ def findings(sheet: Sheet, found: Findings) -> None:
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
         lines.append(
-            (f"{label_of(finding.code)}{of}:", f"{sentence}{end} Measured {measured}, limit {limit}; limit: {finding.source}.")
+            (
+                f"{label_of(finding.code)}{of}:",
+                f"{sentence}{end} Measured {measured}, limit {limit}. Basis of the limit: {finding.source}.",
+            )
         )
     sheet.items(lines)
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
