@@ -18,32 +18,32 @@ if TYPE_CHECKING:
 
 @hinted
 def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
-    """The energy split: kinetic energy of A and B before, what was lost along normal and tangent, and what A and B have after.
+    """The energy balance: kinetic energy of A and B before, the losses along normal and tangent, and what A and B have after.
 
     Every bar begins where the one above ends, so that the last ends at zero: what came in is what went out. Kinetic energies
-    depend on the frame of reference, the losses do not. A negative loss is energy gained, drawn as such.
+    depend on the frame of reference; the losses do not. A negative loss is energy gained, and is drawn as such.
 
     Parameters
     ----------
     impact : Impact
-        A single one of any solver.
+        One case, of any solver.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
         J, kJ or ft·lbf.
 
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" of a time-resolved impact with
-        tyres, "a.after", "b.after".
+        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" (only of a time-resolved
+        impact with tyres), "a.after", "b.after".
 
     Raises
     ------
     InputError
-        Not a single answered impact, an infinite mass or inertia that moves, or an option that is not known.
+        An unknown option, an infinite mass or inertia that moves, or anything but one answered impact.
     MissingInputError
-        A turning vehicle without yaw inertia; or matplotlib is missing.
+        A turning vehicle without yaw inertia, or matplotlib is missing.
 
     Examples
     --------
@@ -103,13 +103,13 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
 
 
 def _tyres(impact: Impact) -> list[tuple[str, str, float, str, str]]:
-    """The row of what tyres took, of an impact that has them."""
+    """The row of the energy that tyres took, for an impact that has them."""
     taken = impact.a.tyre_loss + impact.b.tyre_loss
     return [("lost.tyres", "lost by\nthe tyres", -float(taken), FORCE, "|||")] if taken else []
 
 
 def _tint(colour: str) -> str:
-    """A quarter of a colour on white: in SVG the hatching of a face that is seen through is lost in its colour."""
+    """A quarter of a colour on white: in SVG the hatching of a translucent face is lost in its colour."""
     return "#" + "".join(f"{255 - (255 - int(colour[at : at + 2], 16)) // 4:02x}" for at in (1, 3, 5))
 
 

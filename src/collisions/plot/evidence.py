@@ -27,10 +27,10 @@ _MOST = 10
 
 @hinted
 def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units: UnitSystem | None = None) -> Figure:
-    """The unknowns of a posterior: each by itself on the diagonal, each pair below it, given the evidence and the priors.
+    """Corner plot of a posterior: each unknown by itself on the diagonal, each pair below it, given evidence and priors.
 
-    In the panel of a pair, darker is likelier; the contours hold 50 and 95 percent of the samples. A narrow slanting band
-    says that the evidence tells the two together better than either.
+    In the panel of a pair, darker is more probable, and the contours hold 50 and 95 percent of the samples. A narrow slanting
+    band means that the evidence determines the two together better than either alone.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
     unknowns : sequence of str, optional
         Names of the unknowns or outputs to draw, in this order; by default all unknowns. At most ten.
     units : "si", "metric" or "us", optional
-        Of those that have a unit.
+        Units of those that have one.
 
     Returns
     -------
@@ -49,9 +49,9 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
     Raises
     ------
     InputError
-        Not a posterior, a name that is not there or does not vary, or more than ten.
+        A name that is not there or does not vary, more than ten names, or anything but a posterior.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------
@@ -112,30 +112,30 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
 
 @hinted
 def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
-    """Each observation less its computed value, over its stated error: where the evidence pulls against the model.
+    """Each observation minus its computed value, divided by its stated error: where the evidence disagrees with the model.
 
-    Within the dark band lie two of three observations whose errors are as stated, within the light one nineteen of twenty. Of a
-    posterior the line holds 95 percent of what is computed; a censored reading has none, and a point off the middle only where
-    its bound is missed. Readings with sharp bounds, which are met, are left out.
+    If the errors are as stated, two of three observations lie within the dark band and nineteen of twenty within the light one.
+    For a posterior, the line holds 95 percent of the computed values; a censored reading has no line, and its point is off the
+    middle only where its bound is missed. Readings with sharp bounds, which are met, are left out.
 
     Parameters
     ----------
     found : Posterior or Fit
         What ``reconstruct.posterior`` or ``reconstruct.fit`` returned.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The points are the line "residuals"; of a posterior each range has the gid "range of ..." with the name.
+        The points are the line "residuals"; for a posterior each range has the gid "range of ..." with the name.
 
     Raises
     ------
     InputError
-        Neither a posterior nor a fit, or no observation with an error.
+        No observation with an error, or anything but a posterior or a fit.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------

@@ -28,34 +28,34 @@ _LONGEST = 1.0
 def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of restitution, e = A2/A1.
 
-    Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer;
-    the shape is assumed, the spring pulse on which ``left_out`` builds its crush too: a quarter of a sine up to the end of
-    compression and another one down, with one peak. Then restitution takes e times as long as compression: as long if elastic,
-    no time if plastic, as in the figure. The duration is assumed too: peak and mean force are inversely proportional to it,
-    and the impulse does not determine them.
+    Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are the impulses of the answer.
+    The shape is assumed: the spring pulse on which ``left_out`` also bases its crush, a quarter of a sine up to the end of
+    compression and another one down, with one peak. Restitution then takes e times as long as compression: as long if elastic,
+    no time if plastic, as in the figure. The duration is assumed too; peak and mean force are inversely proportional to it, and
+    the impulse does not determine them.
 
     Parameters
     ----------
     impact : Impact
-        A single one of any solver.
+        One case, of any solver.
     duration : float, str or Quantity [s]
-        From touching to parting, > 0: 0.05 to 0.15 s for cars, the longer the softer.
+        From first contact to separation, > 0: 0.05 to 0.15 s for cars, longer for softer contacts.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
         s, N and N·s; ms, kN and kN·s; ms, lbf and lbf·s.
 
     Returns
     -------
     matplotlib.axes.Axes
-        Areas by gid: "A1", "A2" (not if plastic); lines "mean force" and "end of compression".
+        Areas by gid: "A1", "A2" (absent if plastic); lines "mean force" and "end of compression".
 
     Raises
     ------
     InputError
-        Not a single answered impact, a duration that cannot be, or an option that is not known.
+        An unknown option, an impossible duration, or anything but one answered impact.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------

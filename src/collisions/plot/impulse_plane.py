@@ -44,9 +44,9 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     Parameters
     ----------
     impact : Impact
-        A single one of any solver.
+        One case, of any solver.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
         N·s, kN·s or lbf·s.
 
@@ -54,16 +54,16 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     -------
     matplotlib.axes.Axes
         Lines by gid: "end of compression", "end of restitution", "no slip", "no slip at separation" (only
-        under a law that sends slip back), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
+        under a law that reverses slip), "friction +", "friction -", "ratio", "impulse"; points "answer", "at
         compression" and "no-slip impulse". ``linear_central`` has no tangential impulse, and no lines of slip and friction; a
-        contact that moves along the normal alone, as a wall squarely on a pinned gate, has no lines of slip.
+        contact that moves only along the normal, such as a wall square against a pinned gate, has no lines of slip.
 
     Raises
     ------
     InputError
-        Not a single answered impact, or an option that is not known.
+        An unknown option, or anything but one answered impact.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------
@@ -107,7 +107,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
         _draw_friction(axes, impact, right, low, high)
 
     def line(gid: str, along_n: float, along_t: float, total: float, text: str, **style: Any) -> None:
-        """Where along_n Pn + along_t Pt is the total; not in the legend if that is nowhere in the picture."""
+        """The line along_n Pn + along_t Pt = total; not in the legend if no part of it is in the picture."""
         size = math.hypot(along_n, along_t)
         ux, uy, foot = along_n / size, along_t / size, total / size
         out = 2.0 * math.hypot(right, high - low) + abs(foot)

@@ -25,19 +25,19 @@ _TITLE = 60  # characters on one line
 
 @hinted
 def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
-    """The momentum diagram: A and B before head to tail, A and B after head to tail, and the total, which they share.
+    """The momentum diagram: A and B before head to tail, A and B after head to tail, and their common total.
 
-    Momenta along one line, as in a linear impact, are drawn side by side, because they would hide each other. What comes
-    from outside, by a body of infinite mass, by a pivot or by tyres, follows A and B before as an arrow of its own, and so
-    ends where A and B after end; then no total is drawn. If A or B after would hide one of those, both are drawn beside,
-    and thin lines join what is one place. A body of infinite mass has no momentum to draw.
+    Momenta along one line, as in a linear impact, are drawn side by side, because they would otherwise hide each other. What
+    comes from outside, through a body of infinite mass, a pivot or tyres, follows A and B before as an arrow of its own, and so
+    ends where A and B after end; no total is drawn then. If A or B after would hide one of these arrows, both are drawn to one
+    side, and thin lines join the points that coincide. A body of infinite mass has no momentum to draw.
 
     Parameters
     ----------
     impact : Impact
-        A single one of any solver.
+        One case, of any solver.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
         kg·m/s, kN·s or lbf·s.
 
@@ -50,9 +50,9 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     Raises
     ------
     InputError
-        Not a single answered impact, two infinite masses, or an option that is not known.
+        An unknown option, two infinite masses, or anything but one answered impact.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------

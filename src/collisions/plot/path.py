@@ -34,19 +34,19 @@ def path(
     axes: Axes | None = None,
     units: UnitSystem | None = None,
 ) -> Axes:
-    """The path of one or two vehicles from separation to rest, seen from above and to scale, with the marks of their tyres.
+    """The path of one or two vehicles from separation to rest, seen from above and to scale, with their tyre marks.
 
-    Each stands at separation, three times on its path and, filled, at rest; the heavy edge is its front. The line is that of
-    the centre of mass, the grey ones are the marks of tyres that slide. Points of a survey can be drawn on the same Axes.
+    Each is drawn at separation, three times along its path and, filled, at rest; the heavy edge is its front. The line is the
+    path of the centre of mass; the grey lines are the marks of sliding tyres. Survey points can be drawn on the same Axes.
 
     Parameters
     ----------
     path_a, path_b : SimulatedPath
-        Of ``travel.simulate``, each of one case; the second one may be missing.
+        From ``travel.simulate``, one case each; the second may be left out.
     outline_a, outline_b : tuple or corners [m], optional
         As for ``scene``. Without it only the centre of mass is marked, at separation and at rest.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
         m or ft.
 
@@ -59,9 +59,9 @@ def path(
     Raises
     ------
     InputError
-        Not a path of a single answered case, or an option that is not known.
+        An unknown option, or a path that is not that of one answered case.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------

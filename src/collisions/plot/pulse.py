@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 @hinted
 def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
-    """Force, crush and the delta-V of both vehicles over the time of a contact, one below the other.
+    """Force, crush and the delta-V of both vehicles against time during the contact, one below the other.
 
     Parameters
     ----------
     impact : Impact
-        A single one of ``time_resolved``, or of ``solve`` where it took that model.
+        One case of ``time_resolved``, or of ``solve`` where it took that model.
     axes : matplotlib.axes.Axes, optional
-        Where to draw; by default that of a new figure. It is divided into three.
+        Axes to draw on, which are divided into three; by default those of a new figure.
     units : "si", "metric" or "us", optional
         s, N, m and m/s; ms, kN, m and km/h; ms, lbf, ft and mph.
 
@@ -35,9 +35,9 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None 
     Raises
     ------
     InputError
-        Not a single answered impact that was followed in time, or an option that is not known.
+        An unknown option, or anything but one answered impact that was followed in time.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------

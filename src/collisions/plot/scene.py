@@ -44,26 +44,25 @@ def scene(
 ) -> Axes:
     """The scene from above at the moment of impact, to scale.
 
-    Velocities before point to the centre of mass, those after away from it; the vehicles stand where they were, because an
-    impulse takes no time. The impulse acts at the contact point, in a central impact at the centres of mass; that of a pivot on
-    its vehicle acts at the pivot. Arrows that would hide each other, as those of an in-line impact, are drawn side by side,
-    which is said below the picture. The scales of the arrows are stated below the picture. Positions that a central model has
-    no need of are never made up: without them the picture is a sketch, and says so.
+    Velocities before point to the centre of mass, those after point away from it; the vehicles stay where they were, because an
+    impulse takes no time. The impulse acts at the contact point, or in a central impact at the centres of mass; that of a pivot
+    on its vehicle acts at the pivot. Arrows that would hide each other, as in an in-line impact, are drawn side by side;
+    a note below the picture says so, and the scales of the arrows are stated there too. Positions that a central model does not
+    need are never made up: without them the picture is a sketch, and says so.
 
     Parameters
     ----------
     impact : Impact
-        A single one of any solver.
+        One case, of any solver.
     moment : "before", "after" or "both"
-        Whose velocities are drawn; the impulse is left out before.
+        Which velocities are drawn; "before" leaves out the impulse.
     outline_a, outline_b : tuple or corners [m], optional
-        As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of the middle), or convex
-        corners (forward, left). Without it only the centre of mass is marked.
+        As for ``diagnose``: (length, width), (length, width, how far the centre of mass is ahead of the middle), or the
+        corners (forward, left) of a convex outline. Without it only the centre of mass is marked.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
-        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s. By default those that the inputs were given in, as for
-        ``summary``.
+        m/s, m and N·s; km/h, m and kN·s; mph, ft and lbf·s. By default those of the inputs, as for ``summary``.
 
     Returns
     -------
@@ -75,9 +74,9 @@ def scene(
     Raises
     ------
     InputError
-        Not a single answered impact, or an option that is not known.
+        An unknown option, or anything but one answered impact.
     MissingInputError
-        An outline for a vehicle without position or heading; or matplotlib is missing.
+        An outline for a vehicle without position or heading, or matplotlib is missing.
 
     Examples
     --------

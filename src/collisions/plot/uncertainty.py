@@ -24,21 +24,20 @@ _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 def distribution(
     output: Output, *, coverage: float = COVERAGE, bins: int = 30, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
-    """The cases of an output that was sampled as a histogram, with mean, median and interval, given the stated inputs.
+    """Histogram of the sampled cases of an output, with mean, median and interval, given the stated inputs.
 
     Parameters
     ----------
     output : Output
-        One output of what ``uncertainty.propagate`` returned, by a method that samples, ``result["delta_v"]``, or one of a
-        posterior.
+        One output, such as ``result["delta_v"]``, of ``uncertainty.propagate`` by a method that samples, or of a posterior.
     coverage : float
-        Probability of the interval that is shaded, as much left out below it as above.
+        Probability of the shaded interval, with equal tails below and above it.
     bins : int
         Number of bars. With few inputs the cases of "quasi_random" lie on lines that 40 bars or more may show as a comb.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
-        For an output that the model returned as a Quantity. Others are labelled with their name alone.
+        For an output that the model returned as a Quantity. Others are labelled with their names alone.
 
     Returns
     -------
@@ -48,9 +47,9 @@ def distribution(
     Raises
     ------
     InputError
-        Not an output, one that was not sampled, one with an Interval among its inputs, or without a spread.
+        An output that was not sampled, has an Interval among its inputs or has no spread; or anything but an output.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------
@@ -116,10 +115,10 @@ def distribution(
 def contributions(
     result: Propagation | Output, output: str | None = None, *, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
-    """What share of the variance of an output each input brings: by itself (bar), and with its interactions (diamond).
+    """The share of an output's variance due to each input: by itself (bar), and with its interactions (diamond).
 
-    The figure of each stands beside it. To know an input exactly would take the share of its bar away. Horizontal lines are
-    standard errors on both sides; a local method has none. Where diamond and bar differ, inputs act together.
+    The figure for each stands beside it. To know an input exactly would remove the share of its bar. Horizontal lines are
+    standard errors to either side; a local method has none. Where diamond and bar differ, inputs act together.
 
     Parameters
     ----------
@@ -128,9 +127,9 @@ def contributions(
     output : str, optional
         Which output; needed if there is more than one.
     axes : matplotlib.axes.Axes, optional
-        To draw on; by default that of a new figure.
+        Axes to draw on; by default those of a new figure.
     units : "si", "metric" or "us", optional
-        Of the standard deviation in the title, where the model returned Quantities.
+        Units of the standard deviation in the title, where the model returned Quantities.
 
     Returns
     -------
@@ -141,9 +140,9 @@ def contributions(
     Raises
     ------
     InputError
-        Not a result, an output that is not there, an Interval among the inputs, or no variance to share.
+        An output that is not there, an Interval among the inputs, no variance to share, or anything but a result.
     MissingInputError
-        Without matplotlib.
+        If matplotlib is missing.
 
     Examples
     --------
