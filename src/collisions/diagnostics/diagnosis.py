@@ -48,64 +48,65 @@ def diagnose(
     damage_delta_v_b: Input | Pair | None = None,
     units: UnitSystem | None = None,
 ) -> Findings:
-    """Check an impact, forward or reconstructed, for oddities: findings, an energy gain first.
+    """Check an impact, forward or reconstructed, for anything odd: returns the findings, an energy gain first.
 
-    A finding is a reason to look again, not an error; no finding is no proof. Every one compares something measured with a
-    limit, which ``diagnostics.LIMITS`` lists by code, with its unit and where it is from.
+    A finding is a reason to look again, not an error; the absence of findings proves nothing. Each compares a measured value
+    with a limit; ``diagnostics.LIMITS`` lists the limits by code, with their units and sources.
 
     Parameters
     ----------
     impact : Impact or MomentumSolution
-        One case, of any solver; also one that ``reconstruct`` found, or the answer of ``reconstruct.momentum``, whose courses,
-        speeds, energy and evidence are judged.
+        One case, of any solver, including one that ``reconstruct`` found; or the answer of ``reconstruct.momentum``, whose
+        courses, speeds, energy and evidence are judged.
     outline_a, outline_b : tuple or list, optional
-        Of an Impact: outline of a vehicle as seen from its centre of mass, for ``point_outside`` and, with both,
-        ``outlines_overlap``, ``outlines_gap`` and ``outlines_interpenetrate``:
-        (length, width); (length, width, offset) [m] with the centre of mass so far ahead of the middle; or the corners of a
-        convex outline, (forward, left) [m] one after another. The vehicle then needs x, y and heading.
+        For an Impact only: the outline of a vehicle, measured from its centre of mass, for ``point_outside`` and, if both are
+        given, ``outlines_overlap``, ``outlines_gap`` and ``outlines_interpenetrate``:
+        (length, width); (length, width, offset) [m] with the centre of mass that far ahead of the middle; or the corners
+        (forward, left) [m] of a convex outline, in order. The vehicle then needs x, y and heading.
     duration : float, str or Quantity [s]
-        Of the contact, as for ``left_out``; also how long the outlines are followed after it.
+        Duration of the contact, as for ``left_out``; the outlines are followed for this time after the impact.
     drag : float, str or Quantity
-        Of the tyres, as for ``left_out``.
+        Drag factor of the tyres, as for ``left_out``.
     limits : dict of str to float, str or Quantity, optional
-        Limits other than the default by code, units allowed, such as ``{"near_collinear": "15 deg"}``; inf switches a finding
-        of what is above its limit off, 0 one of what is below.
+        Limits that replace the defaults, by code, units allowed, such as ``{"near_collinear": "15 deg"}``; inf switches off a
+        finding that appears above its limit, 0 one that appears below it.
     crush_energy : float, str or Quantity [J], optional
-        Energy that the damage of both vehicles together takes, as by ``reconstruct.crush_energy``, for ``momentum_energy``.
+        Energy absorbed by the damage of both vehicles together, as from ``reconstruct.crush_energy``, for ``momentum_energy``.
     damage_pdof_a, damage_pdof_b : angle [rad], optional
-        Direction of force that the damage of a vehicle shows, 0 from straight ahead, positive clockwise, for
+        Direction of force shown by the damage of a vehicle, 0 from straight ahead, positive clockwise, for
         ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a heading.
     damage_delta_v_a, damage_delta_v_b : float, str or Quantity [m/s], or pair of them, optional
-        Delta-V that the damage of a vehicle, or its recorder, shows, for ``delta_v_off_damage``: the magnitude, or the pair
-        (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
+        Delta-V shown by the damage of a vehicle, or by its event data recorder, for ``delta_v_off_damage``: the magnitude, or
+        the pair (forward, left), which is compared as a vector. For a pair the vehicle needs a heading.
     units : "si", "metric" or "us", optional
-        Of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default "us" if the inputs were given so,
-        else "metric". Measure and limit stay in SI, as do the numbers in a sentence that asks for the unit which was meant.
+        Units of the sentences: m/s, rad and J; km/h, degrees and kJ; mph, ft and ft lbf. By default "us" if the inputs were
+        given so, else "metric". Measured value and limit stay in SI, as do the numbers in a sentence that asks which unit was
+        meant.
 
     Returns
     -------
     tuple of Finding
-        In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was found. Its ``measured`` has the
-        codes of all that was looked at, found or not.
+        In the order of ``LIMITS``, vehicle A before B, shown as a table; empty if nothing was found. Its ``measured`` holds the
+        codes of all checks that were made, whether or not they found anything.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, a code that is none, a batch (``ShapeError``), an answer that was refused, outlines for
-        one of planar momentum, which has no positions, or a ``reconstruct.Fit``: diagnose the impact at its values.
+        An argument that cannot be used, an unknown code, a batch (``ShapeError``), an answer that was refused, outlines for an
+        answer of planar momentum, which has no positions, or a ``reconstruct.Fit`` (diagnose the impact at its values instead).
     MissingInputError
-        An outline without a position or heading of its vehicle, a PDOF of the damage without a heading.
+        An outline of a vehicle without position or heading, or a PDOF from the damage of one without heading.
 
     Notes
     -----
-    Left out where it cannot be measured: levers without a contact point, courses of a vehicle at rest. Contact points and
-    restitution cannot disagree in an answer of the eccentric model, so ``contact_points_approach`` appears for answers of
-    ``solve`` by a smaller one only; and an answer cannot turn a vehicle against its own impulse, so ``yaw_against_lever`` needs
-    the direction of force that the damage shows. A linear impact has no tangential direction to judge.
+    What cannot be measured is left out, such as lever arms without a contact point or the course of a vehicle at rest. In an
+    answer of the eccentric model, contact points and restitution cannot disagree, so ``contact_points_approach`` appears only
+    where ``solve`` took a smaller model. Nor can an answer turn a vehicle against its own impulse, so ``yaw_against_lever``
+    needs the direction of force shown by the damage. A linear impact has no tangential direction to judge.
 
     Examples
     --------
-    Example 3 of the paper has a restitution of 0.80, which is arithmetic, not guidance:
+    Example 3 of the paper has a restitution of 0.80, which serves the arithmetic and is no guidance:
 
     >>> import collisions as col
     >>> from collisions.diagnostics import diagnose

@@ -20,7 +20,7 @@ METHOD = f"EDCRASH manual, chapter 4 ({_HVE}/04-calculation-method.md)"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limit:
-    """The limit that a finding passes.
+    """The limit beyond which a finding appears.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ class Limit:
     unit : str
         SI unit.
     measured : str
-        What is measured, and from which side the limit is passed.
+        What is measured, and on which side of the limit a finding appears.
     source : str
-        Where the default is from: "set here" with the reason where nothing was found to cite.
+        Where the default comes from; "set here", with the reason, where nothing was found to cite.
     """
 
     default: float | None
@@ -53,13 +53,13 @@ class Finding:
     measured : float
         What was measured, in ``unit``; infinite where there is no answer to measure.
     limit : float
-        What it passes, in ``unit``.
+        The limit that it passes, in ``unit``.
     unit : str
-        SI unit, "" for a plain number. ``.q`` has both as Quantities.
+        SI unit, "" for a plain number. ``.q`` gives both numbers as Quantities.
     vehicle : str
-        "a" or "b" where it is about one of them, else "".
+        "a" or "b" where the finding is about one vehicle, else "".
     source : str
-        Where the limit is from.
+        Where the limit comes from.
     """
 
     code: str
@@ -72,7 +72,7 @@ class Finding:
 
     @property
     def q(self) -> Any:
-        """The attributes, with measured and limit as pint Quantities."""
+        """The same attributes, with ``measured`` and ``limit`` as pint Quantities."""
         return Quantities(self)
 
 
@@ -88,7 +88,7 @@ class Findings(tuple[Finding, ...], Summarized):
         return made
 
     def summary(self, units: str | None = None) -> Summary:
-        """The findings as a table; ``units`` of measure and limit, by default those of the sentences."""
+        """The findings as a table; measured values and limits in ``units``, by default those of the sentences."""
         return super().summary(self._system if units is None else units)
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -108,7 +108,7 @@ class Findings(tuple[Finding, ...], Summarized):
 class Measured(NamedTuple):
     """The value that a check measured, and the sentence for it if the limit is passed.
 
-    ``limit`` is the default of one that depends on the case; ``rounding`` is by how much the value has to be above its limit.
+    ``limit`` is the default of a limit that depends on the case; the value has to be above its limit by ``rounding``.
     """
 
     value: float

@@ -234,16 +234,16 @@ _HIGHEST = 0.3
 def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     """Coefficient of restitution at a closing speed, by the fit of Cipriani and others.
 
-    The fit is a mean over pairs of vehicles, of which one pair may be 0.1 to 0.2 off: take a range. Source, range and quality
-    are in ``RESTITUTION_FIT``.
+    The fit is a mean over pairs of vehicles, and a single pair may be 0.1 to 0.2 off, so use a range. Its source, range and
+    quality are in ``RESTITUTION_FIT``.
 
     Parameters
     ----------
     closing_speed : float, str, Quantity or array [m/s]
         Along the contact normal, > 0.
     outside : {"warn", "refuse"}
-        What is done outside 2 to 15 mph: the formula goes on with a warning, or is refused. Where it gives no restitution,
-        above 58.7 km/h or below 0.25 km/h, it is refused in any case.
+        What to do outside 2 to 15 mph: extrapolate with a warning, or refuse. Where the formula gives no restitution, above
+        58.7 km/h or below 0.25 km/h, the speed is refused in any case.
 
     Returns
     -------
@@ -266,7 +266,7 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
     >>> round(reference.restitution("5 mph"), 4)
     0.3826
 
-    As a function of the closing speed for the reverse solvers, which then stay in its range:
+    As a function of the closing speed for the reverse solvers, which then stay within its range:
 
     >>> fit = lambda speed: reference.restitution(speed, outside="refuse")
     >>> round(3.6 * reconstruct.inline_closing_speed(1500, 1500, fit, delta_v_a="5 km/h"), 1)
@@ -293,11 +293,12 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
 
 @hinted
 def restitution_range(closing_speed: Input) -> tuple[Value, Value]:
-    """Restitutions that are plausible at a closing speed: lowest and highest.
+    """Lowest and highest plausible restitution at a closing speed.
 
-    The lowest is 0: bodies may stay together. The highest is, up to 15 mph, the fit plus 0.1 (half the width of
-    ``RESTITUTION_LOW_SPEED``) and at least 0.3; above 15 mph 0.3, which is above every value published here for such speeds
-    (``RESTITUTION``, ``RESTITUTION_OBLIQUE``, ``RESTITUTION_SMALL_OVERLAP``); below 2 mph 1, for nothing is published.
+    The lowest is 0, because bodies may stay together. Up to 15 mph the highest is the fit plus 0.1 (half the width of
+    ``RESTITUTION_LOW_SPEED``), but at least 0.3. Above 15 mph it is 0.3, which exceeds every value published here for such
+    speeds (``RESTITUTION``, ``RESTITUTION_OBLIQUE``, ``RESTITUTION_SMALL_OVERLAP``). Below 2 mph it is 1, because nothing is
+    published.
 
     Parameters
     ----------
@@ -341,9 +342,9 @@ def _fitted(x: Any) -> Any:
 
 @hinted
 def restitution_by_overlap(overlap: Input) -> Published:
-    """Published range of the restitution of a rear-end collision by the share of the width that overlaps.
+    """Published range of the restitution in a rear-end collision, by the share of the width that overlaps.
 
-    Up to 45 percent is under half here, from 55 percent on over half: the source says "about".
+    Here up to 45 percent counts as under half and 55 percent or more as over half; the source says only "about".
 
     Parameters
     ----------
@@ -353,7 +354,7 @@ def restitution_by_overlap(overlap: Input) -> Published:
     Returns
     -------
     Published
-        The range with its source, 7.8 to 32.4 km/h of relative speed.
+        The range with its source, for relative speeds of 7.8 to 32.4 km/h.
 
     Raises
     ------

@@ -106,8 +106,8 @@ DRAG_FACTORS: tuple[Published, ...] = (*(row for rows in _BY_SURFACE.values() fo
 def drag_factor(surface: str, *, speed: Input) -> Published:
     """Published range of the drag factor of locked wheels on a surface.
 
-    Wheels that roll have ``ROLLING_RESISTANCE``, ``ENGINE_BRAKING_HIGH`` and ``ENGINE_BRAKING_LOW``; other surfaces and other
-    vehicles have other values, of which none could be checked.
+    For rolling wheels there are ``ROLLING_RESISTANCE``, ``ENGINE_BRAKING_HIGH`` and ``ENGINE_BRAKING_LOW``. Other surfaces and
+    other vehicles have other values, none of which could be checked.
 
     Parameters
     ----------
@@ -116,12 +116,12 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
         "asphalt with excess tar", "packed and oiled gravel", "loose gravel", "packed cinders", "crushed rock", "ice", "packed
         snow" and "loose snow".
     speed : float, str or Quantity [m/s]
-        At which the slide begins, >= 0.
+        Speed at which the slide begins, >= 0.
 
     Returns
     -------
     Published
-        The range with its source; 30 mph itself counts as above.
+        The range with its source; exactly 30 mph counts as above 30 mph.
 
     Raises
     ------

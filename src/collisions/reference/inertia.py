@@ -69,23 +69,23 @@ def yaw_inertia(
     width: Input | None = None,
     outside: Outside = "warn",
 ) -> Value:
-    """Yaw inertia [kg*m**2] about the centre of mass, estimated from dimensions: with the wheelbase, or as a rectangle.
+    """Yaw inertia [kg*m**2] about the centre of mass, estimated from dimensions: by the wheelbase, or as a rectangle.
 
-    A measured value is better: NHTSA measured hundreds of vehicles (SAE 1999-01-1336). Of the car that could be compared the
-    first form gives 15 percent less and the second 14 percent more than its yaw inertia: take them as a range. Sources are in
-    ``YAW_INERTIA_WHEELBASE`` and ``YAW_INERTIA_RECTANGLE``. For larger vehicles mass times the distances of both axles from
-    the centre of mass, times ``YAW_INERTIA_INDEX``, is a range that was measured.
+    A measured value is better: NHTSA measured hundreds of vehicles (SAE 1999-01-1336). For the one car that could be compared,
+    the first form gives 15 percent less and the second 14 percent more than its yaw inertia, so take the two as a range. Their
+    sources are in ``YAW_INERTIA_WHEELBASE`` and ``YAW_INERTIA_RECTANGLE``. For larger vehicles, the mass times the distances of
+    both axles from the centre of mass, times ``YAW_INERTIA_INDEX``, gives a range that was measured.
 
     Parameters
     ----------
     mass : float, str, Quantity or array [kg]
         As loaded, > 0.
     length : float, str, Quantity or array [m]
-        Over all, > 0.
+        Overall, > 0.
     wheelbase, width : float, str, Quantity or array [m], optional
-        Exactly one of them, > 0: it chooses the form.
+        Exactly one of the two, > 0; it selects the form.
     outside : {"warn", "refuse"}
-        What is done outside the range of the cars it was checked for.
+        What to do outside the range of the cars for which the form was checked.
 
     Returns
     -------
@@ -95,12 +95,12 @@ def yaw_inertia(
     Raises
     ------
     InputError
-        An argument that cannot be used, both or none of wheelbase and width, or one of them beyond the length.
+        An argument that cannot be used, both or neither of wheelbase and width, or one of them not below the length.
 
     Warns
     -----
     OutOfRangeWarning
-        Outside the range.
+        Outside the range of these cars.
 
     Examples
     --------

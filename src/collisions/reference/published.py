@@ -23,17 +23,17 @@ class Published:
     Parameters
     ----------
     name : str
-        What it is of.
+        What the value is of.
     low, high : float
         Ends of the published range; equal for a single value.
     typical : float, optional
-        The value named as usual, where there is one.
+        The usual value, where one is stated.
     unit : str, optional
         SI unit, "" for a plain number.
     source : str
         Where it was published and where it was read.
     domain : str
-        What it holds for.
+        What it applies to.
     quality : str
         How good it is, in a sentence.
 
@@ -56,7 +56,7 @@ class Published:
 
     @property
     def q(self) -> Any:
-        """The same attributes, the numbers as pint Quantities."""
+        """The same attributes, with the numbers as pint Quantities."""
         given = {name: getattr(self, name) for name in ("low", "high", "typical")}
         return replace(self, **{name: to_quantity(value, self.unit) for name, value in given.items() if value is not None})
 
@@ -79,11 +79,11 @@ class Fit:
     name : str
         What it gives.
     formula : str
-        As it is worked out, in SI.
+        The formula as it is evaluated, in SI.
     unit : str
         SI unit of what it gives.
     ranges : dict of (float, float, str)
-        By argument: lowest, highest and SI unit of what it was found used or checked for.
+        By argument: lowest value, highest value and SI unit of the range for which it was found in use, or checked.
     source, domain, quality : str
         As for ``Published``.
     """
@@ -98,7 +98,7 @@ class Fit:
 
     @property
     def q(self) -> Any:
-        """The same attributes, the ends of the ranges as pint Quantities."""
+        """The same attributes, with the ends of the ranges as pint Quantities."""
         ranges: Any = {
             name: (to_quantity(low, unit), to_quantity(high, unit), unit) for name, (low, high, unit) in self.ranges.items()
         }
