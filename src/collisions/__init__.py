@@ -1,8 +1,8 @@
 """Vehicle impacts by impulse and momentum: linear central, oblique central and eccentric.
 
-Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted at
-the reader. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
-``travel`` has what the ground takes, ``uncertainty`` says how sure an answer is.
+Numbers without a unit are SI, angles are radians counter-clockwise; Quantities and texts such as "80 km/h" are converted when
+read. See ``Vehicle``, then ``linear_central``, ``oblique_central`` and ``eccentric``; ``reconstruct`` solves backwards,
+``travel`` covers motion over the ground, and ``uncertainty`` says how certain an answer is.
 """
 
 from importlib import import_module

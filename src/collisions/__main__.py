@@ -92,7 +92,7 @@ def _pages(options: Any, found: Answers) -> dict[Path, str]:
 
 
 def _write(pages: dict[Path, str]) -> None:
-    """Write all of these files, or none: beside their places first."""
+    """Write all of these files, or none: first under names beside their own."""
     parts: dict[Path, Path] = {}
     try:
         for path, text in pages.items():
@@ -137,7 +137,7 @@ def _refused(options: Any, error: CaseError, whole: Any) -> int:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        """One line, as of every mistake."""
+        """One line, as for every mistake."""
         self.exit(2, f"{self.prog}: {message}; write for example: {self.prog} case.toml --report report.html; see --help\n")
 
 

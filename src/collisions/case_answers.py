@@ -94,7 +94,7 @@ class Answers:
         return self.results[0]
 
     def text(self, units: str | None = None) -> str:
-        """The results with their findings, and the ranges with what they come of."""
+        """The results with their findings, and the ranges with what they come from."""
         found: list[Any] = []
         system = self._units(units)
         looked_at = {name: value for name, value in self.case.report.items() if name in parameters(diagnose)}
@@ -181,7 +181,7 @@ def _known(call: Call) -> Iterator[str]:
 
 
 def _shares(output: Any) -> str:
-    """The inputs that the spread of an output comes of, as shares of its variance; "" where there are none."""
+    """The inputs that the spread of an output comes from, as shares of its variance; "" where there are none."""
     with suppress(InputError):
         shares = sorted(output.contributions.items(), key=lambda one: -one[1])
         listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
@@ -232,10 +232,10 @@ def answers(case: Case) -> Answers:
 
 @contextmanager
 def _noting(texts: list[str], before: list[CollisionsWarning] | None = None) -> Iterator[list[CollisionsWarning]]:
-    """Within this context warnings are no warnings, but are added to the texts, each once.
+    """Within this context warnings are not issued but added to the texts, each once.
 
-    Of a study of a case that was warned of ``before``, those that count its cases stand in place of the case's own of the same
-    code; of others one a code is added where the case has none. That a number needs a unit the case itself has shown.
+    In a study of a case that gave the warnings ``before``, warnings that count the study's cases replace those of the case with
+    the same code; of others one per code is added where the case has none. That a number needs a unit the case has said before.
     """
     found: list[CollisionsWarning] = []
     with warnings.catch_warnings(record=True) as caught:
@@ -258,7 +258,7 @@ def _line(warning: CollisionsWarning) -> str:
 
 
 def _roots(found: Any) -> tuple[Any, ...]:
-    """What a solver gives as a tuple of results."""
+    """The results of a solver, always as a tuple."""
     return found if isinstance(found, tuple) else (found,)
 
 
@@ -297,7 +297,7 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
 
 
 def _found(result: Any, name: str) -> tuple[Any, str, Any, str | None]:
-    """What has the number of a path, its own name, the number, and its unit; None of what is no number."""
+    """The object that holds the number of a path, the number's own name, the number and its unit; None for any other value."""
     path, _, last = name.rpartition(".")
     owner = reduce(lambda whole, part: getattr(whole, part, None), filter(None, path.split(".")), result)
     return owner, last, getattr(owner, last, None), unit_of(type(owner), last)

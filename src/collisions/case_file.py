@@ -166,7 +166,7 @@ def read_text(data: bytes) -> Case:
 
 
 def _float(text: str) -> float:
-    """A number of a file; one too large for a float is refused, as it would be infinite."""
+    """A number of a file; one too large for a float, which would become infinite, is refused."""
     found = float(text)
     if math.isinf(found) and "inf" not in text:
         raise CaseError(
@@ -241,10 +241,10 @@ def nearest(given: str, names: Iterable[str]) -> str:
 
 
 def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -> Any:
-    """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with " (95 %)"; None of others.
+    """What a text says of an uncertain number: "50 km/h +/- 3 km/h", "0.4 .. 0.7", either with " (95 %)"; None for others.
 
-    A number after +/- is one standard deviation of a normal distribution, two dots are the ``bounds``, of a uniform one. With
-    a percentage the range holds that share of a normal distribution.
+    A number after +/- is one standard deviation of a normal distribution; two dots stand between the ``bounds`` of a uniform
+    one. With a percentage the range holds that share of a normal distribution.
     """
     found = _UNCERTAIN.fullmatch(text)
     if found is None:
@@ -280,7 +280,7 @@ def ends(stated: Any, least: float, most: float) -> tuple[str, str]:
 
 
 def _open(name: str, value: Any) -> Any:
-    """A value of a distribution; an end of a truncation that is infinite, as a file writes it, is open."""
+    """A value of a distribution; an infinite end of a truncation, which a file can write, becomes an open one."""
     ends = value if name == "truncate" and isinstance(value, tuple) and len(value) == 2 else None
     return tuple(None if end == side * math.inf else end for end, side in zip(ends, (-1, 1), strict=True)) if ends else value
 
@@ -310,7 +310,7 @@ class _Reader:
             self.document |= {f"reconstruct.{name}": table for name, table in inside.items()}
 
     def plain(self, node: Any, key: str = "") -> Any:
-        """A part of the document with its lists as tuples; whole numbers that TOML has not are refused."""
+        """A part of the document with its lists as tuples; whole numbers beyond those of TOML are refused."""
         if isinstance(node, dict):
             if key and "answer" in node:
                 self.refuse(
@@ -445,7 +445,7 @@ class _Reader:
         return value
 
     def function(self, key: str, table: Any) -> Any:
-        """What the function gives that a table names in place of a number."""
+        """The result of the function that a table names in place of a number."""
         for name, function in FUNCTIONS.items():
             inside = table
             for part in name.split("."):

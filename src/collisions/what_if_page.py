@@ -73,27 +73,26 @@ def what_if(
     outline_b: Any = None,
     units: UnitSystem | None = None,
 ) -> Document:
-    """One offline HTML page with a slider for each of these inputs: the scene, delta-V, PDOF, yaw and energy as they move.
+    """One offline HTML page with a slider for each of these inputs, which redraws the scene, delta-V, PDOF, yaw and energy.
 
-    The page solves the impact anew at every move, by the model of this one: the kernel itself, recorded and printed as
-    JavaScript, so that both give the same numbers (sine, cosine and arctangent are the browser's). It asks for nothing from
-    outside, and works by keyboard and with screen readers. Of an impact that a reverse solver found it goes forward from the
-    motions found.
+    At every move the page solves the impact again by the same model: the kernel itself, recorded and printed as JavaScript, so
+    that both give the same numbers (sine, cosine and arctangent are the browser's). It loads nothing from outside, and works by
+    keyboard and with screen readers. For an impact that a reverse solver found, it computes forward from the motions found.
 
     Parameters
     ----------
     impact : Impact
         A single answered case of any solver; the sliders start at its values.
     ranges : dict
-        Ends (low, high) of each slider by the name of the input, with units as anywhere, around the value of the impact. Of a
-        vehicle, however it was given: ``speed_a``, ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``, ``yaw_rate_a``,
-        ``yaw_inertia_a``, ``x_a``, ``y_a``, ``heading_a``, and the same with ``_b``. Of the contact: ``restitution``,
-        ``normal``, ``point_x``, ``point_y``, and whichever was given of ``friction``, ``impulse_ratio`` and
-        ``critical_fraction``.
+        Ends (low, high) of each slider by the name of the input, with units as elsewhere, on either side of the value in the
+        impact. For a vehicle, however it was given: ``speed_a``, ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``,
+        ``yaw_rate_a``, ``yaw_inertia_a``, ``x_a``, ``y_a``, ``heading_a``, and the same with ``_b``. For the contact:
+        ``restitution``, ``normal``, ``point_x``, ``point_y``, and whichever of ``friction``, ``impulse_ratio`` and
+        ``critical_fraction`` was given.
     outline_a, outline_b
-        As for ``diagnose``, to draw; without one a vehicle with a heading is drawn 4.5 m by 1.8 m, and the page says so.
+        As for ``diagnose``, for the drawing; without it a vehicle with a heading is drawn 4.5 m by 1.8 m, and the page says so.
     units : {"si", "metric", "us"}, optional
-        Of what the page shows; by default those that the inputs were given in, where they agree, else SI.
+        Units of the page; by default those that the inputs were given in, where they agree, else SI.
 
     Returns
     -------
@@ -103,7 +102,7 @@ def what_if(
     Raises
     ------
     InputError
-        A name that the model of this impact has no use for, ends that are not in order, or a value outside of them.
+        A name that the model of this impact does not use, ends in the wrong order, or a value of the impact outside them.
     ShapeError
         A batch: take one case of it.
 
@@ -166,7 +165,7 @@ def _body(vehicle: Vehicle, label: str, given: Mapping[str, Any]) -> Vehicle:
 
 
 def _heading_for(vehicle: Vehicle) -> tuple[Any, Any]:
-    """The direction in which the vehicle moves; of one at rest as it was given."""
+    """The direction in which the vehicle moves; for one at rest, the course as it was given."""
     if vehicle.speed > 0.0:
         return vehicle.vx / vehicle.speed, vehicle.vy / vehicle.speed
     return direction(ArgumentReader(), Texts(vehicle.given)["course"], "course")

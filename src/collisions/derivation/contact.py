@@ -281,7 +281,7 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
 
 
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
-    """Its value, NaN of a body that turns and whose yaw inertia is not known; and its formula, ZERO of a body at rest."""
+    """Its value, NaN for a body that turns and whose yaw inertia is not known; and its formula, ZERO for a body at rest."""
     state = body.state(when)
     formula: Expression = ZERO
     if state.speed:
@@ -341,7 +341,7 @@ def _pdof(page: Page, s: Symbols, body: Body) -> None:
 
 
 def pdof(page: Page, label: str, caption: str, direction: float, pushed: Expression, heading: float, found: float) -> None:
-    """The PDOF, from the direction of the impulse, which a caption and a formula say, and the heading."""
+    """The PDOF, from the heading and the direction of the impulse, which a caption and a formula give."""
     alpha, psi = Symbol(rf"\alpha_{label}", direction, "angle"), Symbol(rf"\psi_{label}", heading, "angle")
     page.equation(caption, alpha, pushed)
     turns = round((found - (psi.value - alpha.value)) / math.pi)

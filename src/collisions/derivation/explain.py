@@ -108,41 +108,41 @@ def explain(
     form: Form = "markdown",
     uncertainty: Propagation | Mapping[str, Any] | None = None,
 ) -> Document:
-    """The derivation of an answer with the numbers in it, step by step.
+    """The derivation of an answer, step by step, with its numbers.
 
-    Every line is a formula, the same with numbers, and the number of the result: nothing is solved again, and a formula that
-    did not give the result's number would say so. Equation numbers, as (5), are those of "Application of Impulse Momentum
-    Theory to Vehicle Collisions". An energy gain comes first.
+    Every line has a formula, the same formula with numbers, and the number of the result. Nothing is solved again, and a
+    formula that did not give the result's number would say so. Equation numbers, such as (5), are those of "Application of
+    Impulse Momentum Theory to Vehicle Collisions". An energy gain comes first.
 
-    The working keeps a number as it is if six figures hold it, else four figures (all that stand before the decimal point; of
-    small speeds, angles, lengths and ratios two decimals more than an answer has). Where a line needs more figures than that to
-    give the result printed below it, its numbers have more: keyed into a pocket calculator as printed, and rounded, every line
-    gives its result, and where one cannot, the page says so below it. The answers at the end are rounded: speeds to 0.1 km/h,
+    The working prints a number in full if six figures hold it, else to four figures (with all that stand before the decimal
+    point; small speeds, angles, lengths and ratios have two decimals more than an answer). Where a line needs more figures than
+    that to give the result printed below it, its numbers have more: keyed into a pocket calculator as printed, and rounded,
+    every line gives its result; where one cannot, the page says so. The answers at the end are rounded: speeds to 0.1 km/h,
     0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01 rad/s, restitution to 0.01, impulse
     ratios to 0.001, impulses and energies to three figures; or to two figures of their standard deviation where that is known.
 
     Parameters
     ----------
     impact : Impact, MomentumSolution or Fit
-        One case, of any forward or reverse solver. Of a ``Fit`` the misfit of every observation, the estimates and what their
-        errors come of; its model is code, which stands on no page. The numbers of ``crush_energy`` and ``travel`` do not hold
-        what they were worked out from; their formulas are in ``help(collisions.travel.speed)`` and so on.
+        One case, of any forward or reverse solver. For a ``Fit`` the page has the misfit of every observation, the estimates
+        and the sources of their errors, but not the model, which is code. The numbers that ``crush_energy`` and ``travel``
+        return do not hold what they were worked out from; for their formulas see ``help(collisions.travel.speed)`` and so on.
     units : {"si", "metric", "us"}, optional
-        "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Numbers that convert
-        units within a line are listed at the end.
+        "si": m/s, rad, rad/s, J. "metric": km/h, deg, deg/s, kJ. "us": mph, lb, ft, deg, deg/s, ft*lbf. Conversion factors
+        within a line are listed at the end.
     form : {"markdown", "text"}, optional
         Markdown with LaTeX between dollar signs, or plain text.
     uncertainty : Propagation, or dict of float, str or Quantity, optional
-        Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. Of a
-        propagation those outputs are taken that have such a name, as SI if the model returned plain numbers. With an
-        ``Interval`` among its inputs an answer gets its range: a standard deviation would leave the interval out. A ``Fit`` has
+        Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss"; "b_after_vx" means the same. From
+        a propagation, the outputs with such a name are taken, as SI if the model returned plain numbers. With an ``Interval``
+        among its inputs an answer gets its range, because a standard deviation would leave the interval out. A ``Fit`` has
         standard errors of its own.
 
     Returns
     -------
     Document
-        The derivation, a ``str`` that a notebook shows as a page and that ``.save(path)`` writes to a file; the same for the
-        same arguments.
+        The derivation, a ``str`` that a notebook shows as a page and that ``.save(path)`` writes to a file. The same arguments
+        give the same page.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def explain(
 
     Examples
     --------
-    Example 2 of the paper, which asks for the restitution, and the velocity of the striking car.
+    Example 2 of the paper, which asks for the restitution and the velocity of the striking car:
 
     >>> import collisions as col
     >>> from collisions.derivation import explain
@@ -194,7 +194,7 @@ def explain(
 
 
 def no_uncertainty(kind: str = "Fit") -> InputError:
-    """The error for an ``uncertainty`` with a result that brings its own errors."""
+    """The error for an ``uncertainty`` given with a result that has errors of its own."""
     return InputError(
         f"uncertainty is none of a {kind}, which has the standard errors of its unknowns; leave it out, or explain the impact "
         f"at the values found, with a propagation of {kind.lower()}.inputs",

@@ -75,7 +75,7 @@ class System(Numbers):
     def half_unit(self, value: float, kind: str, size: float) -> float:
         """Half a unit, as printed, of the last of the figures that the working promises of this number.
 
-        Of a number that is 0 it is that of the ``size`` of what has cancelled to it.
+        For a number that is 0, it is that of ``size``, the size of the terms that cancelled.
         """
         scale = self.scale(kind)
         if _is_zero(value, kind) and 0.0 < size < math.inf:

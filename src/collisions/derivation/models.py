@@ -215,7 +215,7 @@ def eccentric(page: Page, s: Symbols) -> None:
 
 
 def time_resolved(page: Page, s: Symbols) -> None:
-    """A contact in steps: its sums are on no page, but what they balance is."""
+    """A contact in steps: its sums are not printed, but what they balance is."""
     impact, steps = s.impact, s.impact.inputs.steps or 100
     geometry = (s.impact.inputs.geometry or "maximum_engagement").replace("_", " ")
     page.heading("Time-resolved impact")

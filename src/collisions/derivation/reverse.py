@@ -18,7 +18,7 @@ _OF_BOTH = {"ees_a": "EES of both (ISO 12353)", "max_crush_speed_a": "speeds of 
 
 
 def why_this_model(page: Page, impact: Impact) -> None:
-    """Write the reason for which ``solve`` chose the model."""
+    """Write why ``solve`` chose the model."""
     choice = impact.choice
     if choice is None:
         return
@@ -40,7 +40,7 @@ def why_this_model(page: Page, impact: Impact) -> None:
 
 
 def state_before(page: Page, s: Symbols) -> None:
-    """Write how the state before was found; for an unfamiliar reverse solver only what was known."""
+    """Write how the state before was found; for a reverse solver unknown here, only what was known."""
     origin = s.impact.reconstruction
     if origin is None:
         return

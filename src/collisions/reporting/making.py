@@ -80,14 +80,14 @@ def report(
 ) -> Document:
     """One page about an answer: inputs, assumptions, results, uncertainty, findings, figures, sources and the record.
 
-    An energy gain stands first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, by the
-    rounding of ``explain``. The same arguments give the same page, byte for byte, one fact a line, without a date; from the
-    record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options, and ``report`` of both
-    the same page.
+    An energy gain comes first. Every number comes from the result, from ``diagnose``, ``left_out`` or the propagation, rounded
+    as in ``explain``. The page has one fact per line and no date; the same arguments give the same page, byte for byte. From
+    the record at its end ``reporting.replay`` gives the impact again and ``reporting.options`` the options; with both,
+    ``report`` makes the same page again.
 
-    A ``MomentumSolution`` knows neither contact nor places, and a ``Fit`` or a ``Posterior`` only unknowns and what was
-    observed: their pages have the parts that they have, and options of other parts are refused. The record of the last two has
-    their numbers, but no impact comes back from it, because their model is code.
+    A ``MomentumSolution`` has neither contact nor positions, and a ``Fit`` or a ``Posterior`` has only unknowns and
+    observations: their pages have only the parts that apply, and options for other parts are refused. The record of the last
+    two has their numbers, but gives no impact back, because their model is code.
 
     Parameters
     ----------
@@ -96,25 +96,26 @@ def report(
     title : str, optional
         By default the names of the vehicles.
     form : {"html", "markdown"}
-        One HTML file that asks for nothing from outside, to be read in a browser or printed; or Markdown, without figures.
+        One self-contained HTML file, to be read in a browser or printed; or Markdown, without figures.
     units : {"si", "metric", "us"}, optional
-        By default those that the inputs were given in, as for ``summary``.
+        By default those of the inputs, as for ``summary``.
     uncertainty : Propagation, optional
-        Of ``uncertainty.propagate``. Outputs with the name of an answer, such as "b.after.vx" or "b_after_vx", also round it.
+        From ``uncertainty.propagate``. An output with the name of an answer, such as "b.after.vx" or "b_after_vx", also sets
+        the rounding of that answer.
     outline_a, outline_b, duration, drag, limits
-        As for ``diagnose``; the first two are also drawn.
+        As for ``diagnose``; the outlines are also drawn.
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
         What the damage shows, as for ``diagnose``; printed among the inputs.
     share_a : float, str or Quantity, optional
         A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
     notes : str, dict or sequence of these, optional
-        Your own words, each in a paragraph of its own; or by input, beside which they stand, such as where its value is from:
-        ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``. So may "duration", "drag", "law" and the
-        outlines that are given, "outline_a" and "outline_b".
+        Your own words, each note in a paragraph of its own; or notes by input, printed beside it, such as where its value is
+        from: ``{"restitution": "Low-speed tests of the same model", "a.mass": "Weighed"}``. "duration", "drag", "law" and the
+        outlines that are given, "outline_a" and "outline_b", may have notes too.
     figures : bool
-        Whether to draw. They need matplotlib; where it is missing the report says so and goes on.
+        Whether to draw figures. They need matplotlib; without it the report says so and goes on.
     derivation : bool
-        Whether to append what ``explain`` says, in HTML as plain text.
+        Whether to append the derivation of ``explain``; in HTML it is plain text.
 
     Returns
     -------
@@ -206,7 +207,7 @@ _USUAL = plain_options({name: parameter.default for name, parameter in signature
 
 
 def _is_usual(name: str, value: Any) -> bool:
-    """Whether an option has its default value; a value that cannot be compared, such as an array, has not."""
+    """Whether an option has its default value; one that cannot be compared, such as an array, counts as not."""
     return type(value) is type(_USUAL[name]) and bool(value == _USUAL[name])
 
 

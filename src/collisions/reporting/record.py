@@ -76,7 +76,7 @@ def record(
 
 
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The options with numbers as floats or the texts given; a value that cannot be read stays, for the reader to refuse."""
+    """The options with numbers as floats or the texts given; a value that cannot be read is kept, for the reader to refuse."""
     found = {name: value for name, value in given.items() if name in _UNITS}
     for name, unit in _UNITS.items():
         if unit is not None and isinstance(given[name], (tuple, list)):
@@ -131,8 +131,8 @@ def _results(solution: MomentumSolution) -> Any:
 def replay(text: str) -> Impact | MomentumSolution:
     """The answer of a report, solved again from the record at its end.
 
-    The record holds every input with all its digits. ``report`` with the same options makes the same report of it, byte for
-    byte; so whoever doubts a report reads it back, makes it again and compares.
+    The record holds every input with all its digits. ``report`` with the same options makes the same report from it, byte for
+    byte, so whoever doubts a report can read it back, make it again and compare.
 
     Parameters
     ----------
@@ -142,12 +142,12 @@ def replay(text: str) -> Impact | MomentumSolution:
     Returns
     -------
     Impact or MomentumSolution
-        Equal to the one reported, with the texts its inputs were given as.
+        Equal to the one reported, with the texts in which its inputs were given.
 
     Raises
     ------
     InputError
-        No report with a record, or a record that cannot be read, whose inputs do not give its results, or whose texts and
+        A text without a record, or a record that cannot be read, whose inputs do not give its results, or whose texts and
         numbers differ; or the report of a ``Fit`` or a ``Posterior``, whose model is code.
 
     Examples
@@ -227,13 +227,13 @@ def options(text: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        By argument of ``report``, what was not left at its default. ``uncertainty`` is missing: a propagation holds a model,
-        which is code, and the record has only its method, number of cases and seed.
+        By argument of ``report``, every option that was not left at its default. ``uncertainty`` is missing: a propagation
+        holds a model, which is code, and the record has only its method, number of cases and seed.
 
     Raises
     ------
     InputError
-        No report with a record, or a record that cannot be read.
+        A text without a record, or a record that cannot be read.
 
     Examples
     --------

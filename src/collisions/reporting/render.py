@@ -77,7 +77,7 @@ class Sheet(Page):
         return plain(text)
 
     def as_given(self, value: float | None, kind: str, text: str | None) -> str:
-        """A number in the units of the page, and how it was given; without a text with all the digits that were typed."""
+        """A number in the units of the page, and how it was given; if not as a text, with all the digits that were typed."""
         if value is None:
             return f"given as {typeset(with_symbol(plain(text or '')))}"
         number = self.number(value, kind)

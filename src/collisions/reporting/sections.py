@@ -109,7 +109,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
 
 
 def key_of(of: str, names: Sequence[str]) -> str:
-    """The name of an input in ``notes``, such as "a.mass" or "restitution"; of both parts of a place one."""
+    """The name of an input in ``notes``, such as "a.mass" or "restitution"; one name for both parts of a place."""
     name = names[0].partition("[")[0]
     return name if of == "contact" else f"{of.lower()}.{name}"
 
@@ -134,7 +134,7 @@ def _published(impact: Impact, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _restitution(closing_speed: float) -> str:
-    """The published range of the restitution at a closing speed, and what it is from."""
+    """The published range of the restitution at a closing speed, and its source."""
     low, high = reference.restitution_range(closing_speed)
     slowest, fastest, _ = reference.RESTITUTION_FIT.ranges["closing_speed"]
     if closing_speed < slowest:
@@ -177,7 +177,7 @@ def _input(
 
 
 def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
-    """Speed and course if the velocity was given by them; at rest there is no course but as a text, if it was given."""
+    """Speed and course if the velocity was given by them; at rest there is no course, except as a text that was given."""
     texts: Mapping[str, Any] = vehicle.given or {}
     for name, value in (("speed", vehicle.speed), ("course", vehicle.course)):
         if not math.isnan(value) and texts.keys() & {"speed", "course"}:
@@ -203,7 +203,7 @@ def _known(sheet: Sheet, impact: Impact, notes: Mapping[str, str]) -> list[tuple
 
 
 def _read(text: str, name: str) -> float | None:
-    """The number of a text; None if its unit is of another registry."""
+    """The number of a text; None if its unit belongs to another registry."""
     reader = ArgumentReader()
     kind = KNOWN[name].kind
     read = course(reader, text, name).radians if kind == "angle" else reader.number(text, SI_UNITS[kind], name)
@@ -443,7 +443,7 @@ def _own_axes(sheet: Sheet, impact: Impact, of: str) -> Iterator[tuple[str, str,
 
 
 def posterior(sheet: Sheet, found: Posterior) -> None:
-    """What the evidence says of each unknown, and all that it rests on."""
+    """What the evidence says about each unknown, and all that this rests on."""
     summary = found.summary(sheet.system.name)
     sheet.listed([plain(note) for note in summary.notes])
     for part in summary.parts:

@@ -84,7 +84,7 @@ class Spread:
             sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
 
     def _check(self, sheet: Sheet, name: str, output: Output) -> None:
-        """Warn if the result is outside the propagation's interval: one of the two is then of another case."""
+        """Warn if the result is outside the propagation's interval: one of the two then belongs to another case."""
         value: Any = self.impact
         for part in name.split("."):
             value = getattr(value, part)
@@ -133,7 +133,7 @@ def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.na
 
 
 def single(output: Output) -> bool:
-    """Whether all variance is of one input, or of one group that was drawn together: its share says nothing."""
+    """Whether all variance comes from one input, or from one group drawn together, whose share then says nothing."""
     try:
         return len(output.contributions) == 1
     except InputError:
@@ -141,7 +141,7 @@ def single(output: Output) -> bool:
 
 
 def _shares(output: Output) -> list[tuple[str, str]]:
-    """Table rows with each input's share of the variance, by itself and in all."""
+    """Table rows with each input's share of the variance, by itself and in total."""
     try:
         shares = output.contributions
     except InputError:
