@@ -39,14 +39,15 @@ _new = object.__new__
 class Impact(Frozen, Summarized):
     """The answer of a forward solver: two vehicles before and after, the impulse between them, and where the energy went.
 
-    Made by the solvers, never by hand. Frozen. Attributes are floats, or arrays in a batch, all in SI; the same attributes of
-    ``.q`` are Quantities. The impulse P acts on B, -P on A; n points from A into B and t is n turned by +90 degrees.
+    It is made by the solvers, never by hand, and is frozen. Its attributes are floats, or arrays in a batch, all in SI; the
+    same attributes of ``.q`` are Quantities. The impulse P acts on B and -P on A; n points from A into B, and t is n turned by
+    +90 degrees.
 
-    A refused case is NaN in every answer, its words are empty, and ``status`` says why. Only what was given for it stays as it
-    was: ``restitution``, ``friction``, ``normal``, ``normal_angle`` and ``point``; of the vehicles mass, yaw inertia, position,
-    heading and pivot, and for a forward solver all of ``before``. ``solve`` keeps the tolerance, and has the model by which it
-    would have answered. What a reverse solver was to find, such as velocities before, or a restitution that was not given, is
-    an answer.
+    In a refused case every answer is NaN, every label is empty, and ``status`` says why. Only the inputs stay as they were
+    given: ``restitution``, ``friction``, ``normal``, ``normal_angle`` and ``point``; for the vehicles mass, yaw inertia,
+    position, heading and pivot, and for a forward solver all of ``before``. With ``solve`` the tolerance stays too, and the
+    model is the one that would have answered. Whatever a reverse solver was to find, such as the velocities before the impact
+    or a restitution that was not given, counts as an answer.
     """
 
     inputs: Inputs
@@ -75,12 +76,12 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def model(self) -> Any:
-        """The solver used, by name: of ``solve`` the one it took, in a batch an array of them."""
+        """Name of the solver used: with ``solve`` the one it chose, in a batch an array of names."""
         return self.inputs.model if self.choice is None else self.choice.model
 
     @derived()
     def law(self) -> str | None:
-        """How restitution acts and what no slip means, by name; None for a model without one, of ``solve`` as given."""
+        """Name of the law of restitution and slip; None for a model without one, with ``solve`` as given."""
         return self.inputs.law
 
     @derived("")
@@ -90,27 +91,27 @@ class Impact(Frozen, Summarized):
 
     @derived("")
     def friction(self) -> Value | None:
-        """Coulomb friction bound as used, of ``solve`` as given; None when a ratio or a critical fraction was given."""
+        """Coulomb friction bound as used, with ``solve`` as given; None if a ratio or a critical fraction was given."""
         return self.inputs.rule_value if self.inputs.rule == FRICTION else None
 
     @derived("m")
     def point(self) -> tuple[Value, Value] | None:
-        """Contact point (x, y) [m]; None for the central models, of ``solve`` as given."""
+        """Contact point (x, y) [m]; None for the central models, with ``solve`` as given."""
         return self.inputs.point
 
     @derived()
     def choice(self) -> ModelChoice | None:
-        """How ``solve`` chose the model; None when its solver was called by name."""
+        """How ``solve`` chose the model; None if the solver was called by name."""
         return None
 
     @derived()
     def reconstruction(self) -> Reconstruction | None:
-        """Which reverse solver found this impact, from what, and how well-posed that was; None for a forward solver."""
+        """Which reverse solver found this impact, from what, and how well-posed the problem was; None for a forward solver."""
         return None
 
     @derived("")
     def normal(self) -> tuple[Value, Value]:
-        """Unit vector (nx, ny) from A into B; may be given as ``normal=`` again."""
+        """Unit vector (nx, ny) from A into B; it can be passed on as ``normal=``."""
         return self.inputs.normal
 
     @derived("rad")
@@ -125,7 +126,7 @@ class Impact(Frozen, Summarized):
 
     @derived("m/s")
     def relative_speed(self) -> Value:
-        """Magnitude of the relative velocity of the centres of mass before contact [m/s]: not the closing speed."""
+        """Magnitude of the relative velocity of the centres of mass before contact [m/s], not the closing speed."""
         a, b = self.a.before, self.b.before
         vx_a, vy_a, vx_b, vy_b = widened((a.vx, a.vy, b.vx, b.vy), (self.closing_speed,))
         return self._answered(hypot(vx_a - vx_b, vy_a - vy_b))
@@ -134,8 +135,9 @@ class Impact(Frozen, Summarized):
     def separation_speed(self) -> Value:
         """Speed at which the contact points part along the normal [m/s]: e times the closing speed (eq 11).
 
-        Under the law "stronge" what the energy that is given back makes of it; the same where the slip goes on to the end.
-        Below 0 after an incomplete impact, whose contact points still approach. Of a time-resolved impact as it came about.
+        Under the law "stronge" it follows from the energy that is given back, and is e times the closing speed where the slip
+        continues to the end. It is below 0 after an incomplete impact, whose contact points still approach. For a time-resolved
+        impact it is the speed that came about.
         """
         by_ratio = self.restitution * self.closing_speed
         if not self._energetic:
@@ -181,14 +183,14 @@ class Impact(Frozen, Summarized):
 
     @derived("")
     def impulse_ratio(self) -> Value:
-        """Tangential over normal impulse, signed."""
+        """Ratio of tangential to normal impulse, signed."""
         return _divided(self.tangential_impulse, self.normal_impulse)
 
     @derived("")
     def critical_impulse_ratio(self) -> Value:
-        """The signed impulse ratio that just stops slip under the law used; infinite where no slip would need a pull.
+        """Signed impulse ratio that just stops the slip under the law used; infinite where stopping it would need a pull.
 
-        NaN, as it is not defined, for a contact with one degree of freedom: two parallel arms, or a gate against a wall.
+        It is not defined (NaN) for a contact with one degree of freedom, such as two parallel arms, or a gate against a wall.
         """
         normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
@@ -201,7 +203,7 @@ class Impact(Frozen, Summarized):
     def common_velocity(self) -> Value:
         """Velocity along the normal that both contact points share at the end of compression [m/s] (v_c of eq 3).
 
-        Of a central model that of the centres of mass, as for ``closing_speed``. NaN for an incomplete impact.
+        For a central model it is that of the centres of mass, as for ``closing_speed``. NaN for an incomplete impact.
         """
         if self.inputs.model == "time_resolved":
             return self._output("common_velocity")
@@ -224,7 +226,7 @@ class Impact(Frozen, Summarized):
 
     @derived("J")
     def energy_loss(self) -> Value:
-        """Energy dissipated [J] (eq 7, evaluated at the contact). Negative is a gain, and warned of."""
+        """Energy dissipated [J] (eq 7, evaluated at the contact). It is negative for a gain, which is warned of."""
         return self._output("energy_loss")
 
     @derived("J")
@@ -239,9 +241,9 @@ class Impact(Frozen, Summarized):
 
     @derived("J")
     def energy_absorbed(self) -> Value:
-        """Energy taken up along the normal at the end of compression [J], part of which restitution gives back.
+        """Energy absorbed along the normal by the end of compression [J], part of which restitution gives back.
 
-        In an incomplete impact that until the contact ends, which is the energy lost along the normal.
+        In an incomplete impact it is the energy absorbed until the contact ends, which is the energy lost along the normal.
         """
         if self._passed is not None:
             found = self._output("energy_absorbed")
@@ -254,12 +256,12 @@ class Impact(Frozen, Summarized):
 
     @returns("m/s")
     def ees(self, share_a: Input) -> tuple[Value, Value]:
-        """Energy equivalent speeds (A, B) [m/s] by ISO 12353, when A dissipated this share of ``energy_loss`` and B the rest.
+        """Energy equivalent speeds (A, B) [m/s] by ISO 12353, if A dissipated this share of ``energy_loss`` and B the rest.
 
-        The speed at which the vehicle alone would dissipate as much against a fixed rigid object: what is left of it after
-        restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no default share: momentum does not tell how
-        the energy was divided. An infinite mass has 0, and NaN stands where energy was gained. Beside it,
-        ``max_crush_speeds`` stands for the energy at maximum crush, which is more.
+        The EES is the speed at which the vehicle alone would dissipate as much energy against a fixed rigid object. It counts
+        what is left of the energy after restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no default
+        share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where energy was
+        gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
 
         Examples
         --------
@@ -273,11 +275,11 @@ class Impact(Frozen, Summarized):
 
     @returns("m/s")
     def max_crush_speeds(self, share_a: Input) -> tuple[Value, Value]:
-        """Speeds (A, B) [m/s] of maximum crush, when A took up this share of ``energy_absorbed`` and B the rest.
+        """Speeds (A, B) [m/s] of maximum crush, if A absorbed this share of ``energy_absorbed`` and B the rest.
 
-        The speed at which the vehicle alone would take up as much energy at maximum crush against a rigid wall, before
-        restitution gives a part back. Some authors call this one EES; by ISO 12353 that is ``ees``. NaN stands where
-        ``energy_absorbed`` is below 0, as impulses from outside far above that of the contact can make it.
+        Each is the speed at which the vehicle alone would absorb as much energy at maximum crush against a rigid wall, before
+        restitution gives part of it back. Some authors call this speed EES; by ISO 12353 the EES is ``ees``. It is NaN where
+        ``energy_absorbed`` is below 0, which impulses from outside far above that of the contact can bring about.
         """
         return self._shared(share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan))
 
@@ -298,9 +300,10 @@ class Impact(Frozen, Summarized):
 
     @derived("N*s")
     def momentum_residual(self) -> Value:
-        """What is left of the momentum balance of the bodies that are free and finite [N*s]: rounding.
+        """Residual of the momentum balance of the free bodies of finite mass [N*s], which is rounding.
 
-        It takes their delta-Vs, and the impulses on them by the contact, from outside and, of a time-resolved impact, by tyres.
+        The balance is between their delta-Vs and the impulses on them from the contact, from outside and, in a time-resolved
+        impact, from the tyres.
         """
         left_x: Any = 0.0
         left_y: Any = 0.0
@@ -323,15 +326,16 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def complete(self) -> Any:
-        """Whether the contact points reached a common velocity, as in every impact with e >= 0 that has an answer."""
+        """Whether the contact points reached a common velocity, as they do in every answered impact with e >= 0."""
         return self._answered(self.restitution) >= 0.0
 
     @derived()
     def regime(self) -> Any:
-        """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" with a ratio.
+        """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" by a ratio.
 
-        Under the law "stronge" also "reversing": the slip stopped, and ended the other way. "sticking" is what then stayed.
-        The linear model has none: also where ``solve`` took it, the answer is "frictionless".
+        "reversing" arises under the law "stronge" and in a time-resolved contact: the slip stopped, and ended the other way;
+        "sticking" then means that it stayed stopped. The linear model has no regime of its own: even where ``solve`` chose it,
+        the answer is "frictionless".
         """
         found = np.asarray("given", "U12")
         if self.inputs.rule == FRICTION:
@@ -344,7 +348,7 @@ class Impact(Frozen, Summarized):
 
     @derived()
     def pulse(self) -> Pulse | None:
-        """The contact over time as ``time_resolved`` followed it; None for an impulse, which takes none."""
+        """The contact over time as ``time_resolved`` followed it; None for an impulse, which takes no time."""
         passed = self._passed
         if passed is None:
             return None
@@ -408,26 +412,26 @@ class Impact(Frozen, Summarized):
         return answered
 
     def again(self, **changes: Any) -> Impact:
-        """Solve it again by the same solver with some of its arguments changed.
+        """Solve the impact again by the same solver, with some of its arguments changed.
 
         Parameters
         ----------
         **changes
-            Arguments of the solver that gave it, written as there: ``a``, ``b``, ``restitution``, ``normal``, ``incomplete``
-            and, where it has them, ``point``, ``law``, ``outside_a``, ``outside_b``, ``tolerance``, and one of ``friction``,
-            ``impulse_ratio`` and ``critical_fraction`` in place of the one used.
+            Arguments of the solver that answered, written as for that solver: ``a``, ``b``, ``restitution``, ``normal``,
+            ``incomplete`` and, where it has them, ``point``, ``law``, ``outside_a``, ``outside_b``, ``tolerance``, and one of
+            ``friction``, ``impulse_ratio`` and ``critical_fraction`` in place of the one used.
 
         Returns
         -------
         Impact
-            Solved forward, also where a reverse solver found this one: from the motions that it found.
+            Solved forward; where a reverse solver found this impact, from the motions that it found.
 
         Raises
         ------
         TypeError
-            An argument that its solver does not have.
+            An argument that the solver does not have.
         CollisionsError
-            As its solver does.
+            As the solver raises them.
 
         Examples
         --------
@@ -454,15 +458,15 @@ class Impact(Frozen, Summarized):
         return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
-        """The answer to one case of a batch, as a single impact: to look at it, plot it, explain it or report it.
+        """One case of a batch as a single impact, to look at, plot, explain or report.
 
-        The case is solved again by itself, so it agrees with the batch within the accuracy promised, and a case that was
+        The case is solved again by itself, so it agrees with the batch to within the accuracy promised, and a case that was
         refused raises the error that says why.
 
         Parameters
         ----------
         index : int or tuple of int
-            Which case, as an index of the arrays of the batch.
+            Which case, as an index into the arrays of the batch.
 
         Raises
         ------
@@ -489,7 +493,7 @@ class Impact(Frozen, Summarized):
         return part_of_impact(self, lambda value: np.broadcast_to(value, self.status.shape)[place].item())
 
     def to_dict(self) -> dict[str, Any]:
-        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves it again."""
+        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again."""
         from .records import to_record
 
         return to_record(self)
@@ -505,14 +509,14 @@ class Impact(Frozen, Summarized):
         return impact if origin is None else found_by(origin, inputs, impact._answer, status)
 
     def to_columns(self, *, units: str | None = None, columns: Collection[str] | None = None) -> dict[str, list[Any]]:
-        """Every input and result as a flat column, one value a case: ready for ``pandas.DataFrame(...)``.
+        """Every input and result as a flat column with one value per case, ready for ``pandas.DataFrame(...)``.
 
         Parameters
         ----------
         units : {"si", "metric", "us"}, optional
-            Numbers in these units, which then stand in the names: "a.delta_v [mph]". By default SI, without them.
+            Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI, with plain names.
         columns : list of str, optional
-            Only these, in this order, by their names without a unit, such as "a.delta_v".
+            Only these columns, in this order, named without a unit, such as "a.delta_v".
 
         Raises
         ------

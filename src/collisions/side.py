@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 class Side(Frozen, Summarized):
     """One vehicle's part in an impact: its states before, during and after, and what changed.
 
-    ``delta_v`` is the change of velocity of the centre of mass. Scene axes, angles counter-clockwise from +x, except for the
-    PDOF. Values are floats, or arrays in a batch.
+    ``delta_v`` is the change of velocity of the centre of mass. Directions are in scene axes, with angles counter-clockwise
+    from +x, except for the PDOF. Values are floats, or arrays in a batch.
     """
 
     _inputs: Inputs
@@ -62,7 +62,7 @@ class Side(Frozen, Summarized):
 
     @property
     def q(self) -> SideQuantities:
-        """The same attributes as pint Quantities; a MissingInputError for one that needs a heading not given."""
+        """The same attributes as pint Quantities; one that needs a heading not given raises a MissingInputError."""
         return cast(SideQuantities, Quantities(self))
 
     @derived()
@@ -72,7 +72,7 @@ class Side(Frozen, Summarized):
 
     @derived()
     def after(self) -> Vehicle:
-        """The vehicle just after separation: ready to be the start of a next impact."""
+        """The vehicle just after separation, ready to be the start of the next impact."""
         before, (dvx, dvy, dw) = self.before, self._change()
         motion = _changed(before.vx, dvx), _changed(before.vy, dvy), _changed(before.yaw_rate, dw)
         return moved(before, *motion, self._units())
@@ -89,8 +89,8 @@ class Side(Frozen, Summarized):
     def at_compression(self) -> Vehicle:
         """The vehicle at the end of compression, after the impulse P/(1+e) (u and w0 of eqs 12 to 19 of the paper).
 
-        Under the law "stronge" after the impulse until then, which is no fixed part of P. An incomplete impact ends before
-        compression does: there it is the vehicle after.
+        Under the law "stronge" it is the vehicle after the impulse up to then, which is no fixed part of P. An incomplete
+        impact ends before compression does; there it is the vehicle after the impact.
         """
         before, (dvx, dvy, dw) = self.before, self._until_compressed()
         return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
@@ -119,7 +119,7 @@ class Side(Frozen, Summarized):
     def delta_v_left(self) -> Value | None:
         """Change of velocity to the vehicle's own left [m/s]; None without a heading.
 
-        Event data recorders count lateral delta-V from left to right: the opposite sign.
+        Event data recorders count lateral delta-V as positive to the right: the opposite sign.
         """
         return self._own_axes(self.delta_vx, self.delta_vy)[1]
 
@@ -147,8 +147,8 @@ class Side(Frozen, Summarized):
     def pdof(self) -> Value | None:
         """Principal direction of force [rad]: where the force comes from, seen from the vehicle.
 
-        0 from straight ahead, positive clockwise (from the right), in (-pi, pi]. Tools disagree on the sign. Taken from the
-        contact impulse, also for a pinned vehicle. None without a heading, NaN without an impulse.
+        It is 0 from straight ahead and positive clockwise (from the right), in (-pi, pi]. Tools disagree on the sign. It is
+        taken from the contact impulse, also for a pinned vehicle. None without a heading, NaN without an impulse.
         """
         forward, left = self._own_axes(self.impulse_x, self.impulse_y)
         if forward is None or left is None:
@@ -169,7 +169,7 @@ class Side(Frozen, Summarized):
     def moment_arm(self) -> Value | None:
         """Moment arm h of the resultant contact impulse about the centre of mass [m], positive if it turns counter-clockwise.
 
-        Times the impulse it is the moment; NaN without an impulse. None without a contact point or a position.
+        The arm times the impulse is the moment. NaN without an impulse; None without a contact point or a position.
         """
         return self._arm(self.impulse_x, self.impulse_y)
 
@@ -185,8 +185,8 @@ class Side(Frozen, Summarized):
     def gamma(self) -> Value | None:
         """Share of the mass that acts at the impulse, k^2/(k^2 + h^2), with k the radius of gyration and h ``moment_arm``.
 
-        The CRASH programs' mass reduction factor: 1 for an impulse through the centre of mass, or a body that cannot turn.
-        None without ``moment_arm`` or yaw inertia.
+        This is the mass reduction factor of the CRASH programs: 1 for an impulse through the centre of mass, or a body that
+        cannot turn. None without ``moment_arm`` or yaw inertia.
         """
         h, inertia = self.moment_arm, self.before.yaw_inertia
         if h is None or inertia is None:
@@ -198,12 +198,12 @@ class Side(Frozen, Summarized):
 
     @derived("N*s")
     def tyre_impulse_x(self) -> Value:
-        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene x [N*s]; else 0."""
+        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene x [N*s]; otherwise 0."""
         return self._passed("tyre_impulse_x")
 
     @derived("N*s")
     def tyre_impulse_y(self) -> Value:
-        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene y [N*s]; else 0."""
+        """Impulse of the tyres on this vehicle during a time-resolved contact, along scene y [N*s]; otherwise 0."""
         return self._passed("tyre_impulse_y")
 
     @derived("J")
@@ -213,10 +213,10 @@ class Side(Frozen, Summarized):
 
     @derived("J")
     def kinetic_energy_change(self) -> Value:
-        """Kinetic energy after less that before [J]: the work of the contact, of an impulse from outside, and of the tyres.
+        """Kinetic energy after minus that before [J]: the work of the contact, of an impulse from outside, and of the tyres.
 
-        It depends on the frame of reference: it is not damage. NaN after a contact that took time if both bodies move with
-        an infinite mass or turn with an infinite yaw inertia.
+        It depends on the frame of reference and is not damage. After a contact that took time it is NaN if both bodies move
+        with an infinite mass or turn with an infinite yaw inertia.
         """
         if isinstance(self._answer, Passed):
             return self._work() - self.tyre_loss
@@ -243,8 +243,8 @@ class Side(Frozen, Summarized):
     def outside_work(self) -> Value:
         """Work of the impulse from outside on this vehicle [J], at the mean of the velocities before and after.
 
-        What both vehicles have of kinetic energy before, with this work of both, is what they have after and ``energy_loss``.
-        It depends on the frame of reference.
+        The kinetic energy of both vehicles before, plus this work on both, is their kinetic energy after plus ``energy_loss``.
+        The work depends on the frame of reference.
         """
         before, (dvx, dvy, dw) = self.before, self._change()
         if self._outside() is None:
@@ -264,9 +264,9 @@ class Side(Frozen, Summarized):
 
     @returns("m/s")
     def delta_v_at(self, point: Pair) -> tuple[Value, Value]:
-        """Change of velocity (x, y) [m/s] of the place of the vehicle that is at a scene point.
+        """Change of velocity (x, y) [m/s] of the point of the vehicle that lies at a scene point.
 
-        What an accelerometer there would have recorded, and not the delta-V of the centre of mass.
+        It is what an accelerometer there would have recorded, not the delta-V of the centre of mass.
         """
         reader = ArgumentReader()
         px, py = reader.pair(point, "m", "point")

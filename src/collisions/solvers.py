@@ -44,10 +44,10 @@ def linear_central(
 ) -> Impact:
     """Solve a linear central impact: from the states before and the restitution to the states after.
 
-    Momentum along the normal (eq 2 of "Application of Impulse Momentum Theory to Vehicle Collisions") and Newton's
-    restitution (eqs 5 and 6). The bodies are point masses: they do not turn, and all motion is along the normal through both
-    centres of mass. Valid for head-on and front-to-back collisions in line, against other vehicles or a barrier; a motion
-    across the normal of more than 8 eps of the speed is refused.
+    The model is conservation of momentum along the normal (eq 2 of "Application of Impulse Momentum Theory to Vehicle
+    Collisions") and Newton's restitution (eqs 5 and 6). The bodies are point masses: they do not turn, and all motion is along
+    the normal through both centres of mass. It is valid for head-on and front-to-rear collisions in line, against other
+    vehicles or a barrier; motion across the normal of more than 8 eps of the speed is refused.
 
     Parameters
     ----------
@@ -58,11 +58,13 @@ def linear_central(
     normal : angle [rad] or tuple (nx, ny), optional
         Direction from A into B; the x axis if not given.
     incomplete : bool, optional
-        Whether the restitution may be below 0, above -1: bodies that pass, or tear what held them, before they reach a common
-        velocity. The contact ends while they still approach, at -e times the closing speed.
+        Whether the restitution may be below 0 (and above -1), for bodies that pass each other, or tear whatever held them
+        together, before they reach a common velocity. The contact ends while they still approach, at -e times the closing
+        speed.
     on_failure : {None, "raise", "nan"}, optional
-        What to do with a case that cannot be answered. None: a single case raises, in a batch it is NaN with a status and one
-        warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a warning.
+        What to do with a case that cannot be answered. None: a single case raises; in a batch such cases are NaN with a status,
+        and one warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a
+        warning.
     threads : int, optional
         Threads for a batch.
     progress : callable or True, optional
@@ -77,7 +79,7 @@ def linear_central(
     Raises
     ------
     InputError
-        An argument that cannot be used, a body that turns, is pinned, or moves across the normal.
+        An argument that cannot be used, or a body that turns, is pinned, or moves across the normal.
     NoImpactError
         The bodies do not approach; the message gives the closing speed.
     NoSolutionError
@@ -120,10 +122,11 @@ def oblique_central(
 ) -> Impact:
     """Solve an oblique central impact: velocities at an angle to the normal, bodies that do not turn.
 
-    Along the normal as in a linear impact (eq 9 of "Application of Impulse Momentum Theory to Vehicle Collisions"); along the
-    tangent the paper's contact is frictionless (``friction=0``) and leaves the velocities as they are, otherwise friction
-    changes them. The bodies are point masses: the line of impact is taken to pass through both centres of mass. Valid where
-    the levers of the contact are small against the radii of gyration; else use ``eccentric``.
+    Along the normal the impact is solved as a linear one (eq 9 of "Application of Impulse Momentum Theory to Vehicle
+    Collisions"). Along the tangent the paper's contact is frictionless (``friction=0``) and leaves the velocities as they are;
+    otherwise friction changes them. The bodies are point masses: the line of impact is taken to pass through both centres of
+    mass. The model is valid where the lever arms of the contact are small compared with the radii of gyration; elsewhere use
+    ``eccentric``.
 
     Parameters
     ----------
@@ -136,7 +139,7 @@ def oblique_central(
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-]
         Exactly one of these three, as for ``eccentric``.
     law : {"brach", "kudlich-slibar", "stronge"}, optional
-        As for ``eccentric``; without levers "stronge" gives what "brach" does.
+        As for ``eccentric``; without lever arms "stronge" gives the same as "brach".
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
@@ -193,11 +196,12 @@ def eccentric(
 ) -> Impact:
     """Solve an eccentric impact: the line of impact misses a centre of mass, so the bodies turn.
 
-    Impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the contact points
-    along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"), for free, pinned and
-    fixed bodies, and with friction along the tangent. The contact is one point with one normal, the impact takes no time and
-    no distance, and tyre forces during it are left out unless they are given as ``outside_a`` and ``outside_b``. Valid where
-    the impulse of the contact is large against that of the tyres, and where the damage can be given a point and a normal.
+    The model is impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the
+    contact points along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions") and
+    friction along the tangent, for free, pinned and fixed bodies. The contact is one point with one normal, the impact takes no
+    time and no distance, and tyre forces during it are left out unless they are given as ``outside_a`` and ``outside_b``. It is
+    valid where the impulse of the contact is large compared with that of the tyres, and where a point and a normal can be
+    assigned to the damage.
 
     Parameters
     ----------
@@ -210,21 +214,22 @@ def eccentric(
     point : pair [m]
         Scene point (x, y) at which the impulse acts, at the moment of maximum engagement.
     friction : float, str, Quantity or array [-]
-        Coulomb bound on the tangential over the normal impulse, >= 0; 0 is the paper's contact, ``inf`` never slips.
+        Coulomb bound on the ratio of tangential to normal impulse, >= 0; 0 is the paper's contact, ``inf`` never slips.
     impulse_ratio : float, str, Quantity or array [-]
-        Tangential over normal impulse, signed: positive along the normal turned by +90 degrees, on B.
+        Ratio of tangential to normal impulse, signed: positive if the impulse on B is along the normal turned by +90 degrees.
     critical_fraction : float, str, Quantity or array [-]
-        Share, 0 to 1, of the ratio that just stops slip. Exactly one of these three must be given.
+        Fraction, 0 to 1, of the ratio that just stops the slip. Exactly one of friction, impulse ratio and critical fraction
+        must be given.
     law : {"brach", "kudlich-slibar", "stronge"}, optional
         How restitution acts and what friction does. "brach": restitution acts on the closing speed, and a contact that sticks
-        is without slip at separation. "kudlich-slibar": it sticks at the end of compression, and the whole impulse until then
-        is multiplied by 1 + e. "stronge": restitution gives back e squared of the work of compression, and friction acts
-        against a slip that may stop or turn around meanwhile; with ``friction`` only.
+        has no slip at separation. "kudlich-slibar": it has no slip at the end of compression, and the whole impulse up to then
+        is multiplied by 1 + e. "stronge": restitution gives back e squared of the work of compression, and friction opposes a
+        slip that may stop or reverse during the contact; with ``friction`` only.
     outside_a, outside_b : tuple (x, y) or (x, y, yaw) [N*s, N*s, N*m*s], optional
-        Impulse on A and on B during the contact by something else than the other vehicle, as tyres, a kerb or soft ground:
-        along the axes of the scene at the centre of mass, and about it. ``left_out`` estimates that of tyres. It is a given
-        number: an object that stops a vehicle by as much as it takes, such as a kerb of unknown impulse, is a second impact
-        against a barrier.
+        Impulse on A and on B during the contact from something other than the other vehicle, such as tyres, a kerb or soft
+        ground: its components along the scene axes at the centre of mass, and its moment about it. ``left_out`` estimates that
+        of the tyres. The impulse is a given number; an object that stops a vehicle with whatever impulse that takes, such as a
+        kerb of unknown impulse, is to be solved as a second impact, against a barrier.
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
@@ -240,9 +245,9 @@ def eccentric(
     MissingInputError
         A position, a yaw inertia or the contact point was not given. Nothing is taken as zero.
     NoImpactError
-        The contact points do not approach along the normal, or the impulses from outside part them.
+        The contact points do not approach along the normal, or the impulses from outside separate them.
     NoSolutionError
-        Nothing can yield, the ratio jams, or no slip would need the bodies to pull.
+        Neither body can yield, the ratio jams, or stopping the slip would need the bodies to pull at each other.
 
     Examples
     --------
@@ -257,7 +262,7 @@ def eccentric(
     >>> round(impact.b.pivot_impulse_x, 1), round(impact.energy_loss)
     (3648.6, 12162)
 
-    A slow rear-end impact, and the same with B's brakes locked (drag 0.7 for 0.1 s):
+    A slow rear-end impact, and the same with B's wheels locked (drag 0.7 for 0.1 s):
 
     >>> a = col.Vehicle(mass=1500, vx=3.0, yaw_inertia=2600, x=-2.2, y=0.0)
     >>> b = col.Vehicle(mass=1500, yaw_inertia=2600, x=2.2, y=0.0)
@@ -299,47 +304,49 @@ def time_resolved(
     progress: Progress | None = None,
     **unknown: Never,
 ) -> Impact:
-    """Follow a contact that takes time: a spring between the vehicles, friction, sliding tyres, and places that change.
+    """Follow a contact that takes time: a spring between the vehicles, friction, sliding tyres, and changing positions.
 
-    What ``eccentric`` puts into one instant, step by step. Along the normal a force grows with the penetration of the contact
-    points; what it takes up, restitution gives back by its square (energetic restitution). Along the tangent acts Coulomb
-    friction, which holds where it can. The tyres slide on the ground. The vehicles move and turn meanwhile; the mean of both
-    carries point and normal, and beside a fixed body the vehicle carries the point and the fixed body the normal. Valid for
-    what ``eccentric`` leaves out of one contact patch with one direction: low speeds, sideswipes, large vehicles. Crush that
-    moves the centre of mass, roll, pitch and rolling wheels are left out here too.
+    What ``eccentric`` puts into one instant is followed step by step. Along the normal a force grows with the penetration of
+    the contact points; of the work it takes up, restitution gives back the share e squared (energetic restitution). Along the
+    tangent Coulomb friction acts, and sticks where it can. The tyres slide on the ground. Meanwhile the vehicles move and turn:
+    point and normal move with the mean of both vehicles; against a fixed body the point moves with the vehicle, and the normal
+    with the fixed body. The model is valid for what ``eccentric`` leaves out of a single contact patch with a single direction:
+    low speeds, sideswipes, large vehicles. Crush that moves the centre of mass, roll, pitch and rolling wheels are left out
+    here too.
 
     Parameters
     ----------
     a, b : Vehicle
-        Motions just before contact, and places as ``geometry`` says. Each needs ``yaw_inertia``, ``x`` and ``y``, unless its
-        mass and inertia are infinite; none may have a pivot. The wheels lie along the ``heading``; without one all drag acts at
-        the centre of mass, where it cannot turn the vehicle.
+        Motions just before contact, and positions as ``geometry`` says. Each needs ``yaw_inertia``, ``x`` and ``y``, unless its
+        mass and inertia are infinite; neither may have a pivot. The wheels are placed along the ``heading``; without one all
+        drag acts at the centre of mass, where it cannot turn the vehicle.
     restitution : float, str, Quantity or array [-]
-        Square root of the share of the work of compression that comes back, 0 to 1.
+        Square root of the share of the work of compression that is given back, 0 to 1.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B at the contact. An array is taken as angles.
     point : pair [m]
         Scene point (x, y) of the contact.
     friction : float, str, Quantity or array [-]
-        Coulomb friction of the contact, >= 0; 0 is frictionless, ``inf`` never slips.
+        Coefficient of Coulomb friction of the contact, >= 0; 0 is frictionless, ``inf`` never slips.
     duration : float, str, Quantity or array [s]
-        Nominal duration: the stiffness is the one with which two point masses that close as fast would take so long. The true
-        one, in the answer's ``pulse``, differs as levers, friction and tyres make it.
+        Nominal duration: the stiffness is the one with which the contact of two point masses of the same closing speed would
+        take that long. The actual duration, in the answer's ``pulse``, differs because of lever arms, friction and tyres.
     stiffness : float, str, Quantity or array [N/m]
-        Of both vehicles together, force over penetration.
+        Stiffness of both vehicles together, force over penetration.
     crush_a, crush_b : tuple (A [N/m], B [N/m**2], width [m])
-        Crush stiffness as of CRASH: the force for a width is A + B times crush. One is enough, and the other vehicle is then
-        rigid; both act at a common force, and each gives way only above its own A. Exactly one of duration, stiffness and
-        crush must be given.
+        Crush stiffness coefficients as in CRASH: the force per width is A + B times the crush. One is enough, and the other
+        vehicle is then rigid; with both, the force is common to them, and each gives way only above its own A. Exactly one of
+        duration, stiffness and crush must be given.
     drag : float, str, Quantity or array [-]
-        Of the tyres on the ground, >= 0, as for ``left_out``: 0.7 is locked wheels on a dry road; 0 has no tyres.
+        Drag factor of the tyres on the ground, >= 0, as for ``left_out``: 0.7 is locked wheels on a dry road; 0 means no tyre
+        forces.
     geometry : {"maximum_engagement", "first_contact", "fixed"}
-        What the places given are. Maximum engagement is what they are everywhere else; the start of the contact is then
-        searched for. "fixed" leaves all where it is.
+        The moment to which the given positions belong. Maximum engagement is what all other solvers take; the start of the
+        contact is then searched for. "fixed" leaves everything where it is.
     steps : int
-        Per nominal duration, which is that of a linear spring with the same largest force.
+        Steps per nominal duration, which is that of a linear spring with the same largest force.
     wheelbase, track : float, str, Quantity or array [m], optional
-        Of both vehicles, with the centre of mass in the middle; 2.7 m and 1.5 m if not given.
+        The same for both vehicles, with the centre of mass in the middle; 2.7 m and 1.5 m if not given.
     on_failure, threads, progress
         As for ``linear_central``.
 
@@ -347,8 +354,9 @@ def time_resolved(
     -------
     Impact
         Its ``pulse`` has force, crush and motions over time. Speeds, impulses and energies are those that came about: closing
-        speed and slip before are those of first contact; ``energy_loss`` is that of the contact, ``a.tyre_loss`` that
-        of the tyres; ``at_compression`` is maximum engagement. Places do not change, so that they are those given.
+        speed and slip before are those at first contact; ``energy_loss`` is that of the contact, ``a.tyre_loss`` that of A's
+        tyres; ``at_compression`` is the state at maximum engagement. The positions in the result are those given, and do not
+        change.
 
     Raises
     ------
@@ -359,17 +367,19 @@ def time_resolved(
     NoImpactError
         The contact points do not approach along the normal.
     NoSolutionError
-        Nothing can yield; no start leads to the places given; the contact does not end within three nominal durations.
+        Neither body can yield; no start leads to the positions given; or the contact does not end within three nominal
+        durations.
 
     Notes
     -----
-    Position Verlet: with fixed geometry the error falls with the square of the step, 1e-4 of delta-V at 100 steps; momentum is
-    kept to rounding. Without tyres and motion it is Stronge's contact (J. Appl. Mech. 58 (1991)), to which it tends
-    in any case as the duration goes to 0. No tyre ever turns the motion of its wheel round, so tyres can only take energy.
+    The integration is position Verlet: with fixed geometry the error falls with the square of the step, to 1e-4 of delta-V at
+    100 steps; momentum is conserved to rounding. Without tyres and motion it is Stronge's contact (J. Appl. Mech. 58 (1991)),
+    which is also the limit as the duration goes to 0. No tyre ever reverses the motion of its wheel, so tyres can only take
+    energy away.
 
     Examples
     --------
-    A parked car is struck from behind at 2 m/s; both stand on their brakes. The impulse alone would give 1.40 m/s:
+    A parked car is struck from behind at 2 m/s; all wheels of both cars are locked. The impulse alone would give 1.40 m/s:
 
     >>> import collisions as col
     >>> a = col.Vehicle(mass=1500, vx=2.0, yaw_inertia=2600, x=-2.2, y=0.0, heading=0.0)
@@ -415,29 +425,30 @@ def required_model(
     duration: Input | None = None,
     drag: Input | None = None,
 ) -> ModelChoice:
-    """The least model whose answer stays within a tolerance of the eccentric one.
+    """The simplest model whose answer stays within a tolerance of the eccentric one.
 
-    Candidates are the linear central model (which carries through what moves across the normal), the oblique central model and
-    the eccentric one. The error of a candidate is, for the worse of both vehicles, hypot of the error of its delta-V vector and
-    of radius of gyration times the error of its change of yaw rate. It is worked out from the impulse at the contact, without
-    the rest of the eccentric answer, and a candidate is taken if 1.15 times its error is within the tolerance. What a lever
-    does depends on yaw inertia, position and point; where one is not known, and a lever may matter, so is the error. A lever
-    of 16 eps of the coordinates, and of 0.1 mm at most, is rounding, and does not matter.
+    The candidates are the linear central model (which leaves motion across the normal unchanged), the oblique central model and
+    the eccentric one. The error of a candidate is taken for the vehicle for which it is larger: the hypotenuse of the error of
+    the delta-V vector and of the radius of gyration times the error of the change of yaw rate. It is worked out from the
+    impulse at the contact, without the rest of the eccentric answer, and a candidate is accepted if 1.15 times its error is
+    within the tolerance. The effect of a lever arm depends on yaw inertia, position and point; where one of these is not known,
+    and a lever arm may matter, the error is not known either. A lever arm of up to 16 eps of the coordinates, and of 0.1 mm at
+    most, is rounding and does not matter.
 
-    With a duration the contact that takes so long, with tyres of this drag, is a fourth candidate, and what all are compared
-    with: ``time_resolved``, followed roughly for this, in 25 steps. The models that take no time then err by what they leave
-    out as well. It takes friction, and bodies without a pivot; else it is no candidate, and the reason says so, as it does
-    where it has no answer.
+    With ``duration``, a contact of that duration with tyres of that drag is a fourth candidate, ``time_resolved``, and the one
+    with which all are compared; for this it is followed roughly, in 25 steps. The errors of the models that take no time then
+    include what they leave out. It needs ``friction``, and takes no pivot, no impulse from outside and no restitution below 0;
+    otherwise it is not a candidate, and the reason says so, as it does where it has no answer.
 
     Parameters
     ----------
     a, b, restitution, normal, point, friction, impulse_ratio, critical_fraction, law, incomplete, outside_a, outside_b
-        As for ``eccentric``; yaw inertias, positions and the point may be left None. With an impulse from outside the eccentric
-        model is required, as with a pivot.
+        As for ``eccentric``; yaw inertias, positions and the point may be left None. With an impulse from outside, as with a
+        pivot, the eccentric model is required.
     tolerance : float, str, Quantity or array [m/s]
-        Largest error that is accepted, >= 0; 0 is always the fullest model.
+        Largest error that is accepted, >= 0; with 0 the fullest model is always required.
     duration, drag
-        As for ``time_resolved``, optional; without a drag no tyres.
+        As for ``time_resolved``, optional; without ``drag`` there are no tyre forces.
 
     Returns
     -------
@@ -451,7 +462,7 @@ def required_model(
 
     Examples
     --------
-    A rear-end impact 0.4 m off the line of both centres. A delta-V alone would not show what the lever does:
+    A rear-end impact 0.4 m off the line of centres. Delta-V alone would not show the effect of the lever arm:
 
     >>> import collisions as col
     >>> a = col.Vehicle(mass=1500, vx=10.0, yaw_inertia=2400, x=-2.0, y=0.4)
@@ -491,11 +502,11 @@ def solve(
     progress: Progress | None = None,
     **unknown: Never,
 ) -> Impact:
-    """Solve an impact with the least model that stays within a tolerance of the eccentric one.
+    """Solve an impact with the simplest model that stays within a tolerance of the eccentric one.
 
-    The model is chosen by ``required_model``, in a batch for every case by itself, and each case is solved by its model. What
-    that model cannot hold, such as spin or motion across the normal, is carried through. Bodies that are known not to approach
-    are refused whatever else is missing.
+    The model is chosen by ``required_model``, in a batch for each case separately, and each case is solved by its own model.
+    Motion that the model cannot represent, such as spin or motion across the normal, is left unchanged. Bodies that are known
+    not to approach are refused, whatever else is missing.
 
     Parameters
     ----------
@@ -504,7 +515,8 @@ def solve(
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, as for ``required_model``.
     duration, drag : float, str, Quantity or array [s], [-], optional
-        Of the contact and its tyres, as for ``required_model``; where that takes time, it is solved in 100 steps.
+        Duration of the contact and drag of the tyres, as for ``required_model``; a time-resolved contact is solved in 100
+        steps.
     incomplete, outside_a, outside_b, on_failure, threads, progress
         As for ``eccentric``.
 
@@ -516,11 +528,11 @@ def solve(
     Raises
     ------
     InputError, NoImpactError, NoSolutionError
-        As for ``eccentric``; MissingInputError if a required model lacks something, in a batch for the first such case.
+        As for ``eccentric``; MissingInputError if the required model lacks an input, in a batch for the first such case.
 
     Examples
     --------
-    Square from behind, along the line of both centres: nobody needs a yaw inertia for that.
+    A square rear-end impact along the line of centres, for which no yaw inertia is needed.
 
     >>> import collisions as col
     >>> a, b = col.Vehicle(mass=1500, vx=10.0, x=-2.0, y=0.0), col.Vehicle(mass=1200, x=2.0, y=0.0)

@@ -37,10 +37,10 @@ class _AsGiven(Summarized):
 class Vehicle(_AsGiven):
     """One body in the road plane at one instant: what it weighs, where it is and how it moves.
 
-    The state before an impact, and also the state after it, so that the result of one impact can be the start of the next.
-    Scene axes x, y, right-handed seen from above; angles counter-clockwise from +x. Numbers without a unit are SI; a
-    Quantity or a text such as ``"80 km/h"`` is converted once, here. Any argument may be an array (a batch): arrays are copied
-    and locked, and their values are checked case by case by the solver.
+    It describes the state before an impact as well as the state after it, so that the result of one impact can be the start of
+    the next. The scene axes x and y are right-handed as seen from above; angles are counter-clockwise from +x. Numbers without
+    a unit are SI; a Quantity or a text such as ``"80 km/h"`` is converted once, here. Any argument may be an array (a batch):
+    arrays are copied and locked, and the solver checks their values case by case.
 
     Parameters
     ----------
@@ -53,19 +53,19 @@ class Vehicle(_AsGiven):
     yaw_inertia : float, str, Quantity or array [kg*m**2], optional
         Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that does not rotate.
     x, y : float, str, Quantity or array [m], optional
-        Position of the centre of mass. Never taken as 0 when it was not given.
+        Position of the centre of mass. It is never taken as 0 when it was not given.
     heading : float, str, Quantity or array [rad], optional
         Direction in which the vehicle points, which need not be the direction in which it moves.
     pivot : pair [m], optional
-        Scene point the body can only turn about. Its velocity then is the yaw rate times the arm: worked out where vx and vy
-        are 0, otherwise it must agree to 1e-9.
+        Scene point about which the body can only turn. Its velocity is then the yaw rate times the arm: worked out where vx and
+        vy are 0; otherwise they must agree with it to 1e-9.
     name : str, optional
-        What to call it in messages and tables.
+        Name used in messages and tables.
 
     Raises
     ------
     InputError
-        Naming every argument that cannot be used.
+        Some arguments cannot be used; the message names each of them.
 
     Examples
     --------
@@ -123,7 +123,7 @@ class Vehicle(_AsGiven):
 
     @classmethod
     def barrier(cls, **rest: Any) -> Vehicle:
-        """A body that neither moves nor turns: a wall, a pillar, or whatever does not give way.
+        """A body that neither moves nor turns: a wall, a pillar, or anything else that does not give way.
 
         Examples
         --------
@@ -141,7 +141,7 @@ class Vehicle(_AsGiven):
         Raises
         ------
         InputError
-            Also when vx or vy is given beside them.
+            Also if vx or vy is given as well.
 
         Examples
         --------
@@ -190,7 +190,7 @@ class Vehicle(_AsGiven):
         return vehicle
 
     def replace(self, **changes: Any) -> Vehicle:
-        """The vehicle with some fields changed; the velocity of a pinned one is worked out again.
+        """The vehicle with some fields changed; the velocity of a pinned vehicle is worked out again.
 
         Examples
         --------
@@ -230,12 +230,12 @@ class Vehicle(_AsGiven):
 
     @derived("kg*m/s")
     def momentum(self) -> tuple[Value, Value]:
-        """Momentum (x, y) [kg*m/s]; of an infinite mass 0 at rest, else infinite."""
+        """Momentum (x, y) [kg*m/s]; for an infinite mass 0 at rest, otherwise infinite."""
         return _product(self.mass, self.vx), _product(self.mass, self.vy)
 
     @derived("J")
     def kinetic_energy(self) -> Value:
-        """Kinetic energy, translation and rotation [J]; of an infinite mass 0 at rest, else infinite.
+        """Kinetic energy of translation and rotation [J]; for an infinite mass 0 at rest, otherwise infinite.
 
         Raises
         ------
@@ -258,14 +258,14 @@ class Vehicle(_AsGiven):
         distance: Input = _ABSENT,
         angle: Input = _ABSENT,
     ) -> tuple[Value, Value]:
-        """A place on the vehicle as a scene point (x, y) [m]: from the centre of mass, forward and left, or distance and angle.
+        """The scene point (x, y) [m] of a place on the vehicle, given as forward and left or as distance and angle.
 
         Parameters
         ----------
         forward, left : [m]
-            Ahead of the centre of mass, and to the driver's left (negative: to the right). One not given is 0.
+            Ahead of the centre of mass, and to the driver's left (negative: to the right). One that is not given is 0.
         distance, angle : [m], [rad]
-            Both together: distance, and angle from the heading, counter-clockwise.
+            Given together: distance from the centre of mass, and angle from the heading, counter-clockwise.
 
         Raises
         ------
@@ -299,7 +299,7 @@ class Vehicle(_AsGiven):
 
     @returns("m/s")
     def velocity_at(self, point: Pair) -> tuple[Value, Value]:
-        """Velocity (x, y) [m/s] of the place of the body that is at a scene point.
+        """Velocity (x, y) [m/s] of the point of the body that lies at a scene point.
 
         Raises
         ------
