@@ -33,26 +33,26 @@ class LeftOutSide(Shown):
     Attributes
     ----------
     tyre_impulse_bound : float or array [N*s]
-        The most that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
+        The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for an infinite mass.
     tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
-        The change of velocity of the centre of mass by that impulse, and its share. Of a pinned vehicle no bound but an
-        estimate, since it is not known how far from the pivot its wheels are: taken to be at the radius of gyration from the
-        centre of mass, all across their arms. Wheels that lie farther out can give more.
+        The change of velocity of the centre of mass due to that impulse, and its share. For a pinned vehicle it is no bound but
+        an estimate, since it is not known how far from the pivot its wheels are: they are taken to be at the radius of gyration
+        from the centre of mass, with all forces at right angles to their arms. Wheels that lie farther out can give more.
     tyre_impulse, tyre_impulse_x, tyre_impulse_y : float or array [N*s]
-        Estimate, its size and its parts along scene x and y: the tyres pull against the motion of the centre of mass, as it
-        changes during the contact.
+        Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act against the motion of the
+        centre of mass, as that changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
-        Estimate of how far delta-V moves, as a vector, by the tyres of both vehicles and what the contact makes of them: hence
-        it may pass the bound, which is of the own tyres.
+        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the response of the contact to them;
+        it may therefore exceed the bound, which is for the vehicle's own tyres.
     displacement_x, displacement_y : float or array [m]
-        Way of the centre of mass during the contact.
+        Displacement of the centre of mass during the contact.
     rotation : float or array [rad]
-        Turn during the contact, counter-clockwise.
+        Rotation during the contact, counter-clockwise.
     geometry_delta_v, geometry_share : float or array [m/s], [-]
-        Estimate of how far delta-V moves, as a vector, because positions and normal change during the contact, if those of the
+        Estimate of how far the delta-V vector moves because positions and normal change during the contact, if those of the
         impact are the ones at first contact; None for the central models, which have no geometry, and for any impact without a
-        point. In a batch of ``solve`` with a point NaN where a central model answered; NaN too where the geometry of later in
-        the contact has no answer, mostly because the bodies part in it.
+        point. In a batch of ``solve`` with a point it is NaN where a central model answered. It is also NaN where there is no
+        answer with the geometry of later in the contact, mostly because the bodies then part.
     """
 
     _title = "Left out for one vehicle"
@@ -79,14 +79,14 @@ class LeftOut(Shown):
     Attributes
     ----------
     duration : float or array [s]
-        Of the contact, as given.
+        Duration of the contact, as given.
     drag : float or array [-]
-        Of tyres on the ground, as given.
+        Drag factor of the tyres on the ground, as given.
     mutual_crush : float or array [m]
-        How far the contact points pass into each other along the normal, both vehicles together, at its most. NaN for an
-        incomplete impact, in which they pass or tear.
+        Largest distance by which the contact points pass into each other along the normal, both vehicles together. NaN for an
+        incomplete impact, in which the bodies pass each other or tear.
     residual_crush : float or array [m]
-        The same when they part.
+        The same at separation.
     contact_slide : float or array [m]
         How far B's contact point moves along the tangent, relative to A's.
     a, b : LeftOutSide
@@ -116,68 +116,68 @@ class LeftOut(Shown):
 
 @computing
 def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 0.7) -> LeftOut:
-    """What an impact that takes no time and has no tyres leaves out, as numbers: is the idealisation fit for this case?
+    """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the idealisation fits the case.
 
-    An impulse acts at once, at one place; a real contact takes about 0.1 s, in which tyres push too, and the vehicles move and
-    turn. The bound of the tyres needs nothing but drag and duration; the rest is estimated from the states before and after,
-    with the spring pulse for the contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
+    An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the tyres act too, and the vehicles
+    move and turn. The bound on the tyres needs only drag and duration; the rest is estimated from the states before and after,
+    with the spring pulse as the contact force, which ``plot.force_time`` draws: a quarter of a sine up to the end of
     compression, and one down that takes e times as long.
 
     Parameters
     ----------
     impact : Impact
-        Of any solver but ``time_resolved``; single or a batch.
+        From any solver but ``time_resolved``; a single case or a batch.
     duration : float, str, Quantity or array [s]
-        Of the contact, >= 0: 0.05 to 0.15 s for cars, the longer the softer.
+        Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
     drag : float, str, Quantity or array
-        Of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as ``"6.9 m/s**2"``. 0.7 is
-        locked wheels on a dry road; wheels that roll along their heading have hardly any.
+        Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
+        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll along their heading have hardly any.
 
     Returns
     -------
     LeftOut
-        In a batch a case that was refused is NaN, and so is the geometry of one that would be refused when shifted. An impact
-        of ``solve`` is solved again by the model that answered it.
+        In a batch a case that was refused is NaN, and so is the effect of geometry in one that would be refused when shifted.
+        An impact of ``solve`` is solved again by the model that answered it.
 
     Raises
     ------
     InputError
-        Naming every argument that cannot be used.
+        Some arguments cannot be used; the message names each of them.
 
     Notes
     -----
-    With s the share of the impulse that has passed, every velocity of a body of constant geometry is its value before plus s
-    times its change. The spring pulse is the force of a linear spring that unloads along a stiffer one. In a duration T it has
-    s = (1 - cos(pi (1 + e) t/(2 T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of
-    m = (1 - 2 (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. Then, all derived here:
+    Let s be the share of the impulse that has passed: with constant geometry every velocity of a body is its value before plus
+    s times its change. The spring pulse is the force of a linear spring that unloads along a stiffer one. Over a duration T it
+    has s = (1 - cos(pi (1 + e) t/(2 T)))/(1 + e) up to the end of compression at T/(1 + e), and a mean of s over time of
+    m = (1 - 2 (1 - e)/pi)/(1 + e): 0.36 if plastic, 1/2 if elastic. The rest follows, all derived here:
 
-    - displacement and rotation are T times the value before plus m times its change; so is the slide, which is exact if slip
-      does not end during the contact;
+    - displacement and rotation are T times the sum of the velocity before and m times its change; so is the slide, which is
+      exact if the slip does not end during the contact;
     - mutual crush is 2 c T/(pi (1 + e)) for a closing speed c: 0.64 c T if plastic, 0.32 c T if elastic; with a constant force
-      it would be c T/(2 (1 + e)). When they part 2 (1 - e) c T/pi of it is left;
-    - the tyre impulse is drag x weight x T times the mean, over time, of the direction against the motion of the centre.
-      It moves delta-V together with what the contact makes of it, as ``outside_a`` and ``outside_b`` do: restitution still ends
-      the impact with e times the closing speed. Against a wall in line that leaves nothing of it;
-    - for the geometry the impact is solved again with every position and angle halfway between where it is on average while the
-      force acts, which is where the impulse works, and where it is in the end, T (v + m delta_v) on, which is where restitution
-      holds. The contact point goes with the mean of the two places that met, the normal with the
-      mean of the rotations; with a fixed body the normal stays, and the point goes with the other body.
+      it would be c T/(2 (1 + e)). At separation 2 (1 - e) c T/pi of it is left;
+    - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to the motion of the centre of
+      mass. It moves delta-V together with the response of the contact to it, as ``outside_a`` and ``outside_b`` do: restitution
+      still ends the impact with e times the closing speed. In line against a wall, nothing of it is left;
+    - for the geometry, the impact is solved again with every position and angle halfway between its mean while the force acts,
+      which is where the impulse works, and its value at the end, T (v + m delta_v) further on, which is where restitution
+      holds. The contact point moves with the mean of the two places that met, the normal turns with the mean of the rotations;
+      with a fixed body the normal stays, and the point moves with the other body.
 
     Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two cars without spin that
     close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V changes by
-    more than 2 percent: the estimate is 0.71 to 1.25 of the change by tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to 1.59
-    of that by geometry in 9 of 10, 0.81 to 1.69 in all. Over as many with a friction of 0 to 0.1 it is worse: 0.69 to 1.29 of
-    the change by tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06 of that by geometry in 9 of 10, 0.68 to 2.41 in all.
-    Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the yaw rates is given: it
-    depends on which vehicle carries the contact.
+    more than 2 percent: the estimate is 0.71 to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to
+    1.59 of that due to geometry in 9 of 10, 0.81 to 1.69 in all. Over as many impacts with a friction of 0 to 0.1 it is worse:
+    0.69 to 1.29 of the change due to tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06 of that due to geometry in 9 of
+    10, 0.68 to 2.41 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the
+    yaw rates is given, as it depends on which vehicle carries the contact.
 
-    Positions at maximum engagement, as found in a real crash, leave 0.23 to 0.72 of the effect of geometry in five impacts of
-    that benchmark; then ``geometry_share`` is what taking those of first contact would cost. Left out here too: the turning
-    moment of tyres, load and suspension, and crush that moves the centre of mass.
+    Positions at maximum engagement, as found for a real crash, leave 0.23 to 0.72 of the effect of geometry in five impacts of
+    that benchmark; ``geometry_share`` is then what taking those of first contact would cost. Also left out here: the turning
+    moment of the tyres, load and suspension, and crush that moves the centre of mass.
 
     Examples
     --------
-    Tyres against the delta-V of rear-end impacts at 2 and at 20 m/s; and what a T-bone does in 0.1 s:
+    The bound on tyres in rear-end impacts at 2 and at 20 m/s; the rotation in a T-bone, and what motion does to its delta-V:
 
     >>> import collisions as col
     >>> for speed in (2.0, 20.0):

@@ -11,7 +11,7 @@ from .errors import InputError
 
 
 class Document(str):
-    """The text of a page: a ``str`` that a notebook shows as the page it is, and that ``save`` writes to a file.
+    """The text of a page: a ``str`` that a notebook shows as a page, and that ``save`` writes to a file.
 
     Attributes
     ----------
@@ -27,12 +27,12 @@ class Document(str):
         return made
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the page to a file, in UTF-8, and give the path of the file.
+        """Write the page to a file, in UTF-8, and return the path of the file.
 
         Parameters
         ----------
         path : str or path
-            An existing file is replaced. Only a page of HTML takes a name that ends in .html or .htm.
+            An existing file is replaced. Only a page of HTML may have a name that ends in .html or .htm.
 
         Returns
         -------
@@ -41,7 +41,7 @@ class Document(str):
         Raises
         ------
         InputError
-            The name is that of a page of HTML, and this is none.
+            The name is that of a page of HTML, and this page is not one.
         OSError
             The file cannot be written.
         """

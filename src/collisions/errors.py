@@ -26,7 +26,7 @@ def _rebuild(kind: type[Any], message: str, code: str, fields: dict[str, Any]) -
 class CollisionsError(_Carrying, Exception):
     """Base of every error raised by this library.
 
-    ``code`` is a short label that does not change between versions, ``fields`` what else is known of the case.
+    ``code`` is a short label that does not change between versions; ``fields`` holds what else is known of the case.
     """
 
 
@@ -61,7 +61,7 @@ class NoSolutionError(CollisionsError, ValueError):
 
     @property
     def solutions(self) -> tuple[Any, ...]:
-        """The solutions known to the refusal: all that fit, or the ends of their range; empty if there is none."""
+        """The solutions known when the case was refused: all that fit, or the ends of their range; empty if there are none."""
         return tuple(self.fields.get("solutions", ()))
 
 
@@ -74,15 +74,15 @@ class CollisionsWarning(_Carrying, UserWarning):
 
 
 class EnergyGainWarning(CollisionsWarning):
-    """The model ends with more energy than it began with; the value is returned as it is."""
+    """The impact ends with more energy than it began with; the result is returned as it is."""
 
 
 class IllConditionedWarning(CollisionsWarning):
-    """The answer moves much when the input moves little."""
+    """The answer changes greatly when the input changes slightly."""
 
 
 class SuspectUnitsWarning(CollisionsWarning):
-    """A number without a unit whose size suggests another unit than the one it is taken in."""
+    """A number without a unit whose size suggests a unit other than the one it is taken in."""
 
 
 class OutOfRangeWarning(CollisionsWarning):

@@ -59,24 +59,24 @@ class Inputs:
     normal : tuple of float or array [1]
         Unit vector from A into B.
     rule : str
-        What was said of the tangent: "friction", "impulse_ratio" or "critical_fraction" ...
+        What determines the tangential impulse: "friction", "impulse_ratio" or "critical_fraction" ...
     rule_value : float or array [1]
         ... and its value.
     law : str, optional
         None for the linear model.
     point : tuple of float or array [m], optional
     given : mapping, optional
-        By argument, the text of what was given with a unit, and an angle of more than a turn that had none.
+        By argument, the text of what was given with a unit, and an angle of more than a turn without one.
     tolerance : float or array [m/s], optional
-        Of ``solve``: the largest error that was accepted.
+        With ``solve``, the largest error that was accepted.
     incomplete : bool
         Whether a restitution below 0 is allowed: an impact that ends before a common velocity.
     outside_a, outside_b : tuple of float or array [N*s, N*s, N*m*s], optional
-        Impulse on A and on B by other things than the contact, along x and y, and about the centre of mass.
+        Impulse on A and on B from other things than the contact, along x and y, and about the centre of mass.
     contact_velocity : tuple of float or array [m/s], optional
-        Of a reverse solver: closing speed and slip before, which the rounded motions would hold to fewer digits.
+        From a reverse solver: closing speed and slip before, to more digits than the rounded motions would give.
     duration, stiffness, crush_a, crush_b, drag, wheelbase, track, geometry, steps
-        Of ``time_resolved``, as there.
+        As for ``time_resolved``.
     """
 
     model: str
@@ -106,7 +106,7 @@ class Inputs:
 
     @cached_property
     def shape(self) -> tuple[int, ...] | None:
-        """That of the arrays among the numbers; None of a single case."""
+        """That of the arrays among the numbers; None for a single case."""
         return broadcast(named_numbers(self))
 
     @property

@@ -79,9 +79,9 @@ class ModelChoice(Shown):
     Attributes
     ----------
     model : str or array of str
-        "linear_central", "oblique_central", "eccentric" or, with a duration, "time_resolved"; of a refused case "eccentric".
+        "linear_central", "oblique_central", "eccentric" or, with a duration, "time_resolved"; for a refused case "eccentric".
     tolerance : float or array [m/s]
-        What was accepted.
+        Largest error that was accepted.
     """
 
     _title = "Model required"
@@ -105,7 +105,7 @@ class ModelChoice(Shown):
 
     @property
     def model(self) -> Any:
-        """The name, or the names of a batch, which take fifty times the room of the numbers that are kept."""
+        """The name, or the names of a batch, made from the numbers that are kept, as names take fifty times the room."""
         return lock(np.array(_NAMES).take(self._which)) if isinstance(self._which, np.ndarray) else _NAMES[self._which]
 
     @derived()
@@ -115,17 +115,18 @@ class ModelChoice(Shown):
 
     @derived()
     def errors(self) -> Mapping[str, Value]:
-        """By cheaper model, what it is predicted to err by [m/s].
+        """Predicted error [m/s] of each cheaper model, by its name.
 
-        Hypot of the delta-V vector and of radius of gyration times yaw rate, for the worse of both vehicles. NaN where it
-        cannot be estimated or the case is refused, infinite where only that model has no answer.
+        It is the hypotenuse of the error of the delta-V vector and of the radius of gyration times that of the change of yaw
+        rate, for the vehicle for which it is larger. NaN where it cannot be estimated or the case is refused; infinite where
+        only that model has no answer.
         """
         answered = (error if self._refused is False else select(self._refused, math.nan, error) for error in self._predicted)
         return ByModel(dict(zip(_NAMES, answered, strict=False)), "m/s")
 
     @derived()
     def missing(self) -> Mapping[str, tuple[str, ...]]:
-        """By model, what it still needs, such as "a.yaw_inertia" or "point"."""
+        """What each model still needs, by its name, such as "a.yaw_inertia" or "point"."""
         last = {_IN_TIME: self._missing} if len(self._predicted) == _LAST else {}
         return ByModel({_LINEAR: (), _OBLIQUE: (), _ECCENTRIC: self._missing, **last})
 

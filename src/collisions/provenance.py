@@ -21,19 +21,19 @@ class Reconstruction:
     Parameters
     ----------
     method : str
-        Function of ``collisions.reconstruct``.
+        Name of the function of ``collisions.reconstruct``.
     known : tuple of str
         What it was given in addition to masses and geometry.
     condition : float or array [1]
-        How well-posed the question was: by how much relative errors of what was given may be larger in the speeds before the
-        impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out what is not known
-        of friction, restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e
-        where e was given, or the jump between both ways to slide over the slip where that is larger.
+        How well-posed the problem was: the factor by which relative errors of the inputs may grow in the speeds before the
+        impact, taken relative to the closing speed. 10 means that one percent may become ten. It leaves out errors of friction,
+        restitution, normal and courses. For ``planar`` it is the factor that restitution brings in, (1 + e)/e where e was
+        given, or, where larger, the jump between the two directions of sliding divided by the slip.
     answers : int or array of int
-        How many impacts fit what was given, of which this is one; infinite at the end of a range of them. Of a refused case
-        the number that fit if they are several, else 0.
+        How many impacts fit what was given, this one included; infinite at the end of a range of them. For a refused case the
+        number that fit if there are several, otherwise 0.
     contact_velocity : tuple of float or array [m/s], optional
-        Closing speed and slip before, as found. The motions before are rounded to their own size, and their small differences
+        Closing speed and slip before, as found. The motions before are rounded to their own size, so their small differences
         would hold fewer digits.
     """
 
@@ -48,9 +48,9 @@ class Reconstruction:
 
 
 class Known(NamedTuple):
-    """An input of a reverse solver beside the contact: description, kind, path in the result, and the solvers that take it.
+    """An input of a reverse solver besides the contact: description, kind, path in the result, and the solvers that take it.
 
-    The path is empty for what is no number of the result; the text of ``va`` and ``vb`` is that of a vehicle before.
+    The path is empty for what is not a number of the result; the text of ``va`` and ``vb`` is that of a vehicle before.
     """
 
     what: str

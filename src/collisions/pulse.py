@@ -1,9 +1,9 @@
 """The force of a contact over time: assumed, as a spring pulse, where one is needed; or as it passed, a ``Pulse``.
 
 The force is largest when compression ends, as in figure 3 of "Application of Impulse Momentum Theory to Vehicle Collisions". It
-rises as that of a linear spring, a quarter of a sine, and falls as that of a stiffer one, another quarter, which takes
-restitution times as long. Whatever the restitution, its peak is pi/2 times its mean. An incomplete impact (e < 0) ends on the
-way up, where the closing speed has fallen to -e of what it was. ``share`` is of the duration.
+rises like that of a linear spring, as a quarter of a sine, and falls like that of a stiffer one, as another quarter, which
+takes e times as long. Whatever the restitution, its peak is pi/2 times its mean. An incomplete impact (e < 0) ends on the way
+up, when the closing speed has fallen to -e times what it was. ``share`` is a share of the duration.
 """
 
 from __future__ import annotations
@@ -28,19 +28,19 @@ class Pulse(Shown):
     Attributes
     ----------
     duration : float or array [s]
-        From touching to parting.
+        From first contact to separation.
     peak_force : float or array [N]
         The largest force along the normal.
     max_crush : float or array [m]
-        How far the contact points passed into each other along the normal, both vehicles together, at the most.
+        Largest distance by which the contact points passed into each other along the normal, both vehicles together.
     peak_acceleration_a, peak_acceleration_b : float or array [m/s**2]
-        Of the centre of mass, by contact and tyres, at the most.
+        Largest acceleration of the centre of mass, from contact and tyres.
     time, force, crush : array [s], [N], [m]
-        At the start and after every step; None for a batch, of which ``impact.case(i).pulse`` has them.
+        Values at the start and after every step; None for a batch, where ``impact.case(i).pulse`` has those of a case.
     delta_v_a, delta_v_b : array [m/s]
-        Magnitude of the change of velocity until then.
+        Magnitude of the change of velocity up to each of these times.
     yaw_rate_a, yaw_rate_b : array [rad/s]
-        Yaw rate then.
+        Yaw rate at each of these times.
     """
 
     _title = "Pulse"

@@ -37,9 +37,9 @@ _TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PA
 def impact_schema() -> dict[str, Any]:
     """The JSON schema (draft 2020-12) of the record from ``Impact.to_dict``, as a new dict that may be changed.
 
-    It covers every solver, single cases, batches and refused cases. An infinity and NaN stand in a record as the texts
-    "inf", "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor
-    that the results are those of the inputs; ``Impact.from_dict`` checks the first and works out the second anew.
+    It covers every solver, single cases, batches and refused cases. Infinity and NaN appear in a record as the texts "inf",
+    "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor that the
+    results are those of the inputs; ``Impact.from_dict`` checks the former and works out the latter anew.
 
     Examples
     --------

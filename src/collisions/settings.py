@@ -23,15 +23,15 @@ class Default(float):
 
 
 class options:
-    """Settings that hold from the call on, or within a ``with`` block until its end; in this thread or task only.
+    """Settings that hold from the call on, or in a ``with`` block until its end; in this thread or task only.
 
     Parameters
     ----------
     require_units : bool
-        Whether a number without a unit is refused where one with a unit is meant, such as ``vx=20``: by vehicles,
-        solvers, reverse solvers, ``travel``, ``diagnose``, ``left_out``, ``explain``, ``report`` and pictures. 0 and infinity
-        need none, nor do the numbers of a distribution, such as ``Normal(13, 1)``, of which no dimension is known. Models of
-        ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may give them on.
+        Whether a number without a unit is refused where one with a unit is expected, as in ``vx=20``: by vehicles, solvers,
+        reverse solvers, ``travel``, ``diagnose``, ``left_out``, ``explain``, ``report`` and pictures. 0 and infinity need none,
+        nor do the numbers of a distribution such as ``Normal(13, 1)``, whose dimension is not known. Models of ``propagate``,
+        ``fit`` and ``posterior`` are called with SI numbers, and may pass them on.
 
     Raises
     ------

@@ -122,7 +122,7 @@ def spoken_system(texts: Iterable[Any]) -> str:
 
 
 class Summary:
-    """A result as a table. ``print`` writes it as plain text, a notebook shows it as HTML, the folded part below.
+    """A result as a table. ``print`` writes it as plain text; a notebook shows it as HTML, with the folded part below.
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ class Summarized:
         Parameters
         ----------
         units : {"si", "metric", "us"}, optional
-            By default those that the inputs were given in, where they agree; else SI. Angles are in degrees.
+            By default those that the inputs were given in, if they agree; otherwise SI. Angles are in degrees.
 
         Returns
         -------

@@ -171,9 +171,10 @@ def in_degrees(value: Any) -> bool:
 def si_unit(value: Any, argument: str = "value", per_angle: bool = False) -> str:
     """The SI unit of the kind that a Quantity or a text is of, such as "m/s"; "" for a plain number or a proportion.
 
-    An angle is "rad". Of kinds with one dimension the library knows one: a moment reads "J". Refused, because here nothing
-    else tells what was meant: a count such as Hz, which may be of turns or of radians, grams, which are hardly ever meant, and
-    an angle that is a part of another quantity, as in m/s/deg, unless ``per_angle``: it may be a speed whose unit was mistyped.
+    An angle is "rad". Of kinds that share a dimension the library knows one: a moment reads "J". Refused, because here nothing
+    else tells what was meant, are a count such as Hz, which may be of turns or of radians; grams, which are hardly ever meant;
+    and an angle that is a part of another quantity, as in m/s/deg, unless ``per_angle``, as it may be a speed whose unit was
+    mistyped.
 
     Examples
     --------

@@ -23,7 +23,7 @@ def warn(warning: CollisionsWarning) -> None:
 
 
 def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = "") -> None:
-    """Warn of what some cases show, unless within ``quietly``; of samples of one, their number and a sentence are noted."""
+    """Warn of what some cases show, unless within ``quietly``; of samples of one case, number and sentence are noted."""
     noted = _sampling.get()
     if not _quiet.get():
         warn(warning)
@@ -32,14 +32,14 @@ def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = ""
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
-    """Warn of what matters only where the cases are samples of one: within ``quietly(noted)``."""
+    """Warn of what matters only where the cases are samples of one case: within ``quietly(noted)``."""
     if _sampling.get() is not None:
         warn(warning)
 
 
 @contextmanager
 def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the cases are samples of one."""
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` they are samples of one case."""
     token, sampled = _quiet.set(True), _sampling.set(noted)
     try:
         yield
