@@ -22,9 +22,9 @@ def are_directions(angles: Any) -> bool:
 def counted(angles: Any) -> Any:
     """Unwrap directions about their mean, where their spread is least, for every row along the last axis.
 
-    Their mean, in (-pi, pi], then is the direction to which the mean square of the way round is the least: the intrinsic mean
+    Their mean, in (-pi, pi], is then the direction with the least mean square of the angular distances: the intrinsic mean
     (T. Hotz and S. Huckemann, "Intrinsic means on the circle", Annals of the Institute of Statistical Mathematics 67 (2015)).
-    Those that need no turn stay as they are to the bit, and so does what is no direction.
+    Those that need no turn stay as they are to the bit, and so do values that are not directions.
     """
     if not are_directions(angles) or not angles.size:
         return angles
@@ -81,7 +81,7 @@ def jump(values: Any) -> bool:
 def point_everywhere(values: Any) -> bool:
     """Whether so many unwrapped directions are opposite their mean that it loses its meaning: half as many as if evenly spread.
 
-    The error of the mean then is twice what their spread makes it (Hotz and Huckemann), and the mean soon without meaning.
+    The error of the mean is then twice what their spread suggests (Hotz and Huckemann), and the mean soon has no meaning.
     """
     return bool(values.size) and float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
 

@@ -9,16 +9,17 @@ from .distribution import Stated, check_order, read_alike, show
 
 
 class Censored(Stated):
-    """A reading of which only one bound is known, or both: at least, at most, or between.
+    """A reading known only to lie above a bound, below one, or between two.
 
-    A recorder that ended early read at least what it had reached; a speed class or a display in steps reads between two values.
-    As evidence it weighs by its probability: that of a reading within the bounds, when readings scatter about the truth with a
-    normal error; without an error the truth itself lies within. ``Interval(low, high)`` says the same as an observation.
+    A recorder that ended early would have read at least what it had reached; a speed class or a display in steps gives two
+    values with the reading between them. As evidence, it is weighted by the probability that a reading falls within the
+    bounds, where readings are normally distributed about the truth with this error. Without an error, the truth itself lies
+    within the bounds, and an observation ``Interval(low, high)`` says the same.
 
     Parameters
     ----------
     low, high : float, str or Quantity, optional
-        The bounds, ``low`` < ``high``; at least one of them. SI, or all with a unit.
+        The bounds, ``low`` < ``high``; give at least one. SI, or all with a unit.
     error : float, str or Quantity, optional
         Standard deviation of the reading, > 0, in the same unit; without it the bounds are sharp.
 
@@ -31,7 +32,7 @@ class Censored(Stated):
 
     Examples
     --------
-    The recorder lost power at 28 km/h of delta-V, read to 1 km/h.
+    The recorder lost power after a delta-V of 28 km/h; its standard deviation is 1 km/h.
 
     >>> Censored(low="28 km/h", error="1 km/h")
     Censored(low=28 km/h, error=1 km/h)

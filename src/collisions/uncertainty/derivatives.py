@@ -1,9 +1,9 @@
 """First- and second-order propagation: derivatives at the mean of the inputs, and a test of whether they suffice.
 
 First order is the law of propagation of uncertainty of the "Guide to the expression of uncertainty in measurement" (JCGM
-100:2008, eq 13); second order adds the curvature, exactly so where the model is a quadratic of independent or of normal inputs.
-Neither knows of a friction limit or a refusal beside the mean, which is why the model is asked at points drawn from the inputs
-as well and both are compared.
+100:2008, eq 13); second order adds the curvature, and is exact where the model is quadratic in independent or normal inputs.
+Neither knows of a friction limit or a refusal away from the mean, so the model is also evaluated at points drawn from the
+inputs, and the two are compared.
 """
 
 from __future__ import annotations
@@ -169,7 +169,7 @@ def local_output(name: str, unit: str | None, joint: Joint, slope: Slopes, secon
 def differences(model: Model, drawn: Mapping[str, Any], outputs: Mapping[str, Local]) -> tuple[dict[str, float], int]:
     """Differences, in standard deviations, of the local figures from cases drawn from the inputs, where they are too large.
 
-    Also at how many of them there was no answer.
+    Also the number of those cases without an answer.
     """
     answers = model(drawn, PROBES)
     ends = np.array([0.025, 0.975])

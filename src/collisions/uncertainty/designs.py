@@ -1,8 +1,8 @@
 """Sampling designs: independent, stratified or evenly spread points of the unit cube.
 
-A design says which points, one row of numbers in (0, 1) for each input. They come in ``REPLICATES`` independent sequences side
-by side, whose spread gives every standard error, and each is found from its place alone: not from what was drawn before, in
-which blocks, or on how many threads. Any beginning of the sequences is a sample in itself.
+A design gives the points, one row of numbers in (0, 1) for each input. They come in ``REPLICATES`` independent sequences side
+by side, whose spread gives every standard error. Each point follows from its place alone, not from what was drawn before, in
+which blocks, or on how many threads. Any initial part of the sequences is a sample in itself.
 """
 
 from __future__ import annotations
@@ -76,8 +76,8 @@ def latin_hypercube(dimensions: int, seed: int, length: int) -> Design:
 def quasi_random(dimensions: int, seed: int, length: int) -> Design:
     """A rank-1 lattice sequence under independent random shifts, folded by the tent map.
 
-    The points of a lattice rule fill the cube evenly in every pair of inputs. In the order of the bit-reversed index every
-    beginning of them does, best at powers of two; see F. J. Hickernell, H. S. Hong, P. L'Ecuyer, C. Lemieux, "Extensible
+    The points of a lattice rule fill the cube evenly in every pair of inputs. In the order of the bit-reversed index so
+    does every beginning of them, best at powers of two; see F. J. Hickernell, H. S. Hong, P. L'Ecuyer, C. Lemieux, "Extensible
     lattice sequences for quasi-Monte Carlo quadrature", SIAM J. Sci. Comput. 22 (2000). The tent map makes them serve inputs
     that are not periodic: F. J. Hickernell, "Obtaining O(N^-2+eps) convergence for lattice quadrature rules" (2002).
     """

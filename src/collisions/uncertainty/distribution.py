@@ -85,14 +85,14 @@ class Stated:
 class Distribution(Stated):
     """A quantity that is not known exactly, and how likely each of its values is.
 
-    Every number is a bare SI float, and that of the distribution as it is used: after truncation.
+    All numbers are bare SI floats, and describe the distribution as it is used: after truncation.
 
     Attributes
     ----------
     mean, sd : float
         Mean and standard deviation.
     skewness, kurtosis : float
-        Third and fourth central moment over the third and fourth power of ``sd``: 0 and 3 for a normal distribution.
+        Third and fourth central moments over the third and fourth powers of ``sd``: 0 and 3 for a normal distribution.
     support : tuple of float
         Lowest and highest value.
     unit : str
@@ -108,7 +108,7 @@ class Distribution(Stated):
     support: tuple[float, float]
 
     def quantile(self, p: Any) -> Any:
-        """Value that the quantity stays below with probability p.
+        """Value below which the quantity lies with probability p.
 
         Parameters
         ----------
@@ -123,7 +123,7 @@ class Distribution(Stated):
         Raises
         ------
         InputError
-            A probability outside 0 to 1, or no number.
+            A probability outside 0 to 1, or not a number.
         """
         p = probability(p)
         return _like(p, self._at(np.asarray(p), np.asarray(1.0 - p)))
@@ -131,7 +131,7 @@ class Distribution(Stated):
     def scored(self, z: Any) -> Any:
         """Value that is as likely to be exceeded as z is by a standard normal variable.
 
-        The quantile at the normal probability of z, without what is lost by way of a probability near 1.
+        The quantile at the normal probability of z, without the digits that are lost in a probability near 1.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class Distribution(Stated):
         Raises
         ------
         InputError
-            A score that is NaN, or no number.
+            A score that is NaN, or not a number.
         """
         reader = ArgumentReader()
         z = _plain_number(reader, z, "z")
@@ -218,7 +218,7 @@ def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
 
 
 def show(value: Any, unit: str) -> str:
-    """A number of an input for people, in the unit it was given in: four digits, or all before the point."""
+    """A number of an input as people read it, in the unit it was given in: four digits, or all before the point."""
     if isinstance(value, tuple):
         return f"({', '.join(show(part, unit) for part in value)})"
     if not isinstance(value, float):
@@ -263,7 +263,7 @@ def read_alike(
 
 
 def check_order(low: float, high: float, what: str = "low and high", unit: str = "") -> None:
-    """Refuses a range without width; of angles with a hint how to go on across the end of a turn."""
+    """Refuse a range without width; for angles, with a hint on how to count on across the end of a turn."""
     if low < high:
         return
     hint = "exchange them" if high < low else "of a quantity that is known exactly give the number itself"

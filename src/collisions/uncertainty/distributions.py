@@ -24,7 +24,7 @@ __all__ = ["Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triang
 
 
 class Uniform(Distribution):
-    """A quantity that is as likely anywhere between two bounds: a claim of its own, which ``Interval`` does not make.
+    """A quantity equally likely to lie anywhere between two bounds: a claim in itself, which ``Interval`` does not make.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class Uniform(Distribution):
 
 
 class Triangular(Distribution):
-    """A quantity between two bounds with a most likely value, from which the likelihood falls in straight lines.
+    """A quantity between two bounds with a most likely value, from which the density falls in straight lines to either bound.
 
     Parameters
     ----------
@@ -125,10 +125,10 @@ class Triangular(Distribution):
 
 
 class Samples(Distribution):
-    """A quantity known from values that were measured or drawn elsewhere, each as likely as the others.
+    """A quantity known from values that were measured or drawn elsewhere, all equally likely.
 
-    The empirical distribution: nothing is put between the values or beyond them. ``sd`` is that of the values themselves,
-    with their number as the divisor, not an estimate of that of a population they came from.
+    The empirical distribution, with no values between the given ones or beyond. ``sd`` is that of the values themselves,
+    with their number as the divisor, not an estimate for the population they came from.
 
     Parameters
     ----------
@@ -140,12 +140,12 @@ class Samples(Distribution):
     rows : array
         The values in the given order [SI], locked.
     group : str or None
-        What those have in common that are drawn together; None when drawn alone.
+        A text shared by all Samples that are drawn together; None for one drawn alone.
 
     Raises
     ------
     InputError
-        Values that are too few, all the same, or not finite.
+        Too few values, or values that are all the same or not finite.
 
     Examples
     --------
@@ -171,22 +171,22 @@ class Samples(Distribution):
 
     @classmethod
     def joint(cls, /, **values: Any) -> dict[str, Samples]:
-        """Quantities that were measured together: a draw takes the same row of each, so that their dependence is kept.
+        """Quantities that were measured together: each draw takes the same row of all, which keeps their dependence.
 
         Parameters
         ----------
         **values : array, sequence or Quantity
-            One column for each input; all of one length. Each has a unit of its own.
+            One column for each input, all of the same length. Each has its own unit.
 
         Returns
         -------
         dict
-            The Samples by name, to be given to ``propagate`` as they are.
+            The Samples by name, to be passed to ``propagate`` as they are.
 
         Raises
         ------
         ShapeError
-            Columns that are not of one length.
+            Columns of different lengths.
 
         Examples
         --------
@@ -257,9 +257,9 @@ def _checked(rows: Any, argument: str) -> Any:
 
 
 class Interval(Stated):
-    """Two bounds between which a quantity lies, and nothing else: no value is said to be likelier than another.
+    """Two bounds between which a quantity lies, and nothing more: no value is said to be likelier than another.
 
-    Not a distribution: it is never sampled as if it were uniform. Mixed with distributions it gives bounds on quantiles.
+    Not a distribution: it is never sampled as if it were uniform. Mixed with distributions, it gives bounds on quantiles.
 
     Parameters
     ----------
@@ -309,7 +309,7 @@ def read_input(name: str, value: Any) -> Any:
     Raises
     ------
     InputError
-        A boolean, NaN, an array or a list of numbers, or a text that is no number with a unit.
+        A boolean, NaN, an array or a list of numbers, or a text that is not a number with a unit.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Propagation of ``Interval`` inputs: searches for the least and greatest outputs between the bounds.
 
-An interval is never drawn from. Without distributions, the values of the outputs are searched for their extremes. Mixed with
-distributions, the mean, the standard deviation and both ends of the 95 percent interval are, over the same few drawn cases at
-every place; at the places found the run is then made in full.
+An interval is never drawn from. Without distributions, the search is for the extremes of the outputs. Mixed with distributions,
+it is for the extremes of the mean, the standard deviation and both ends of the 95 percent interval, over the same few drawn
+cases at every place; the full run is then made at the places found.
 """
 
 from __future__ import annotations

@@ -49,8 +49,8 @@ class Model:
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> dict[str, Any]:
         """The outputs of the cases as new float arrays; NaN where the model's value is not finite.
 
-        The first time, a few cases are asked again by themselves. ``check=False`` leaves that to another call: of calls from
-        several threads always the same one is to do it. What is said of cases is kept in ``noted``.
+        The first time, a few cases are computed again on their own. ``check=False`` leaves that to another call: among calls
+        from several threads, it is always the same one that does it. Warnings about cases are kept in ``noted``.
         """
         found = self._answers(values, count, self.noted)
         if check and not self._checked:
@@ -58,7 +58,7 @@ class Model:
         return found
 
     def warn_of_noted(self, count: int) -> None:
-        """Warn once of everything that was noted, with how many of so many cases it is of."""
+        """Warn once of everything that was noted, with the number of cases, out of ``count``, that it concerns."""
         for about in dict.fromkeys(one[:3] for one in self.noted):
             sentence, kind, code = about
             cases = min(sum(one[3] for one in self.noted if one[:3] == about), count)
@@ -133,7 +133,7 @@ def check_names(function: Any, names: Collection[str], argument: str, code: str)
 def check_elementwise(
     answer: Callable[[Mapping[str, Any], int], Mapping[str, Any]], values: Mapping[str, Any], answers: Mapping[str, Any]
 ) -> bool:
-    """Raise if the model treats cases differently by themselves than among others; False if these cases cannot show it.
+    """Raise if the model treats cases differently on their own than among others; False if these cases cannot show it.
 
     ``answer`` takes some cases and their number. Cases that are all the same show nothing, those without an answer little, and
     those in rising order no sort.

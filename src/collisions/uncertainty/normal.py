@@ -4,7 +4,7 @@ Quantiles by M. J. Wichura, "Algorithm AS 241: The Percentage Points of the Norm
 477-484: rational approximations good to 1e-16, one for the middle 85 percent and two for the tails. Tails of arrays by one
 series over the whole half line, after M. M. Shepherd and J. G. Laframboise, "Chebyshev Approximation of (1 + 2x) exp(x^2)
 erfc x in 0 <= x < infinity", Mathematics of Computation 36 (1981) 249-253, those of floats by ``math.erfc``.
-A probability is as good as an error of one rounding in z lets it be: z**2 roundings of its own far out.
+A probability is as accurate as one rounding error in z allows, which far out is z**2 roundings of the probability.
 """
 
 from __future__ import annotations

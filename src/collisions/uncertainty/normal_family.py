@@ -1,9 +1,9 @@
 """``Normal`` and ``LogNormal`` inputs, whole or truncated.
 
-What a truncation leaves is counted from an anchor, the most likely of the values left, in standard deviations of the whole.
-From there the density falls as exp(-t (t + 2 m) / 2), m the score of the anchor, which neither underflows nor cancels however
-far out in a tail, or however narrow, the range is. The moments are integrals of this density over the range by Gauss-Legendre
-quadrature, whose terms all have one sign; the closed forms are differences of nearly equal numbers there.
+What a truncation leaves is measured from an anchor, the most likely of the values left, in standard deviations of the whole.
+From there the density falls as exp(-t (t + 2 m) / 2), with m the score of the anchor. This neither underflows nor cancels,
+however far out in a tail or however narrow the range is. The moments are integrals of this density over the range by
+Gauss-Legendre quadrature, whose terms all have the same sign; the closed forms are differences of nearly equal numbers there.
 """
 
 from __future__ import annotations
@@ -63,25 +63,25 @@ class NormalFamily(Distribution):
 
     @classmethod
     def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
-        """The distribution of this kind that has a share of its probability between two values, and as much below as above.
+        """The distribution of this kind with a given share of its probability between two values, and as much below as above.
 
         Parameters
         ----------
         low, high : float, str or Quantity
-            The range, such as that of a published table; for a lognormal distribution above 0.
+            The range, such as one from a published table; above 0 for a lognormal distribution.
         coverage : float [1]
-            Share of the probability inside, between 0 and 1, before truncation.
+            Share of the probability inside the range before truncation, between 0 and 1.
         truncate : tuple (low, high), optional
-            What is physically possible, applied to the distribution found.
+            Bounds of what is physically possible, applied to the distribution found.
 
         Raises
         ------
         InputError
-            A coverage not between 0 and 1, or a range that is not in order, or of a lognormal distribution not above 0.
+            A coverage not between 0 and 1, or a range that is not in order or, for a lognormal distribution, not above 0.
 
         Examples
         --------
-        A drag factor that is said to lie between 0.65 and 0.85 in nineteen cases of twenty.
+        A drag factor that is said to lie between 0.65 and 0.85 in nineteen cases out of twenty.
 
         >>> Normal.between(0.65, 0.85, 0.95)
         Normal(mean=0.75, sd=0.05102)
@@ -144,7 +144,7 @@ class NormalFamily(Distribution):
 
     @property
     def _steepness(self) -> float:
-        """Derivative of the quantity's logarithm by the score; 0 for Normal, whose quantity is linear in the score."""
+        """Derivative of the quantity's logarithm over the score; 0 for Normal, whose quantity is linear in the score."""
         return 0.0
 
     @staticmethod
@@ -193,15 +193,15 @@ class NormalFamily(Distribution):
 
 
 class Normal(NormalFamily):
-    """A quantity whose errors are many, small and independent: a normal distribution, cut off at what is possible.
+    """A quantity whose error is the sum of many small, independent ones: a normal distribution, cut off at what is possible.
 
     Parameters
     ----------
     mean, sd : float, str or Quantity
         Mean and standard deviation before truncation; ``sd`` > 0. SI, or all with a unit.
     truncate : tuple (low, high), optional
-        What is physically possible; None leaves a side open. ``mean`` and ``sd`` of the result are those of the part that is
-        kept, ``given_mean`` and ``given_sd`` those of the whole.
+        Bounds of what is physically possible; None leaves a side open. The attributes ``mean`` and ``sd`` are those of the
+        part that is kept, ``given_mean`` and ``given_sd`` those of the whole.
 
     Raises
     ------
@@ -240,14 +240,14 @@ class Normal(NormalFamily):
 
 
 class LogNormal(NormalFamily):
-    """A quantity that cannot be below 0 and errs by factors: its logarithm is normal.
+    """A quantity that cannot be below 0 and is known to within a factor: its logarithm is normal.
 
     Parameters
     ----------
     mean, sd : float, str or Quantity
         Mean and standard deviation of the quantity itself, not of its logarithm, before truncation; both > 0.
     truncate : tuple (low, high), optional
-        What is physically possible; None leaves a side open.
+        Bounds of what is physically possible; None leaves a side open.
 
     Raises
     ------
@@ -354,7 +354,7 @@ def _fall(score: float) -> float:
 
 
 def _named_bounds(truncate: Any) -> dict[str, Any]:
-    """Both bounds of a truncation by the names that messages call them."""
+    """Both bounds of a truncation, under the names that messages use."""
     if truncate is None:
         truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:

@@ -64,44 +64,44 @@ def propagate(
     threads: int = 1,
     progress: Callable[[int, int], None] | bool | None = None,
 ) -> Propagation:
-    """What follows from inputs that are not known exactly: mean, spread and range of every output, given the stated inputs.
+    """Propagate uncertain inputs through a model: mean, spread and range of every output, given the stated inputs.
 
     The model is any function of named inputs: a solver, a reconstruction, or a chain of them. It is called with arrays of cases
-    and answers case by case. ``"quasi_random"`` is right for any model and the one to take if in doubt; ``"latin_hypercube"``
+    and answers each case on its own. ``"quasi_random"`` is right for any model; use it if in doubt. ``"latin_hypercube"``
     and ``"monte_carlo"`` need more cases for the same standard error. ``"first_order"`` and ``"second_order"`` take derivatives
-    at the mean of the inputs: right where the model is nearly straight, or nearly a parabola, over their spread. They compare
-    themselves with cases drawn from the inputs, and warn where they differ. ``"interval"`` finds the least and the greatest
-    value between bounds, and knows nothing of likelihood. What the inputs leave out, the answer does.
+    at the mean of the inputs: right where the model is nearly linear, or nearly quadratic, over their spread. They check
+    themselves against cases drawn from the inputs, and warn where they differ. ``"interval"`` finds the least and the greatest
+    value between bounds, and says nothing about likelihood. What the inputs leave out, the answer leaves out too.
 
     Parameters
     ----------
     model : function
-        ``model(**inputs)`` returns a dict of named outputs: arrays of one number a case, or Quantities. Each case is worked out
-        by itself: a few are asked again without the others, and a model that then answers otherwise is refused. Refused cases
-        are NaN, which solvers give with ``on_failure="nan"``. Booleans count as 0 and 1, so that a mean is a probability.
-        Angles with their unit that all lie from -pi to pi are directions, counted round the circle about their mean, see
-        ``Output``; return a rotation as a plain number.
+        ``model(**inputs)`` returns a dict of named outputs: arrays of one number per case, or Quantities. Each case is computed
+        on its own: a few are computed again without the others, and a model that then answers differently is refused. A case
+        without an answer is NaN; solvers return it with ``on_failure="nan"``. Booleans count as 0 and 1, so their mean is a
+        probability. Angles returned with a unit that all lie in [-pi, pi] are directions, counted round the circle about
+        their mean (see ``Output``); return a rotation as a plain number.
     inputs : dict
-        By name ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval``, or a fixed value. Numbers
-        reach the model in SI, without their unit.
+        For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``, ``Interval`` or fixed value.
+        Numbers reach the model in SI, without their unit.
     method : str, optional
         "first_order", "second_order", "latin_hypercube", "quasi_random", "monte_carlo" or "interval". By default
-        "quasi_random", or "interval" if intervals are all that is uncertain.
+        "quasi_random", or "interval" if all uncertain inputs are intervals.
     samples : int, optional
-        Cases to draw, at least 64; 8192 if neither this nor ``tolerance`` is given. Powers of two serve "quasi_random" best.
+        Cases to draw, at least 64; 8192 if neither this nor ``tolerance`` is given. Powers of two suit "quasi_random" best.
     tolerance : float, str, Quantity or dict of these by output, optional
-        Go on until the standard errors of the mean, of the standard deviation and of both ends of the 95 percent interval are
-        below this, in the unit of the output; at most 2**24 cases.
+        Draw cases until the standard errors of the mean, of the standard deviation and of both ends of the 95 percent interval
+        are below this, in the unit of the output; at most 2**24.
     seed : int, optional
-        Makes the run reproducible to the bit, for any number of threads; without it, ``result.seed`` tells what was used.
+        Makes the run reproducible to the bit, for any number of threads; without one, ``result.seed`` says which was used.
     correlation : dict, optional
-        Correlation, -1 to 1, by pair of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for a shared scale: between the
-        values of normal inputs, of others between their normal scores. Pairs left out are independent.
+        Correlation, -1 to 1, for pairs of input names, such as ``{("mass_a", "mass_b"): 1.0}`` for masses weighed on one scale:
+        between the values of normal inputs, or the normal scores of others. Pairs that are not listed are independent.
     threads : int, optional
-        Blocks of cases worked on at once. The model must then be safe to call from several threads.
+        Number of blocks of cases computed at once. If more than 1, the model must be safe to call from several threads.
     progress : function or bool, optional
-        Of methods that draw: called with cases done and cases in all (as far as is known with ``tolerance``); True shows a
-        bar, with tqdm where that is installed (extra ``progress``). An interrupt returns what was done until then.
+        For methods that draw: called with the numbers of cases done and in all (with ``tolerance``, as far as known); True
+        shows a bar, by tqdm if it is installed (extra ``progress``). An interrupt returns what has been done until then.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def propagate(
     InputError
         An argument that cannot be used, or a model that does not answer case by case (code "bad_model").
     NoSolutionError
-        The model has no answer where it was asked.
+        The model has no answer where one is needed.
 
     Warns
     -----
@@ -123,7 +123,7 @@ def propagate(
 
     Examples
     --------
-    A rear-end impact whose restitution and closing speed are known within ranges:
+    A rear-end impact whose closing speed and restitution are uncertain:
 
     >>> import collisions as col
     >>> from collisions.uncertainty import Normal, Uniform, propagate
@@ -286,7 +286,7 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
 
 
 def _evenly_drawn(joint: Joint, seed: int, count: int) -> dict[str, Any]:
-    """So many cases of the inputs, a multiple of ``REPLICATES``."""
+    """Evenly spread cases of the inputs, as many as ``count``, a multiple of ``REPLICATES``."""
     points = DESIGNS["quasi_random"](joint.dimensions, seed, 0)(0, count // REPLICATES)
     with np.errstate(all="ignore"):
         return joint.values(points.reshape(joint.dimensions, -1))
@@ -320,7 +320,7 @@ def _sampled(
 
 
 def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]) -> bool:
-    """Whether the standard errors of mean, standard deviation and both ends of the 95 percent interval are all below it."""
+    """Whether the standard errors of mean, standard deviation and both 95 percent ends are all below the tolerance."""
     for name, tolerance in tolerances.items():
         output = Sampled(name, units[name], sample.outputs[name], dict)
         errors = [output.mean_standard_error, output.std_standard_error, *output.quantile_standard_error([0.025, 0.975])]

@@ -32,9 +32,9 @@ NO_SPREAD, NOTHING = 1e-10, {"impulse": 1e-8, "angular momentum": 1e-8, "energy"
 
 
 class Shares(NamedTuple):
-    """The share of an output's variance that each input has: by itself, and with its interactions; standard errors of both.
+    """Each input's share of the variance of an output, by itself and with its interactions, and the standard errors of both.
 
-    By input, largest total first; correlated inputs, and joint samples, cannot be told apart and share one: "mass_a & mass_b".
+    By input. Correlated inputs, and joint samples, cannot be told apart and share one entry: "mass_a & mass_b".
     """
 
     first: dict[str, float]
@@ -44,7 +44,7 @@ class Shares(NamedTuple):
 
 
 class Histogram(NamedTuple):
-    """Shares of the cases between edges, with their standard errors."""
+    """Shares of the cases between the edges of the bins, with their standard errors."""
 
     edges: Any
     shares: Any
@@ -61,18 +61,19 @@ class Output(Summarized):
     """One named output of a propagation, given the stated inputs.
 
     Values are bare numbers: SI where the model returned Quantities, otherwise in whatever unit the model returned. With an
-    ``Interval`` among the inputs every figure is a pair: the least and the most it may be, wherever in the interval the truth
-    lies.
+    ``Interval`` among the inputs, every figure is a pair: the least and the greatest value it may have, wherever in the
+    interval the truth lies.
 
-    Directions, which are angles with their unit that all lie from -pi to pi, are counted round the circle from the point
-    opposite their mean, and so may pass pi. The mean is the direction to which the mean square of the way round is the least,
-    in (-pi, pi]; the standard deviation is the root of this mean square; quantiles and intervals are those of the directions
-    so counted. Of a normal error of a direction that is far less than half a turn these are its mean and standard deviation.
+    Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the circle from the point
+    opposite their mean, and so may exceed pi. The mean, in (-pi, pi], is the direction for which the mean square of the angular
+    distances is least; the standard deviation is the root of this mean square; quantiles and intervals are those of the
+    directions so counted. For a direction with a normal error far smaller than half a turn, these are its ordinary mean and
+    standard deviation.
     """
 
     given = "the stated inputs"
     texts: tuple[str, ...] = ()
-    """What the units of its summary are chosen by."""
+    """Texts by which the units of its summary are chosen."""
 
     def __init__(self, name: str, unit: str | None) -> None:
         self.name = name
@@ -117,7 +118,7 @@ class Output(Summarized):
 
     @property
     def bounds_only(self) -> bool:
-        """Whether it is known between bounds and nothing else."""
+        """Whether nothing but bounds is known of it."""
         return False
 
     @derived(OWN)
@@ -132,12 +133,12 @@ class Output(Summarized):
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
-        """Standard error of the mean from sampling; NaN for a local method, which has none and does not know its error."""
+        """Standard error of the mean due to sampling; NaN for a local method, which does not sample or know its error."""
         return math.nan
 
     @derived(OWN)
     def std_standard_error(self) -> Any:
-        """Standard error of the standard deviation from sampling; NaN for a local method."""
+        """Standard error of the standard deviation due to sampling; NaN for a local method."""
         return math.nan
 
     @returns(OWN)
@@ -147,12 +148,12 @@ class Output(Summarized):
 
     @returns(OWN)
     def quantile_standard_error(self, p: Any) -> Any:
-        """Standard error of a quantile from sampling; NaN for a local method."""
+        """Standard error of a quantile due to sampling; NaN for a local method."""
         return probability(p) * math.nan
 
     @returns(OWN)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
-        """The range (low, high) that holds the value with this probability, as much below it as above.
+        """The range (low, high) that holds the value with this probability and leaves equal probabilities below and above.
 
         Examples
         --------
@@ -173,12 +174,12 @@ class Output(Summarized):
 
     @property
     def contributions(self) -> dict[str, float]:
-        """By input, the share of the variance that it has by itself; what is left to 1 is interaction. Largest first."""
+        """By input, the share of the variance due to it alone, largest first; the rest, up to 1, is interaction."""
         return _ranked(self._shares().first)
 
     @property
     def total_contributions(self) -> dict[str, float]:
-        """By input, the share of the variance that would go if it were known: with all interactions it is in."""
+        """By input, the share of the variance due to it with all its interactions: what is left when the others are known."""
         return _ranked(self._shares().total)
 
     @property
@@ -188,7 +189,7 @@ class Output(Summarized):
         return {name: (found.first_error[name], found.total_error[name]) for name in _ranked(found.total)}
 
     def histogram(self, bins: int = 30) -> Histogram:
-        """Edges, shares of the cases between them and their standard errors: for a chart; only from sampling."""
+        """Edges, the shares of the cases between them and their standard errors, for a chart; only after sampling."""
         raise InputError(
             f"{self.name!r} has no histogram, because nothing was sampled; take method='quasi_random'",
             code="not_sampled",
@@ -196,7 +197,7 @@ class Output(Summarized):
         )
 
     def row(self) -> tuple[str, str]:
-        """Name and figures as a text."""
+        """Name and figures as text."""
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
         if math.isnan(self.std):
@@ -269,7 +270,7 @@ class Sampled(Output):
         return Sampled(self.name, self.unit, values, self._all_shares, turns)
 
     def may_wrap(self) -> bool:
-        """Whether it looks like an angle that jumps between pi and -pi: without a unit, or with one but on all sides."""
+        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has directions to all sides."""
         found = self._answered
         if self._directions is not None:
             return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
@@ -277,7 +278,7 @@ class Sampled(Output):
 
     @derived(OWN)
     def mean_standard_error(self) -> Any:
-        """Standard error of the mean from sampling; of a probability at least one case in all, which nobody may have seen."""
+        """Standard error of the mean due to sampling; of a probability, at least one over the number of cases."""
         error = self._error(average)
         found = self._answered
         seldom = found.size and found[0] >= 0.0 and found[-1] <= 1.0 and not np.any((found > 0.0) & (found < 1.0))
@@ -285,15 +286,15 @@ class Sampled(Output):
 
     @derived(OWN)
     def std_standard_error(self) -> Any:
-        """Standard error of the standard deviation from sampling."""
+        """Standard error of the standard deviation due to sampling."""
         return self._error(deviation)
 
     @returns(OWN)
     def quantile_standard_error(self, p: Any) -> Any:
-        """Standard error of a quantile from sampling; NaN at 0 and 1, beyond which there is nothing to go by.
+        """Standard error of a quantile due to sampling; NaN at 0 and 1, beyond which there is nothing to go by.
 
-        That of the share of cases up to the quantile, by the slope of the quantiles there: how quantiles differ between the
-        sequences would tell less, because each of them is even in itself.
+        The standard error of the share of cases up to the quantile, times the slope of the quantiles there. How the quantiles
+        differ between the sequences would tell less, because each sequence is evenly spread in itself.
         """
         share = probability(p)
         with np.errstate(all="ignore"):
@@ -301,7 +302,7 @@ class Sampled(Output):
         return found if found.ndim else float(found)
 
     def histogram(self, bins: int = 30) -> Histogram:
-        """Edges, shares of the cases between them and their standard errors: for a chart."""
+        """Edges, the shares of the cases between them and their standard errors, for a chart."""
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
                 f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
@@ -388,18 +389,18 @@ class Propagation(Summarized):
     Attributes
     ----------
     method : str
-        How it was worked out.
+        The method that was used.
     inputs : dict
         What was stated: distributions, intervals, and fixed values.
     samples : int
-        Cases the model was called with.
+        Number of cases the model was called with.
     failed : int
-        Cases among them without an answer to at least one output, such as no impact at all: left out of the figures, which
-        hold given that there is an answer.
+        Number of cases without an answer for at least one output, for example because there was no impact. The figures leave
+        them out, and hold given that there is an answer.
     seed : int or None
-        What reproduces the result to the bit; None where nothing was drawn.
+        The seed that reproduces the result to the bit; None where nothing was drawn.
     interrupted : bool
-        Whether the run was stopped before its end; the figures are those of the cases done.
+        Whether the run was stopped before its end; the figures are then those of the cases done.
     """
 
     method: str
@@ -431,11 +432,11 @@ class Propagation(Summarized):
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
-        """Correlation of every pair of outputs, over the cases that answer both; only from sampling."""
+        """Correlation of every pair of outputs, over the cases with an answer for both; only after sampling."""
         return correlations({name: output for name, output in self.outputs.items() if isinstance(output, Sampled)})
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures of all outputs, and what they are given, as nested plain values that strict JSON can hold."""
+        """Figures of all outputs and the inputs they are given, as nested plain values that strict JSON can hold."""
         return {
             "method": self.method,
             "inputs": {name: shown(value, 1000) for name, value in self.inputs.items()},
@@ -497,7 +498,7 @@ def varies(output: Output, kind: str = "") -> bool:
 
 
 def correlations(outputs: Mapping[str, Sampled]) -> dict[tuple[str, str], float]:
-    """Correlation of every pair, over the cases that answer both; NaN where one of them does not vary."""
+    """Correlation of every pair, over the cases with an answer for both; NaN where one of them does not vary."""
     found: dict[tuple[str, str], float] = {}
     for one, other in combinations(outputs, 2):
         columns = [outputs[name].values for name in (one, other)]
@@ -526,13 +527,13 @@ def ends_of(figure: Any) -> tuple[float, ...]:
 
 
 def average(values: Any) -> float:
-    """The mean, of numbers whose sum may leave the range of floats too."""
+    """The mean, also of numbers whose sum would leave the range of floats."""
     scale = power_of_two(values)
     return float(np.mean(values / scale)) * scale
 
 
 def deviation(values: Any) -> float:
-    """The standard deviation with one degree of freedom less than values, whose squares may leave the range of floats."""
+    """The standard deviation, with one degree of freedom fewer than values; their squares may leave the range of floats."""
     scale = power_of_two(values)
     return float(np.std(values / scale, ddof=1)) * scale if len(values) > 1 else math.nan
 

@@ -57,7 +57,7 @@ class Joint:
     def _at(
         self, rows: Any, share: Callable[[Any], Any], score: Callable[[Any], Any], alone: Callable[[Distribution, Any], Any]
     ) -> dict[str, Any]:
-        """The inputs, with what makes probabilities, scores and the value of an independent input of a row."""
+        """The inputs, given the functions that turn a row into probabilities, scores and values of an independent input."""
         found: dict[str, Any] = {}
         for group, places in self.rows.items():
             if group[0] in self._columns:
@@ -77,7 +77,7 @@ class Joint:
 
     @property
     def ordered(self) -> Any:
-        """For each row, whether its values rise with it, as they do not for joint samples, which lie in no order."""
+        """For each row, whether its values rise with it; those of joint samples, which are in no order, do not."""
         return np.array([group[0] not in self._columns for group, places in self.rows.items() for _ in places])
 
     def correlations(self) -> Any:
@@ -228,7 +228,7 @@ def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
 def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], samples: int) -> dict[str, Shares]:
     """Each input's share of the variance of every output, by redrawing that input while the others stay.
 
-    ``samples`` cases for each input and two more times as many. First-order shares by the estimator of A. Saltelli et al.,
+    It takes ``samples`` cases for each input and twice more. First-order shares by the estimator of A. Saltelli et al.,
     "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares by that of
     M. J. W. Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999).
     """
