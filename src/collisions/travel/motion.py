@@ -13,11 +13,11 @@ from ..quantities import hypot
 # Speeds of a wheel over the ground, of that of the vehicle, below which its force falls to none: no force jumps where a wheel
 # stands still while the others move.
 _STANDING = 1e-3
-# A motion that is this part of the first goes on straight: its way is less than the square of this of the whole.
+# Once the motion is down to this part of the first, it goes on straight: what is left of the way is below its square.
 _ENDING = 1e-3
 _TOLERANCE = 1e-6
 _LONGEST_STEP = 0.25
-# Shorter steps are of a motion that cannot be followed, such as a spin without measure.
+# Shorter steps are of a motion that cannot be followed, such as an immense spin.
 _SHORTEST_STEP = 1e-9
 _MOST_STEPS = 10_000
 

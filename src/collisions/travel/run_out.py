@@ -36,7 +36,7 @@ from .surfaces import (
 from .survey import HALF_TURN, in_radians, read_errors, read_headings, read_points, slopes, smooth
 
 _QUARTER_TURN = 0.5 * math.pi * (1.0 + 1e-9)
-# A wheel about the centre of mass [m], and its speed by the yaw over that of the vehicle from which on its slip matters.
+# Distance of a wheel from the centre of mass [m]; its speed from the yaw, over that of the vehicle, above which it matters.
 _WHEEL_ARM, _MOST_YAW = 1.5, 0.5
 # Numbers that the errors are worked out from together: few calls of numpy, and memory that is kept small.
 _AT_ONCE = 200_000
@@ -44,7 +44,7 @@ _AT_ONCE = 200_000
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RunOut(Shown):
-    """A vehicle that slid and yawed from separation to where its speed is known, worked out backward by ``path``.
+    """A vehicle that slid and yawed from separation to where its speed is known, computed backward by ``path``.
 
     Attributes
     ----------
@@ -55,19 +55,19 @@ class RunOut(Shown):
     yaw_rate : float or array [rad/s]
         Yaw rate at separation, positive counter-clockwise.
     time : float or array [s]
-        From the first point to the last, over the slope of every segment.
+        From the first point to the last, along the slope of every segment.
     distance : float or array [m]
         Along the path, in plan.
     straight_course : float or array [rad]
-        Direction from the first point to the last, in (-pi, pi]; NaN where they are one place.
+        Direction from the first point to the last, in (-pi, pi]; NaN where they coincide.
     speeds : tuple of float or array [m/s]
         Speed at every point, along the slope.
     crab_angles : tuple of float or array [rad]
-        For every segment the heading less the course, in (-pi, pi]: positive where the vehicle points to the left of its way.
+        For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to the left of its path.
     drags : tuple of float or array
-        For every segment the drag factor that friction, lock and crab angle come to.
+        For every segment, the drag factor that results from friction, lock and crab angle.
     speed_error, course_error, yaw_rate_error : float or array, optional [m/s], [rad], [rad/s]
-        Standard errors of the three by those of the positions and headings alone; None where these were not given.
+        Standard errors of the three, from those of the positions and headings alone; None if these were not given.
     """
 
     _title = "Run-out"
@@ -92,7 +92,7 @@ class RunOut(Shown):
 
     @derived("rad")
     def course_difference(self) -> Value:
-        """Course at separation minus that of the straight line to rest [rad], in (-pi, pi]: the error of taking the line."""
+        """Course at separation minus that of the straight line to rest [rad], in (-pi, pi]: the error of using the line."""
         difference: Value = _wrapped(self.course - self.straight_course)
         return difference
 
@@ -112,47 +112,47 @@ def path(
 ) -> RunOut:
     """Speed, course and yaw rate at separation of a vehicle that yawed as it slid, from positions along its path.
 
-    A vehicle whose wheels are free slows little while it points along its way and much while it slides broadside, so no one
-    percentage of the friction fits a spin. Each segment between two positions here has its own drag, from its crab angle (mean
-    heading less course) and from how far the wheels are locked::
+    A vehicle whose wheels roll freely slows little while it points along its path and much while it slides broadside, so no
+    single percentage of the friction fits a spin. Here each segment between two positions has its own drag, from its crab angle
+    (mean heading minus course) and from how far the wheels are locked::
 
         drag = friction * sqrt(sin(crab)**2 + (lock * cos(crab))**2)
 
-    Lists are positions and segments, and so is one array for all points or all headings. Many cases at once are arrays in place
-    of the single numbers: ``[(xs, ys), ...]``, ``[angles, ...]``, ``friction=factors``; they broadcast.
+    A list runs over positions or segments, and so does one array for all points or all headings. For many cases at once, give
+    arrays in place of the single numbers: ``[(xs, ys), ...]``, ``[angles, ...]``, ``friction=factors``; they broadcast.
 
     Parameters
     ----------
     points : sequence of pairs, array or Quantity of shape (n, 2) [m]
-        Positions of the centre of mass in plan, at least two, in order of travel: separation first, last where the speed is
-        ``end_speed``. Straight lines are drawn between them.
+        Positions of the centre of mass in plan, at least two, in order of travel: from separation to where the speed is
+        ``end_speed``. They are joined by straight lines.
     headings : sequence, array or Quantity, one for each point [rad]
-        Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned by
-        290 deg to the left, 0, -70 deg for one that turned by 70 deg to the right. From one point to the next at most half a
+        Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned
+        290 deg to the left, 0, -70 deg for one that turned 70 deg to the right. From one point to the next, at most half a
         turn; give more points for a faster spin.
     friction : float, str, Quantity or array, or a list with one for each segment
         Friction of locked tyres on the ground, >= 0.
     lock : float, str, Quantity or array, or a list with one for each segment
-        Braking along the wheels as a fraction of what locked wheels give, from damage, brakes and gear: 0 if all roll freely,
-        1 if all are locked.
+        Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if all roll
+        freely, 1 if all are locked.
     grade : float, str, Quantity or array, or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the last point, 0 at rest.
     window : float, str, Quantity or array [m]
-        Length of the path over which the survey is smoothed: longer, and errors of the points count less; shorter, and a bend
-        that changes is followed better. 0 is hardly more than the nearest three points.
+        Length of the path over which the survey is smoothed: a longer one makes errors of the points count less, a shorter one
+        follows a changing bend better. 0 takes in hardly more than the nearest three points.
     point_error : float, str, Quantity or array, optional [m]
-        Standard deviation of each coordinate of every point, independent of the others: 0.06 m if tenths were read.
+        Standard deviation of each coordinate of every point, independent of the others: 0.06 m if each is within 0.1 m.
     heading_error : float, str, Quantity or array, optional [rad]
-        Standard deviation of every heading, independent of the others. Both errors are given, or neither.
+        Standard deviation of every heading, independent of the others. Give both errors or neither.
 
     Returns
     -------
     RunOut
-        Course and yaw rate are the tangents at the first point: of the parabola of least squares through the positions over
-        the length of the path, and through the headings over time. With two points they are those of the straight line. A
-        case of a batch that cannot be answered is NaN.
+        Course and yaw rate are tangents, at the first point, of least-squares parabolas: through the positions over the length
+        of the path, and through the headings over time. With two points they are those of the straight line. A case of a batch
+        that cannot be answered is NaN.
 
     Raises
     ------
@@ -161,47 +161,47 @@ def path(
     MissingInputError
         One of ``point_error`` and ``heading_error`` without the other.
     NoSolutionError
-        No start speed leads to this end.
+        No initial speed leads to this end.
 
     Warns
     -----
     CollisionsWarning
         How many cases of a batch cannot be answered, and why.
     OutOfRangeWarning
-        More than a quarter turn between two points, where one crab angle stands for all of it. A yaw rate at separation of
-        more than 0.5 of the speed over 1.5 m, at which the speed is too high by 4 %, and soon by more.
+        More than a quarter turn between two points, where one crab angle stands for all of it. A yaw rate at separation above
+        0.5 times the speed over 1.5 m: there the speed comes out 4 % too high, and beyond it soon more.
     SuspectUnitsWarning
         A bare friction above 1.5, grade beyond 0.5 or heading beyond a turn, which is probably in another unit.
 
     Notes
     -----
-    The drag is derived thus. A sliding tyre pushes against its slip with at most ``friction`` times its load across the
-    wheel, and ``lock`` times that along it, and of the forces within the ellipse of these half-axes it takes the one that does
-    the most work against the slip. All wheels are taken to slip as the centre of mass does, so what yawing adds to the slip of
-    each wheel is left out, and so are steering and the shift of load. Against ``simulate``, the drag along the way is less by
-    about 0.4 of the square of yaw rate times 1.5 m over speed, at separation.
+    The drag is derived as follows. A sliding tyre resists its slip with at most ``friction`` times its load across the
+    wheel and ``lock`` times that along it; of the forces within the ellipse with these half-axes, it takes the one that does
+    the most work against the slip. All wheels are taken to slip as the centre of mass does, which leaves out what yawing adds
+    to the slip of each wheel; steering and load transfer are left out too. In ``simulate``, which includes the yawing, the
+    drag along the path is lower by a fraction of about 0.4 (yaw rate * 1.5 m / speed)**2, both taken at separation.
 
-    Positions and headings are smoothed first, each by the parabola of weighted least squares at its point (local regression,
+    Positions and headings are smoothed first, each by a weighted least-squares parabola about its point (local regression,
     Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords between the points of a dense survey would be too
-    long, and their directions scatter. The weights fall off along the path as a normal density of 0.384 windows, so that no
-    point enters or leaves with a jump; at the end of a path that is as good as equal weights over the window. Two more points
-    count however far apart they are: through three a parabola passes. Where the curvature changes by k along a metre, the
-    course errs by about 0.1 k window**2, which ``course_error`` does not know, nor does ``speed_error`` the errors of
-    ``friction`` and ``lock``: those are for ``uncertainty.propagate``. Errors are carried to the first order, each by
-    answering again with it added and taken off; infinite where no speed is left.
+    long, and their directions would scatter. The weights fall off along the path as a normal density with a standard deviation
+    of 0.384 windows, so that no point enters or leaves abruptly; at the end of a path this is as good as equal weights over the
+    window. Two more points always count, however far apart they are, since a parabola takes three. Where the curvature changes
+    by k per metre, the course is off by about 0.1 k window**2. ``course_error`` does not include this, nor does ``speed_error``
+    include the errors of ``friction`` and ``lock``: those are for ``uncertainty.propagate``. Errors are propagated to first
+    order, by computing again with each one added and subtracted; they are infinite where no speed is left.
 
-    To chain segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
+    Chaining segments backward from rest, each with the drag of its mean crab angle, is the reverse trajectory of Struble and
     Struble, Automotive Accident Reconstruction, 2nd edition, chapter 4. The drag agrees with what Rose, Rollover Accident
     Reconstruction, section CRASH Model, says of the equation that Fricke, Traffic Crash Reconstruction (2010), attributes to
-    the CRASH program. Of these books we had excerpts without the equations.
+    the CRASH program. Only excerpts of these books, without the equations, were available.
 
-    If ``lock`` is read as the share of wheels that are locked while the others roll, the drag is friction times lock plus
-    (1 - lock) sin(crab), which is higher by at most 0.1 times the friction. On soft ground the drag measured near broadside
-    is above what such formulas give (Christoffersen and others, SAE 950139).
+    If ``lock`` is read as the share of wheels that are locked while the others roll, the drag is friction times the sum of lock
+    and (1 - lock) sin(crab), which is higher by at most 0.1 times the friction. On soft ground, the drag measured near
+    broadside exceeds what such formulas give (Christoffersen and others, SAE 950139).
 
     Examples
     --------
-    A car that spun to the left by 160 deg on nearly free wheels, at rest after 20 m. Its course at separation was 12 deg to the
+    A car spun 160 deg to the left on nearly free wheels and came to rest after 20 m. Its course at separation was 12 deg to the
     right of the straight line to rest, and full friction throughout would make it 13 % faster:
 
     >>> from collisions.travel import path, speed
@@ -304,7 +304,7 @@ def _run_out(
 def _errors(
     answer: Any, points: Sequence[Any], turned: Sequence[Any], place: Any, heading: Any, shape: tuple[int, ...], kind: Any
 ) -> dict[str, Any]:
-    """Standard errors of speed, course and yaw rate, by answering again with each reading off by its own, to either side."""
+    """Standard errors of speed, course and yaw rate, by computing again with each reading off by its error, either way."""
     squares = dict.fromkeys(("speed", "course", "yaw_rate"), np.zeros(shape))
     readings = 3 * len(points)
     for group in np.array_split(np.arange(readings), math.ceil(readings * len(points) * math.prod(shape) / _AT_ONCE) or 1):

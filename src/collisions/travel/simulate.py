@@ -36,19 +36,19 @@ _MARKS = 0.9
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class SimulatedPath(Shown):
-    """A vehicle from separation to rest, worked out by ``simulate``. Arrays have the moments first, then the cases of a batch.
+    """The motion of a vehicle from separation to rest, by ``simulate``; arrays are over moments, then over cases of a batch.
 
     Attributes
     ----------
     time : array [s]
         Equal steps from separation to rest.
     x, y : array [m]
-        Centre of mass at these moments.
+        Position of the centre of mass at these moments.
     heading : array [rad]
         Counted on through full turns.
     marks : tuple of pairs of arrays [m]
-        For each wheel (front left, front right, rear left, rear right) the x and y of its track where the tyre slides and so
-        leaves a mark: where it uses 90 % of the friction or more. NaN elsewhere.
+        For each wheel (front left, front right, rear left, rear right), x and y of its track where the tyre slides and so
+        leaves a mark, that is where it uses 90 % of the friction or more; NaN elsewhere.
     rest : Vehicle
         The vehicle at rest.
     """
@@ -86,37 +86,37 @@ def simulate(
     limit: Input = "30 s",
     moments: int = 101,
 ) -> SimulatedPath:
-    """The motion of a vehicle from separation to rest on four wheels, each with its own friction, brake and slip.
+    """The motion of a vehicle from separation to rest on four wheels, each with its own friction, braking and slip.
 
-    The vehicle moves in the plane under the forces of its tyres. Each wheel carries a quarter of the weight. A tyre slides
-    within the friction ellipse: at most ``friction`` times its load across the wheel and ``lock`` times that along it, and
-    of the forces in the ellipse it has the one that does the most work against its slip. So it is for ``path``, but here each
-    wheel slips as the vehicle yaws. A locked wheel has the friction circle: full friction against its slip. A wheel that
-    rolls has at most the force across of its slip angle a, by Fiala::
+    The vehicle moves in the plane under the forces of its tyres. Each wheel carries a quarter of the weight. The force of a
+    tyre is within the friction ellipse: at most ``friction`` times its load across the wheel and ``lock`` times that along it;
+    of the forces in the ellipse, it is the one that does the most work against the slip. ``path`` does the same, but here the
+    yaw adds to the slip of each wheel. For a locked wheel, the ellipse is a circle: full friction against the slip. For a
+    rolling wheel, the side force is limited by the slip angle a, after Fiala::
 
         z = min(1, cornering |tan(a)| / (3 friction));    force across <= friction * load * (1 - (1 - z)**3)
 
     Parameters
     ----------
     vehicle : Vehicle
-        At separation: with yaw inertia, position and heading, and free to move. Its arrays are many cases.
+        At separation, with yaw inertia, position and heading, and free to move. Arrays in it are many cases.
     friction : float, str, Quantity or array
         Friction of locked tyres on the ground, > 0.
     lock : float, str, Quantity or array, or a list of four
-        Braking along the wheels as a fraction of what locked wheels give, from damage, brakes and gear: 0 if a wheel rolls
-        freely, 1 if it is locked. One for all, or front left, front right, rear left, rear right.
+        Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if a wheel
+        rolls freely, 1 if it is locked. One for all, or front left, front right, rear left, rear right.
     wheelbase, track : float, str, Quantity or array [m]
-        Between the wheels. The centre of mass is midway.
+        Distances between the wheels. The centre of mass is midway.
     steer : float, str, Quantity or array [rad]
-        Of both front wheels, positive to the left.
+        Steer angle of both front wheels, positive to the left.
     surfaces : sequence of (corners, friction), optional
-        Areas with another friction, each with three corners or more [m] in order. The first that holds a wheel counts.
+        Areas with a different friction, each with three or more corners [m] in order. The first that a wheel is in counts.
     cornering : float, str, Quantity or array
         Cornering stiffness of a tyre over its load, per radian.
     limit : float, str, Quantity or array [s]
-        Time in which the vehicle must come to rest.
+        Time within which the vehicle must come to rest.
     moments : int
-        Number of moments of the arrays, 2 or more.
+        Number of moments in the arrays, 2 or more.
 
     Returns
     -------
@@ -130,7 +130,7 @@ def simulate(
     MissingInputError
         The vehicle has no yaw inertia, position or heading.
     NoSolutionError
-        The vehicle is not at rest within ``limit``: it rolls on where no wheel is braked.
+        The vehicle is not at rest within ``limit``, for example because no wheel is braked and it rolls on.
 
     Warns
     -----
@@ -142,22 +142,23 @@ def simulate(
     Notes
     -----
     Fiala's side force (VDI-Z. 96 (1954) 973) as a share of the friction is what SMAC uses (McHenry, SAE 730980), which has a
-    friction circle and a given braking force; at partial braking the force along the wheel here is less at large slip angles,
-    as in the drag of ``path`` and of CRASH. What separates the two is a question of ``lock``, which must be uncertain anyway.
-    For ``cornering``, 16 to 17 % of the load per degree is typical of cars (m-smac, tire properties), 9.5 per radian.
+    friction circle and a given braking force; at partial braking, the force along the wheel is smaller here at large slip
+    angles, as in the drag of ``path`` and of CRASH. The difference amounts to one of ``lock``, which is uncertain anyway. For
+    ``cornering``, 16 to 17 % of the load per degree, or 9.5 per radian, is typical of cars (m-smac, tire properties).
 
-    It holds for cars that stay on their wheels on level ground: shift of load, suspension, rolling over, kerbs, furrows in soft
-    ground, other vehicles, driving forces and the resistance of the air are left out, and ``friction`` is the same at every
-    speed. Near rest a tyre that rolls is stiffer across than in fact.
+    The model holds for cars that stay on their wheels on level ground: load transfer, suspension, rollover, kerbs, furrowing in
+    soft ground, other vehicles, driving forces and air resistance are left out, and ``friction`` is the same at every speed.
+    Near rest, a rolling tyre is stiffer sideways than in reality.
 
-    The integration is of orders 5 and 4 with a step for each case, in a time that runs slower as the vehicle does, where its
-    end is regular; what is left at 0.001 of the first motion is a straight line. So it ends at rest, without chatter. Only a
-    wheel that nearly stands, at 0.001 of the speed of the vehicle, has less than its force. Together the place of rest errs
-    by at most 1e-3 of the way and the heading by 1e-3 rad, and mostly by a hundredth of that; places between by 2 mm.
+    The integration is of orders 5 and 4 with its own step for each case, in a time that slows down with the vehicle, in which
+    the end of the motion is regular; once the motion is down to 0.001 of the initial one, the rest is a straight line. So it
+    ends at rest, without chatter. Only a wheel that nearly stands still, at 0.001 of the speed of the vehicle, has less than
+    its full force. In all, the place of rest is off by at most 1e-3 of the distance travelled and the heading by 1e-3 rad,
+    mostly by a hundredth of that; places in between by 2 mm.
 
     Examples
     --------
-    All wheels locked, a straight skid is ``speed**2 / (2 g friction)``:
+    With all wheels locked, a straight skid is ``speed**2 / (2 g friction)`` long:
 
     >>> from collisions import Vehicle
     >>> from collisions.travel import distance, simulate

@@ -32,12 +32,12 @@ from .surfaces import (
 def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
     """Speed [m/s] at the start of a distance over which a vehicle slows.
 
-    The drag of the ground takes a known energy over each surface, so speeds chain backward from the end::
+    The drag takes a known amount of energy over each surface, so the speeds are chained backward from the end::
 
         v_start**2 = v_end**2 + 2 * GRAVITY * (drag + grade) * distance
 
-    A list or tuple for ``distance`` is surfaces one after another, in order of travel; drag and grade then are one value for
-    all, or a list as long. An array is many cases; arrays broadcast, and may be the parts of a list.
+    A list or tuple for ``distance`` is for several surfaces in order of travel; drag and grade are then one value for all, or
+    a list of the same length. An array is for many cases; arrays broadcast, and may be the entries of a list.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     InputError
         Naming every argument that cannot be used.
     NoSolutionError
-        No start speed leads to this end: the ground would have had to take more energy than there was.
+        No initial speed leads to this end: the ground would have had to take more energy than there was.
 
     Warns
     -----
@@ -71,19 +71,20 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
 
     Notes
     -----
-    The vehicle is a point mass on a straight line or a gentle bend, and each surface has one drag at every speed: shift of
-    load, resistance of the air and the time in which brakes build up are left out. A vehicle that spins has another drag at
-    every crab angle: see ``path``. On a slope at the angle atan(grade) the load, and with it the drag, is less by its cosine,
-    and the way longer than in plan by the same, so the balance is exact. Speeds in plan are lower by that factor.
+    The vehicle is a point mass on a straight line or a gentle bend, and each surface has the same drag at every speed: load
+    transfer, air resistance and the build-up time of the brakes are left out. A vehicle that spins has a different drag at
+    every crab angle: see ``path``. On a slope at the angle atan(grade), the load and with it the drag are reduced by the
+    factor cos(atan(grade)), and the distance in plan is shorter than that along the slope by the same factor, so the balance
+    is exact. Speeds in plan are lower by that factor.
 
     Examples
     --------
-    A slide of 66 ft to rest on asphalt of 0.65; a course sheet that rounds to 30 f d has 35.87 mph:
+    A slide of 66 ft to rest on asphalt with a drag factor of 0.65; a course sheet that rounds to 30 f d gives 35.87 mph:
 
     >>> round(speed("66 ft", drag=0.65) / 0.44704, 2)
     35.82
 
-    12 m on asphalt, then 8 m on a grass bank that rises, into a tree at 20 km/h:
+    12 m on asphalt, then 8 m up a grass bank, into a tree at 20 km/h:
 
     >>> round(speed([12.0, "8 m"], drag=[0.7, 0.45], grade=[0, "10 %"], end_speed="20 km/h") * 3.6, 1)
     60.4
@@ -93,9 +94,9 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
 
 @hinted
 def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input = 0.0) -> Value:
-    """Distance [m] over which a vehicle comes from one speed to another on one surface; the reverse of ``speed``.
+    """Distance [m] over which a vehicle goes from one speed to another on one surface; the inverse of ``speed``.
 
-    The same balance of energy, with what it leaves out and where it holds::
+    The energy balance is that of ``speed``, with the same limits::
 
         distance = (speed**2 - end_speed**2) / (2 * GRAVITY * (drag + grade))
 
@@ -108,7 +109,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     grade : float, str, Quantity or array
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
-        Speed at the end, >= 0; above ``speed`` on a downhill that the drag does not hold.
+        Speed at the end, >= 0; above ``speed`` on a downhill grade that the drag does not hold.
 
     Returns
     -------
@@ -120,7 +121,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     InputError
         Naming every argument that cannot be used.
     NoSolutionError
-        The vehicle never comes to the end speed, or keeps it over any distance.
+        The vehicle never reaches the end speed, or keeps it over any distance.
 
     Warns
     -----
@@ -129,7 +130,7 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
     Examples
     --------
-    The table of stopping distances in the Code of Virginia, section 46.2-880, has 119 ft of braking from 50 mph:
+    The table of stopping distances in the Code of Virginia, section 46.2-880, gives 119 ft of braking from 50 mph:
 
     >>> round(distance("50 mph", drag=0.7) / 0.3048, 1)
     119.4
@@ -158,9 +159,9 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
 
 @hinted
 def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed: Input = 0.0) -> Value:
-    """Time [s] that a vehicle takes over the distance.
+    """Time [s] that a vehicle takes to cover a distance.
 
-    The speeds at both ends of each surface are those of ``speed``, with what that leaves out; in between the deceleration is
+    The speeds at both ends of each surface are those of ``speed``, with the same limits; in between, the deceleration is
     constant, so the mean speed is half their sum, over the length of the slope::
 
         time = sum(2 * distance * sqrt(1 + grade**2) / (v_start + v_end))
@@ -180,7 +181,7 @@ def time(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_speed
     InputError
         Naming every argument that cannot be used.
     NoSolutionError
-        No start speed leads to this end.
+        No initial speed leads to this end.
 
     Warns
     -----

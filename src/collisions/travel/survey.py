@@ -157,7 +157,7 @@ def smooth(columns: Sequence[Sequence[Any]], window: Any, kind: Any) -> tuple[li
 
 
 def slopes(columns: Sequence[Sequence[Any]], at: Any, weights: Any, kind: Any) -> list[Any]:
-    """Slope of each column at the first point, over what is measured there."""
+    """Slope of each column over ``at``, at the first point."""
     (*values, at), _ = _stacked([*columns, at])
     weights = weights.reshape(len(at), *(1,) * (at.ndim - weights.ndim), *weights.shape[1:])
     return _rows(_parabola(at, np.array(values), weights, 0)[1], kind)
