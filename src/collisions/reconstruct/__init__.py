@@ -1,6 +1,6 @@
 """The reverse solvers: from evidence after an impact to the speeds before it, one function for each kind of evidence.
 
-``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v`` with their numbers as Quantities.
+``reconstruct.q`` has ``inline_closing_speed``, ``crush_energy`` and ``crush_delta_v``, which there return Quantities.
 """
 
 from ..provenance import Reconstruction
@@ -22,7 +22,7 @@ from .speeds import speeds
 
 
 class q:
-    """The functions of this module that return a number with a unit, with it as a Quantity."""
+    """The functions of this module that return a number with a unit, here returning a Quantity."""
 
     inline_closing_speed = staticmethod(in_quantities(inline_closing_speed, "m/s"))
     crush_energy = staticmethod(in_quantities(crush_energy, "J"))

@@ -45,35 +45,35 @@ def posterior(
 ) -> Posterior:
     """How probable each value of the unknowns of a scene is, given what was known before and everything observed.
 
-    Bayes' theorem by sampling: whatever the priors, however the model turns, and with as many answers as there are. Tempered
-    sequential Monte Carlo takes the samples from the priors to the posterior, in eight islands, each resampled by itself, whose
-    differences give the errors of sampling. All figures are given the model, the priors and the stated errors of the
-    observations, which are taken as normal and independent. In this field: G. A. Davis, "Bayesian reconstruction of traffic
-    accidents", Law, Probability and Risk 2 (2003) 69-89.
+    Bayes' theorem by sampling, for any priors, however nonlinear the model and however many answers there are. Tempered
+    sequential Monte Carlo takes the samples from the priors to the posterior in eight islands, each resampled by itself; the
+    differences between them give the sampling errors. All figures are conditional on the model, the priors and the stated
+    errors of the observations, which are taken as normal and independent. For the method in this field see G. A. Davis,
+    "Bayesian reconstruction of traffic accidents", Law, Probability and Risk 2 (2003) 69-89.
 
     Parameters
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs, as for ``fit`` and ``uncertainty.propagate``: it is called with
-        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``), and there the evidence is
-        impossible. What is known exactly is written in the model.
+        arrays of cases [SI] and answers case by case, NaN where it refuses (``on_failure="nan"``); the evidence counts as
+        impossible there. What is known exactly is written into the model.
     unknowns : dict
-        By name the prior, what was known before: any distribution of ``uncertainty``, truncated or not. An ``Interval`` says
-        nothing of likelihood and is refused: give ``Uniform``.
+        By name, the prior (what was known before): any distribution of ``uncertainty``, truncated or not. An ``Interval`` says
+        nothing about likelihood and is refused: give ``Uniform``.
     observed : dict
         By output of the model, ``Normal(value, error)`` or the pair (value, error) as for ``fit``; an ``Interval`` within which
-        it lies; or ``Censored(low, high, error)``, a reading of which only one bound, or both, are known. Angles with a unit go
-        round the circle.
+        it lies; or ``Censored(low, high, error)``, a reading of which only one bound, or both, are known. Angles with a unit
+        are taken round the circle.
     samples : int, optional
-        Samples in all, at least 512. Four times as many halve the errors of sampling.
+        Total number of samples, at least 512. Four times as many halve the sampling errors.
     seed : int, optional
-        Makes the result reproducible to the bit, for any number of threads; without it, ``.seed`` tells what was used.
+        Makes the result reproducible to the bit, for any number of threads; without it, ``.seed`` tells which was used.
     correlation : dict, optional
-        Of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``: between their normal scores.
+        Correlations of the priors, {("mass_a", "mass_b"): 0.8}, as for ``uncertainty.propagate``, between their normal scores.
     threads : int, optional
-        At most two are of use, one for four islands. The model must then be safe to call from several threads.
+        At most two are of use, each for four islands. The model must then be safe to call from several threads.
     progress : function or bool, optional
-        Called with samples done and samples in all; True shows a bar. An interrupt returns the islands finished until then.
+        Called with the samples done and their total; True shows a bar. An interrupt returns the islands finished by then.
 
     Returns
     -------
@@ -92,13 +92,14 @@ def posterior(
     Warns
     -----
     CollisionsWarning
-        The evidence contradicts itself or the priors: a misfit this large has a chance below 0.01.
+        The evidence contradicts itself or the priors: a misfit this large has a probability below 0.01.
     IllConditionedWarning
-        The evidence says nothing of an unknown with a uniform prior; or the islands disagree, or the sample collapsed.
+        The evidence says nothing about an unknown with a uniform prior; or the islands disagree, or the sample collapsed.
 
     Examples
     --------
-    A speed known to lie around 20 m/s, read twice. All is normal, so the answer is the weighted mean: weights 1/4, 1 and 1.
+    A speed known to lie around 20 m/s, read twice. Everything is normal, so the answer is the weighted mean: weights 1/4, 1 and
+    1.
 
     >>> from collisions.reconstruct import posterior
     >>> from collisions.uncertainty import Normal
@@ -108,7 +109,7 @@ def posterior(
     >>> round(found["speed"].mean, 1), round((0.25 * 20 + 22 + 21) / 2.25, 1)
     (21.3, 21.3)
 
-    The deviation is 2/3, so 20 m/s is two deviations below the mean: the share above it is 0.97725.
+    The standard deviation is 2/3, so 20 m/s is two of them below the mean, and the share above it is 0.97725.
 
     >>> probability, error = found.probability(lambda at: at["speed"] > 20.0)
     >>> abs(probability - 0.97725) < 3.0 * error < 0.01

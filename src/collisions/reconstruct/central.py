@@ -56,35 +56,35 @@ def central(
 ) -> Impact:
     """In-line impact from exactly three of four velocities, restitution and energy loss.
 
-    Two point masses on one line, A behind B: velocities are counted along the line from A to B, so ``va > vb`` before the
-    impact and ``va_after <= vb_after`` after it, unless it was incomplete. All twenty combinations are solved in closed form
-    (eqs 5 to 8 of "Application of Impulse Momentum Theory to Vehicle Collisions"), and the answer is that of
+    Two point masses move on one line, A behind B. Velocities are positive in the direction from A to B, so ``va > vb`` before
+    the impact and ``va_after <= vb_after`` after it, unless the impact was incomplete. All twenty combinations are solved in
+    closed form (eqs 5 to 8 of "Application of Impulse Momentum Theory to Vehicle Collisions"), and the result is that of
     ``linear_central`` for the state found.
 
     Parameters
     ----------
     mass_a, mass_b : float, str, Quantity or array [kg]
-        Masses, > 0; ``inf`` for what does not move.
+        Masses, > 0; ``inf`` for a body that does not move.
     va, vb : float, str, Quantity or array [m/s], optional
-        Velocities before.
+        Velocities before the impact.
     va_after, vb_after : float, str, Quantity or array [m/s], optional
-        Velocities after.
+        Velocities after the impact.
     restitution : float, str, Quantity or array [1], optional
         Coefficient of restitution, 0 to 1.
     energy_loss : float, str, Quantity or array [J], optional
-        Energy dissipated, >= 0: what is left after restitution, not the energy absorbed at maximum crush.
+        Energy dissipated, >= 0: what remains lost after restitution, not the energy absorbed at maximum crush.
     incomplete : bool, optional
-        Whether the restitution may be below 0, above -1, as for ``linear_central``. Both velocities before and an energy then
-        leave its sign open: two answers.
+        Whether the restitution may be negative (above -1), as for ``linear_central``. Both velocities before and the energy
+        loss then leave its sign open, and there are two answers.
     on_failure : {None, "raise", "nan"}, optional
-        What a refused case of a batch does: NaN and one warning, an error, or NaN without a word.
+        What happens to a refused case of a batch: NaN and one warning, an error, or NaN without a warning.
 
     Returns
     -------
     Impact
-        As ``linear_central`` gives it; ``reconstruction.condition`` says how well-posed the question was. Impulse and energy
-        have all digits also where the closing speed is tiny: they are worked out from ``reconstruction.contact_velocity``, not
-        from the rounded velocities before.
+        As ``linear_central`` returns it; ``reconstruction.condition`` says how well conditioned the problem was. Impulse and
+        energy keep all their digits even where the closing speed is tiny: they are computed from
+        ``reconstruction.contact_velocity``, not from the rounded velocities before.
 
     Raises
     ------
@@ -93,13 +93,13 @@ def central(
     AmbiguousSolutionError
         Two impacts fit; both are in ``solutions``.
     NoImpactError
-        What was given means that the bodies did not approach.
+        The values given mean that the bodies did not approach.
     NoSolutionError
-        What was given contradicts itself or leaves the answer open; the message says why.
+        The values given contradict each other or leave the answer open; the message says why.
 
     Examples
     --------
-    Example 2 of the paper: 1100 kg at 80 km/h into the back of 950 kg at rest, which leaves with 60 km/h.
+    Example 2 of the paper: 1100 kg at 80 km/h strikes the rear of 950 kg at rest, which leaves at 60 km/h.
 
     >>> from collisions import reconstruct
     >>> impact = reconstruct.central("1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h")
@@ -214,7 +214,7 @@ def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Can
 
 
 def _condition(numbers: dict[str, Any], found: Candidate, which: Any, eps: float, incomplete: bool) -> Any:
-    """Condition: sum over the known values of the change of the speeds before, in closing speeds, per relative change."""
+    """Condition: sum over the known values of the change in the speeds before, in closing speeds, per relative change."""
     total = np.zeros(())
     for name, value in numbers.items():
         beside = _candidates({**numbers, name: value * (1.0 + _STEP)}, eps, incomplete)

@@ -142,7 +142,7 @@ class Cases(NamedTuple):
         return int(status) if self.shape is None else status
 
     def how_many(self, where: Any) -> str:
-        """The number of these cases, as a message begins; "" for a single case."""
+        """The number of these cases, to begin a message; "" for a single case."""
         if self.shape is None:
             return ""
         return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "

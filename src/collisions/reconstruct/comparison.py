@@ -23,19 +23,19 @@ _MOST = math.log(1e6)  # beyond it a factor is a matter of the tails of errors t
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Comparison(Summarized):
-    """The result of ``compare``: how probable each account is given the evidence, and by which factors it speaks for them.
+    """The result of ``compare``: how probable each account is given the evidence, and the Bayes factors between them.
 
     Attributes
     ----------
     probability, probability_error : dict
-        By account, its probability given the evidence and the probability stated before, and its standard error from sampling.
+        By account, its probability given the evidence and its prior probability, and the standard error from sampling.
     prior : dict
-        By account, the probability before.
+        By account, its prior probability.
     log_bayes_factors, log_bayes_factor_errors : dict
-        By pair of accounts, the logarithm of how many times more probable the evidence is by the first than by the second,
-        whatever their probabilities before; and its standard error from sampling.
+        By pair of accounts, the logarithm of how many times more probable the evidence is under the first than under the
+        second, whatever their prior probabilities; and its standard error from sampling.
     priors : dict
-        By account, what it states of each unknown: the factors depend on how wide these are.
+        By account, the priors of its unknowns: the factors depend on how wide these are.
     sentence : str
         The result in words, for a report.
     """
@@ -70,21 +70,21 @@ class Comparison(Summarized):
 
 @hinted
 def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | None = None) -> Comparison:
-    """Which of several accounts of a crash the evidence speaks for: Bayes factors and probabilities.
+    """Which of several accounts of a crash the evidence favours: Bayes factors and probabilities.
 
     The evidence of each account is how probable its model and its priors made what was observed. The ratio of two is the Bayes
     factor, or likelihood ratio: what the evidence is worth, whatever was thought before. An account with wide priors spreads
-    its predictions thin and loses by it; so the priors belong to the result and are printed with it. A question within one
-    model, such as on which side of a line, is a ``Posterior.probability``, not a comparison. See R. E. Kass and A. E. Raftery,
+    its predictions thinly and loses by it; so the priors belong to the result and are printed with it. A question within one
+    model, such as on which side of a line the contact was, is for ``Posterior.probability``. See R. E. Kass and A. E. Raftery,
     "Bayes factors", Journal of the American Statistical Association 90 (1995) 773-795. How often such probabilities come true
     was measured by simulation, as for the intervals of ``posterior``: ``python benchmarks/posterior.py``.
 
     Parameters
     ----------
     posteriors : dict of Posterior
-        By account, at least two, of the same observations.
+        By account, at least two posteriors from the same observations.
     prior : dict, optional
-        By account, its probability before the evidence; they add up to 1. Without it all are the same. The Bayes factors do not
+        By account, its probability before the evidence; these add up to 1. Without it all are equal. The Bayes factors do not
         depend on it.
 
     Returns
@@ -104,7 +104,7 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
 
     Examples
     --------
-    A skid of 20 m at a drag of 0.7 says 16.6 m/s, to 1 m/s. One driver says 50 km/h, the other 60; each to 3 km/h.
+    A skid of 20 m at a drag factor of 0.7 gives 16.6 m/s +/- 1 m/s. One driver says 50 km/h, the other 60, each +/- 3 km/h.
 
     >>> from collisions.reconstruct import compare, posterior
     >>> from collisions.uncertainty import Normal
@@ -157,7 +157,7 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
 
 
 def _check_same_evidence(posteriors: Mapping[str, Posterior]) -> None:
-    """Refuse posteriors that were given other observations than the first."""
+    """Refuse posteriors whose observations differ from those of the first."""
     (first, reference), *others = posteriors.items()
     for name, one in others:
         differing = [
@@ -175,7 +175,7 @@ def _check_same_evidence(posteriors: Mapping[str, Posterior]) -> None:
 
 
 def _read_prior(posteriors: Mapping[str, Posterior], prior: Any) -> dict[str, float]:
-    """The probabilities before, by account."""
+    """The prior probabilities, by account."""
     if prior is None:
         return dict.fromkeys(posteriors, 1.0 / len(posteriors))
     if not isinstance(prior, Mapping) or set(prior) != set(posteriors):

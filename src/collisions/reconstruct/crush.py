@@ -36,46 +36,46 @@ def crush_energy(
 ) -> Value:
     """Energy absorbed by the crush of one vehicle.
 
-    The force per width at a depth C is taken as A + B C, A being what the structure bears before it yields, so each width
-    takes up A C + B C^2 / 2 + A^2 / (2 B). Between two measured depths the profile is straight, which integrates exactly to
-    the trapezoid rule of the CRASH programs for any number of points. A force that comes at an angle does the work of its
-    whole length: the energy is divided by the square of the cosine.
+    The force per unit width at a depth C is taken as A + B C, A being what the structure bears before it yields, so each unit
+    of width absorbs A C + B C^2 / 2 + A^2 / (2 B). Between two measured depths the profile is taken as straight, which
+    integrates exactly to the trapezoid rule of the CRASH programs for any number of points. Of a force at an angle the whole
+    work counts: the energy is divided by the square of the cosine.
 
-    A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. Many cases are lists whose entries
-    are arrays, one entry for each point or gap and one element for each case; the other arguments may be arrays as well.
+    A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. For many cases give lists whose
+    entries are arrays, one entry for each point or gap, with one element for each case; the other arguments may be arrays too.
 
     Parameters
     ----------
     widths : float, str, Quantity, or a profile [m]
-        Width of the damage, divided evenly between the depths; or the width of each gap, one fewer than depths. >= 0.
+        Width of the damage, divided evenly between the depths, or the width of each gap, one fewer than the depths; >= 0.
     depths : a profile [m]
         Depth of crush at two or more points from one end of the damage to the other, >= 0.
     stiffness_a : float, str, Quantity or array [N/m]
         Force per width at which crush begins, >= 0.
     stiffness_b : float, str, Quantity or array [N/m**2]
-        Growth of the force per width with depth, > 0. Both coefficients belong to the vehicle, its side and the speed of the
-        tests they were fitted to: none is shipped.
+        Increase of the force per width with depth, > 0. Both coefficients are specific to the vehicle, the side struck and the
+        speed of the tests they were fitted to: none are supplied here.
     force_angle : angle [rad], optional
-        Angle between the direction of force and the perpendicular of the damaged side.
+        Angle between the direction of force and the perpendicular to the damaged side.
 
     Returns
     -------
     float or array [J]
-        Energy that the stiffness stands for. Coefficients fitted to the speeds at which cars struck a barrier, as usual, give
-        the energy absorbed at maximum crush: that of ``max_crush_speed_a``. Where rebound was taken off in the fit, it is the
+        Energy that the coefficients stand for. If they were fitted to the impact speeds of barrier tests, as is usual, it is
+        the energy absorbed at maximum crush: that of ``max_crush_speed_a``. If rebound was deducted in the fit, it is the
         energy dissipated: that of ``ees_a`` by ISO 12353 and of ``energy_loss``. NaN for a refused case of a batch.
 
     Raises
     ------
     InputError
-        A negative depth or width, a stiffness that is not positive, an angle of 90 degrees or more.
+        A negative depth or width, a stiffness outside its range, an angle of 90 degrees or more.
 
     Warns
     -----
     OutOfRangeWarning
         The angle is beyond 45 degrees, where the correction exceeds 2 and the model is not used.
     SuspectUnitsWarning
-        A depth above 2 m or a width above 10 m in all, given without a unit.
+        A depth above 2 m or a total width above 10 m, given without a unit.
 
     Examples
     --------
@@ -130,17 +130,17 @@ def crush_energy(
 
 @hinted
 def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
-    """Share of the crush energy that A takes, from the stiffness of both: ``stiffness_b / (stiffness_a + stiffness_b)``.
+    """Share of the crush energy that A absorbs, from the stiffness of both: ``stiffness_b / (stiffness_a + stiffness_b)``.
 
-    One force presses on both, so of two linear springs the softer one takes more: energies are as the inverse stiffness. The
-    same holds for the force A + B C of ``crush_energy``, its energy A^2 / (2 B) included, where each side is crushed evenly:
-    the stiffness then is B times the width. It is the share for ``Impact.ees`` and ``Impact.max_crush_speeds``. Where the
-    damage of A alone is known, with the energy E_A, that of B took E_A (1 - share) / share.
+    The same force acts on both, so of two linear springs the softer absorbs more: energy is inversely proportional to
+    stiffness. The same holds for the force A + B C of ``crush_energy``, its energy A^2 / (2 B) included, where each side is
+    crushed evenly; the stiffness is then B times the width. It is the share for ``Impact.ees`` and ``Impact.max_crush_speeds``.
+    Where only the damage to A is known, with the energy E_A, that to B took E_A (1 - share) / share.
 
     Parameters
     ----------
     stiffness_a, stiffness_b : float, str, Quantity or array [N/m]
-        Force over crush of each vehicle at the damage, > 0; ``inf`` for one that is rigid.
+        Force over crush of each vehicle at the damage, > 0; ``inf`` for a rigid one.
 
     Returns
     -------
@@ -154,8 +154,8 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
 
     Notes
     -----
-    Two springs in series behind one force are the damage analysis of the CRASH programs (EDCRASH manual, chapter 4, collinear
-    impact). Real fronts are not linear, and stiffness differs from car to car of a class: state a range.
+    Two springs in series under one force are the model of the damage analysis in the CRASH programs (EDCRASH manual, chapter 4,
+    collinear impact). Real fronts are not linear, and stiffness differs from car to car within a class: state a range.
 
     Examples
     --------
@@ -185,17 +185,17 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
 def crush_delta_v(
     energy: Input, mass_a: Input, mass_b: Input, *, gamma_a: Input = 1.0, gamma_b: Input = 1.0
 ) -> tuple[Value, Value]:
-    """Delta-V of both vehicles from the crush energy of both together, as the CRASH programs have it.
+    """Delta-V of both vehicles from the crush energy of both together, as in the CRASH programs.
 
-    The impulse, of one direction, passes the centre of mass of each at its moment arm, where a vehicle answers like the mass
-    gamma m; both move alike there when the crush is largest::
+    The impulse keeps one direction and passes each centre of mass at a moment arm, where the vehicle responds like a mass gamma
+    m; at maximum crush both move alike there::
 
         delta_v_a = sqrt(2 energy gamma_a / (mass_a (1 + gamma_a mass_a / (gamma_b mass_b))))
 
     Parameters
     ----------
     energy : float, str, Quantity or array [J]
-        Of both vehicles, >= 0: the sum of their ``crush_energy``.
+        Energy of both vehicles, >= 0: the sum of their ``crush_energy``.
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; ``inf`` for one that does not move.
     gamma_a, gamma_b : float, str, Quantity or array
@@ -205,7 +205,7 @@ def crush_delta_v(
     Returns
     -------
     tuple of float or array [m/s]
-        Of A and of B, up to the common velocity: with restitution e they are 1 + e times as large. NaN for a refused case.
+        Of A and of B, up to the common velocity; with restitution e they are 1 + e times as large. NaN for a refused case.
 
     Raises
     ------
@@ -214,8 +214,8 @@ def crush_delta_v(
 
     Notes
     -----
-    CRASH3 technical manual; EDCRASH manual, chapter 4. It leaves out the speed at which the vehicles slid past each other and
-    every change of the direction of the force. ``reconstruct.speeds`` with ``energy_loss`` does not.
+    CRASH3 technical manual; EDCRASH manual, chapter 4. The method leaves out the speed at which the vehicles slid past each
+    other and any change in the direction of the force. ``reconstruct.speeds`` with ``energy_loss`` does not.
 
     Examples
     --------

@@ -37,27 +37,28 @@ _MOST_STEPS = 100.0  # standard errors over which slopes may be taken at most
 def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], observed: Mapping[str, Any]) -> Fit:
     """Estimate the unknowns of a scene from measurements, each given with its error.
 
-    Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the observations and over what was known
-    before, is made least within the bounds (Levenberg-Marquardt from 64 starts spread over what was known). The covariance is
-    that of the slopes of the model at the answer and of the errors as stated; it is not scaled by the misfit. It holds where
-    the errors of the observations are normal and independent, the model bends little within two standard errors and no bound
-    is near. Where one value with such an error does not describe what the evidence says, this refuses or warns: ``posterior``
-    answers then, whatever the priors and however the model bends.
+    Weighted least squares: the sum of the squares of (observed - computed)/sigma, over the observations and the priors, is
+    minimised within the bounds (Levenberg-Marquardt from 64 starts spread over what was known before). The covariance follows
+    from the slopes of the model at the answer and the errors as stated; it is not scaled by the misfit. It holds where the
+    errors of the observations are normal and independent, the model is nearly linear within two standard errors and no bound is
+    near. Where one value with such an error does not describe what the evidence says, ``fit`` refuses or warns; ``posterior``
+    then has the answer, whatever the priors and however nonlinear the model.
 
     Parameters
     ----------
     model : function
         ``model(**unknowns)`` returns a dict of named outputs. It is called with an array of cases for every unknown [SI] and
-        answers each with an array as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``: every
-        case by itself, of which a few are called again by themselves. What is known exactly is written in the model.
+        returns arrays as long, NaN where it refuses (``on_failure="nan"``), as for ``uncertainty.propagate``. Each case is to
+        be answered independently of the others; as a check, a few are called again by themselves. What is known exactly is
+        written into the model.
     unknowns : dict
-        By name what is known before: a ``Normal`` (a prior that weighs in; ``truncate=`` are bounds), a ``Uniform`` or an
-        ``Interval`` (bounds that weigh nothing), or a number, text or Quantity to start from (nothing known; searches start
-        between 0 and twice of it, between -1 and 1 in SI if it is 0).
+        By name, what is known before: a ``Normal`` (a prior, which has weight; ``truncate=`` gives bounds), a ``Uniform`` or an
+        ``Interval`` (bounds without weight), or a number, text or Quantity to start from (nothing known; searches start between
+        0 and twice this value, or between -1 and 1 in SI if it is 0).
     observed : dict
         By output of the model, ``Normal(value, error)`` or the pair (value, error), both in SI or both with a unit; the error
-        is a standard deviation. What is observed, or returned by the model, with a unit of angle goes round the circle: its
-        residual is within half a turn. A bare number in radians cannot be told from another and does not.
+        is a standard deviation. What is observed, or returned by the model, with a unit of angle is taken round the circle: its
+        residual is within half a turn. A bare number in radians cannot be told from any other number and is not.
 
     Returns
     -------
@@ -68,24 +69,25 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     Raises
     ------
     InputError
-        An argument that cannot be used, or a model (code "bad_model") that returns something else than named arrays, mixes the
-        cases it is called with, or answers the same case differently.
+        An argument that cannot be used, or a model (code "bad_model") that returns something other than named arrays, mixes the
+        cases it is called with, or answers the same case differently when asked again.
     AmbiguousSolutionError
-        Another answer, more than a standard error away, has a chi-squared less than 4 above the best: all that the searches met
-        are in ``solutions``. So it is with a friction that slides, or sticks whatever its value.
+        Another answer, more than a standard error away, has a chi-squared less than 4 above the best; all that the searches
+        found are in ``solutions``. An unknown friction leads to this if the contact may have slid, or may have stuck whatever
+        its value.
     NoSolutionError
-        The model refuses at every start (code "refused"); or the misfit is least at a jump, a bend, an edge or a turning point
+        The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink, an edge or a turning point
         of the model, where no error can be given, or where at most two of the searches ended (code "no_convergence").
 
     Warns
     -----
     IllConditionedWarning
-        Nothing determines an unknown; it ended on a bound, or its bounds say more than the evidence; or the model bends, or
-        refuses, within two standard errors of the answer.
+        Nothing determines an unknown, it ended on a bound, or its bounds say more than the evidence; or the model is too
+        nonlinear, or refuses, within two standard errors of the answer.
     SuspectUnitsWarning
-        A bare observation that differs by more than half a turn from what is computed, both within it: perhaps an angle.
+        A bare observation differs from its computed value by more than pi, with neither beyond pi: perhaps an angle.
     CollisionsWarning
-        The evidence contradicts itself: a misfit this large has a chance below 0.01.
+        The evidence contradicts itself: a misfit this large has a probability below 0.01.
 
     Examples
     --------

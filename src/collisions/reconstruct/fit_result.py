@@ -106,7 +106,7 @@ class Estimate(WithUnit):
 class Residual(WithUnit):
     """One observation or prior: the stated value, the fitted value, and their difference in sigma.
 
-    ``residual`` is observed less computed; of angles by the short way round, in (-pi, pi].
+    ``residual`` is observed less computed; for angles by the short way round, in (-pi, pi].
     """
 
     name: str
@@ -122,7 +122,7 @@ class Residual(WithUnit):
 
 
 def residual_of(row: Observation, unit: str | None, computed: float, apart: float) -> Residual:
-    """An observation or prior beside what is computed of it; of a censored reading the bound that is missed, if any."""
+    """An observation or prior beside its computed value; for a censored reading, the bound that is missed, if any."""
     return Residual(
         name=row.name,
         unit=row.value.unit or unit or "",
@@ -139,7 +139,7 @@ def residual_of(row: Observation, unit: str | None, computed: float, apart: floa
 class Direction:
     """A direction in which the evidence does not determine the unknowns: the change of each in SI, all moving together.
 
-    ``held_by_prior`` says whether what was stated before settles it; otherwise nothing does.
+    ``held_by_prior`` says whether the priors settle it; otherwise nothing does.
     """
 
     changes: dict[str, float]
@@ -166,13 +166,13 @@ class Fit(Shown):
     """The result of a fit: estimates of the unknowns from the observations, given the stated errors.
 
     ``values`` are SI floats by name, NaN where nothing determines an unknown; ``fit["speed_a"]`` has value, standard error and
-    interval. ``covariance`` (locked, in the order of ``names``) is that of the model's slopes at the answer, with inf and NaN
-    for what is not determined; where an unknown is in ``at_bounds`` it is that without the bound, so the errors of all are not
-    too small. ``residuals`` and ``contributions`` go by the names of the observations, and "prior of x" for those of the
-    unknowns. ``contributions[unknown][observation]`` is the share of the unknown's variance that the error of the observation
-    makes. ``nonlinearity`` is by how much, relatively, a 95 percent interval is too narrow or too wide, by the rise of
-    chi-squared where an unknown is moved by two standard errors (or to its bound) and the others as the slopes say; NaN if the
-    model refuses there.
+    interval. ``covariance`` (read-only, in the order of ``names``) follows from the model's slopes at the answer, with inf and
+    NaN for what is not determined; where an unknown is in ``at_bounds`` it is the covariance without the bound, so that no
+    error is too small. ``residuals`` and ``contributions`` go by the names of the observations, and by "prior of x" for the
+    priors. ``contributions[unknown][observation]`` is the share of the unknown's variance that is due to the error of the
+    observation. ``nonlinearity`` is the relative amount by which a 95 percent interval is too narrow or too wide, judged by the
+    rise of chi-squared when an unknown is moved by two standard errors (or to its bound) and the others follow the slopes; NaN
+    if the model refuses there.
     """
 
     values: Values
@@ -253,7 +253,7 @@ class Fit(Shown):
         return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything as strict JSON: an infinity and NaN by name."""
+        """Everything as strict JSON, with infinities and NaN by name."""
         record = {
             "statements": self.statements,
             "unknowns": {name: asdict(self[name]) for name in self.names},
@@ -362,7 +362,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
 
 
 def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
-    """Whether the evidence agrees with itself, by the chance of its misfit in two digits that round past no limit."""
+    """Whether the evidence agrees with itself, by the chance of its misfit in two digits, never rounded across a limit."""
     text = f"{p_value:.2g}"
     text = next((f"just below {limit:g}" for limit in (_WEAK, CONTRADICTION) if p_value < limit <= float(text)), text)
     chance = f"a misfit this large or larger has a chance of {text}"

@@ -37,25 +37,25 @@ def inline_closing_speed(
 ) -> Value:
     """Closing speed of an in-line central impact from one delta-V, the energy dissipated, or two equivalent speeds.
 
-    Only where the line of impact passes both centres of mass and nothing moves across it. In two oblique crash tests this
-    shortcut reads 10 to 16 percent high from the whole delta-V and 17 to 24 percent from the whole energy loss (NHTSA 4363 and
-    4474, on the documentation's page "Reverse reconstruction"): for anything else use ``speeds``.
+    Valid only where the line of impact passes through both centres of mass and nothing moves across it. In two oblique crash
+    tests this shortcut is 10 to 16 percent too high from the whole delta-V and 17 to 24 percent from the whole energy loss
+    (NHTSA 4363 and 4474, on the documentation's page "Reverse reconstruction"): for anything else use ``speeds``.
 
     Parameters
     ----------
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; one may be ``inf``.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s; then both are solved together, in
-        a batch case by case, NaN where none or more than one answer fits.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s; the two are then solved together, in
+        a batch case by case, with NaN where no answer or more than one fits.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
         Change of velocity of one vehicle, >= 0.
     energy_loss : float, str, Quantity or array [J], optional
-        Energy dissipated: what is left after restitution.
+        Energy dissipated: what remains lost after restitution.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds by ISO 12353, both: the energy dissipated. That of an infinite mass is 0.
+        Energy equivalent speeds of both, by ISO 12353: they stand for the energy dissipated. That of an infinite mass is 0.
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
-        Speeds of maximum crush, both: the energy absorbed before restitution. That of an infinite mass is 0.
+        Speeds of maximum crush of both: they stand for the energy absorbed before restitution. That of an infinite mass is 0.
 
     Returns
     -------
@@ -65,15 +65,15 @@ def inline_closing_speed(
     Raises
     ------
     InputError
-        An argument that cannot be used, or a function whose value is not from 0 to 1.
+        An argument that cannot be used, or a function whose value is outside 0 to 1.
     AmbiguousSolutionError
-        The function of restitution is met at more than one closing speed; all are in ``solutions``.
+        More than one closing speed agrees with the restitution function; all are in ``solutions``.
     NoSolutionError
         No closing speed fits.
 
     Examples
     --------
-    A delta-V of 5 km/h in a car of the same mass: a restitution that belongs to the low speed makes two km/h of difference.
+    A delta-V of 5 km/h between cars of equal mass: a restitution suited to the low speed makes a difference of two km/h.
 
     >>> from collisions import reconstruct, reference
     >>> def low_speed(v):  # from 2 to 15 mph

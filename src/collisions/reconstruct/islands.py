@@ -46,10 +46,10 @@ class Islands:
     """Points (islands, points, dimensions) of the prior (standard normal) times likelihood**power, within ``limit`` of bounds.
 
     The powers rise to 1: P. Del Moral, A. Doucet, A. Jasra, "Sequential Monte Carlo samplers", J. R. Statist. Soc. B 68 (2006);
-    each is the one that leaves half of the effective sample. The points are then moved by Metropolis steps along differences of
-    two points, which suit separate modes too: C. J. F. ter Braak, Statistics and Computing 16 (2006). These are of the next
-    island: steps that depended on the errors of their own would leave the evidence too high. Sharp bounds are met first, by
-    thresholds that half of the points pass: S.-K. Au and J. L. Beck, Probabilistic Engineering Mechanics 16 (2001).
+    each leaves half of the effective sample size. The points are then moved by Metropolis steps along differences of two
+    points, which suit separate modes too: C. J. F. ter Braak, Statistics and Computing 16 (2006). These two are taken from the
+    next island: steps that depended on the errors of their own island would leave the evidence too high. Sharp bounds are met
+    first, by thresholds that half of the points pass: S.-K. Au and J. L. Beck, Probabilistic Engineering Mechanics 16 (2001).
     """
 
     points: Any
@@ -106,7 +106,7 @@ class Islands:
         self.limit = 0.0
 
     def _raise_power(self) -> None:
-        """The next power, at which half of the effective sample is left, or 1."""
+        """The next power, at which half of the effective sample size is left, or 1."""
         best = np.max(self.likelihood, axis=1, keepdims=True)
         behind = self.likelihood - best
 

@@ -58,9 +58,9 @@ def momentum(
 ) -> MomentumSolution:
     """Two unknown speeds of an impact from planar momentum, with all courses known.
 
-    Linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of Impulse Momentum Theory to
-    Vehicle Collisions"), save for an impulse from outside that is stated. Nothing is assumed of restitution, friction or
-    rotation. Good where the courses cross; the nearer they come to one line the less momentum tells, whatever the algorithm.
+    The linear momentum of two bodies in the road plane is conserved (eqs 1 and 2 of "Application of Impulse Momentum Theory to
+    Vehicle Collisions"), apart from a stated outside impulse. Nothing is assumed about restitution, friction or rotation. The
+    method is good where the courses cross; the nearer they come to one line, the less momentum tells, whatever the algorithm.
 
     Parameters
     ----------
@@ -69,17 +69,17 @@ def momentum(
     course_a, course_b, course_a_after, course_b_after : float, str, Quantity or array [rad]
         Directions of motion, counter-clockwise from +x; a vehicle at rest (speed 0) needs none.
     speed_a, speed_b, speed_a_after, speed_b_after : float, str, Quantity or array [m/s]
-        The known speeds, >= 0: leave out the two that are asked for.
+        The known speeds, >= 0; leave out the two that are sought.
     heading_a, heading_b : float, str, Quantity or array [rad], optional
-        Where the vehicles pointed, for the PDOF.
+        Directions in which the vehicles pointed, for the PDOF.
     together : bool, optional
-        The vehicles leave as one: give the common course, and the common speed if it is known, for either of them or both.
+        Whether the vehicles leave as one: give the common course, and the common speed if it is known, for either or both.
     normal : angle [rad] or tuple (nx, ny), optional
-        Direction from A into B along which closing speed and restitution are worked out, from the motion of the centres.
+        Direction from A into B for the closing speed and restitution, which are those of the centres of mass.
     outside_impulse : pair [N*s], optional
-        Impulse of tyres or a kerb on both vehicles together, during the impact.
+        Impulse of the tyres or a kerb on both vehicles together, during the impact.
     on_failure : {None, "raise", "nan"}, optional
-        What a refused case of a batch does.
+        What happens to a refused case of a batch.
 
     Returns
     -------
@@ -99,12 +99,12 @@ def momentum(
     Warns
     -----
     IllConditionedWarning
-        They are within 10 degrees of one line.
+        The courses of the two unknown speeds are within 10 degrees of one line.
     OutOfRangeWarning
-        A speed came out negative: backwards along its course. Along ``normal`` the restitution is outside 0 to 1, or the
-        vehicles did not approach, which leaves it NaN.
+        A speed came out negative: backwards along its course. Or, along ``normal``, the restitution is outside 0 to 1, or the
+        vehicles did not approach and it is NaN.
     EnergyGainWarning
-        The vehicles leave with more energy than they came with.
+        The vehicles leave with more energy than they had before.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def momentum(
 
 
 def _as_given(value: Any) -> str | float:
-    """The value as a text or a number; a Quantity becomes a text with all its digits."""
+    """The value as text or a number; a Quantity becomes text with all its digits."""
     if is_quantity(value):
         return f"{float(magnitude(value))!r} {value.units}"
     return value if isinstance(value, str) else float(value)

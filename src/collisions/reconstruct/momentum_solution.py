@@ -45,8 +45,8 @@ class Sensitivity(dict[str, dict[str, Value]]):
 class MomentumSolution(Shown):
     """The result of planar momentum: two vehicles before and after an impact, and how sensitive the speeds are.
 
-    Speeds are along the courses: a negative one that was worked out is motion backwards along its course. Values are floats,
-    or arrays in a batch.
+    Speeds are along the courses: a computed speed below 0 is motion backwards along its course. Values are floats, or arrays in
+    a batch.
     """
 
     mass_a: Value = field(metadata={"unit": "kg"})

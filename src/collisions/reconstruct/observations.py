@@ -23,7 +23,7 @@ _LOG_ROOT_TURN = 0.5 * math.log(math.tau)
 
 
 class Observation(NamedTuple):
-    """One observed output of the model by name, or what was stated of an unknown before."""
+    """One observed output of the model by name, or the prior stated for an unknown."""
 
     name: str
     value: Normal | Censored

@@ -46,17 +46,17 @@ def restitution(
     normal: Input | tuple[Input, Input],
     point: Pair | None = None,
 ) -> Value:
-    """Coefficient of restitution that the motions before and after show.
+    """Coefficient of restitution shown by the motions before and after the impact.
 
-    Separation over closing speed along the normal: of the contact points with ``point``, of the centres of mass without it
-    (eqs 8, 16, 18 and 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"). Nothing but the motions is used:
-    masses and inertias do not matter, though those of one vehicle must be the same before and after.
+    Separation speed over closing speed along the normal: of the contact points with ``point``, of the centres of mass without
+    it (eqs 8, 16, 18 and 19 of "Application of Impulse Momentum Theory to Vehicle Collisions"). Only the motions are used:
+    masses and inertias do not matter, though those of each vehicle must be the same before and after.
 
     Parameters
     ----------
     a_before, b_before, a_after, b_after : Vehicle
-        The vehicles just before and just after. Those that turn need positions, and where positions are given they are those
-        at the moment of impact, before and after alike: an impulse moves nothing.
+        The vehicles just before and just after the impact. Those that turn need positions. Any positions given are those at the
+        moment of impact, the same before and after: an impulse displaces nothing.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m], optional
@@ -70,18 +70,18 @@ def restitution(
     Raises
     ------
     InputError
-        An argument that cannot be used; a vehicle with another mass, yaw inertia or position after than before.
+        An argument that cannot be used; a vehicle whose mass, yaw inertia or position differs before and after.
     NoImpactError
-        The bodies did not approach before.
+        The bodies were not approaching before the impact.
 
     Warns
     -----
     OutOfRangeWarning
-        Below 0: the contact points went on approaching, an incomplete impact. Above 1: more speed than there was.
+        Below 0: the contact points went on approaching, an incomplete impact. Above 1: they parted faster than they met.
 
     Examples
     --------
-    Railroad cars of a course sheet: 0.5 m/s into one at rest, leaving with -0.025 and 0.3 m/s (published answer 0.65).
+    Railroad cars from a course sheet: 0.5 m/s into one at rest, leaving at -0.025 and 0.3 m/s (published answer 0.65).
 
     >>> import collisions as col
     >>> a, b = col.Vehicle(mass=20e3, vx=0.5), col.Vehicle(mass=35e3)
@@ -115,17 +115,17 @@ def friction(
     normal: Input | tuple[Input, Input],
     point: Pair | None = None,
 ) -> Value:
-    """Friction that the motions before and after show: the magnitude of tangential over normal impulse.
+    """Friction shown by the motions before and after the impact: the magnitude of tangential over normal impulse.
 
-    The impulse is that of the changes of velocity of both bodies, each weighted by how little an error of its velocity weighs
-    (the inverse square of its mass). If the contact was sliding this is the coefficient of friction; if it came to stick, the
-    least that would do. Bodies without a pivot.
+    The impulse is computed from the changes of velocity of both bodies, each weighted by the inverse square of its mass, since
+    an error in velocity counts for more in a heavier body. If the contact was sliding, the ratio is the coefficient of
+    friction; if it came to stick, the least that would suffice. The bodies must have no pivot.
 
     Parameters
     ----------
     a_before, b_before, a_after, b_after : Vehicle
-        The vehicles just before and just after, each with the same mass and, where given, the same yaw inertia and position,
-        which is that at the moment of impact.
+        The vehicles just before and just after the impact, each with the same mass and, where given, the same yaw inertia and
+        position (that at the moment of impact).
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m], optional
@@ -139,9 +139,9 @@ def friction(
     Raises
     ------
     InputError
-        A body has a pivot, whose impulse is not known; or is another one after than before.
+        A body has a pivot, whose impulse is not known; or its mass, yaw inertia or position differs before and after.
     NoImpactError
-        The bodies did not approach before, or were not pushed apart.
+        The bodies were not approaching before the impact, or were not pushed apart.
 
     Warns
     -----

@@ -21,7 +21,7 @@ _LOST_MOTION = 1e-6  # of the closing speed: a motion after that may be the roun
 class Origin(NamedTuple):
     """A candidate for the state before: how the contact ended, the impulse on B, what goes with it, and whether it fits.
 
-    ``contact_velocity`` is the closing speed and the slip before; where friction ``jams`` there is none that ends so.
+    ``contact_velocity`` is the closing speed and the slip before; where friction ``jams``, none ends this way.
     """
 
     regime: str
@@ -81,7 +81,7 @@ class End:
         self.at_rest = (abs(self.slip) <= self.noise) & (abs(self.separation) <= self.noise)
 
     def origins(self, regime: str | None) -> list[Origin]:
-        """The candidates, of which those of the regime fit that lead to this end and are none of those before them."""
+        """The candidates; those fit that are of the regime, lead to this end and repeat no earlier one."""
         found: list[Origin] = []
         for origin in self._candidates():
             new = np.asarray(origin.fits) & (regime in (None, origin.regime))
@@ -92,22 +92,22 @@ class End:
         return found
 
     def resistance(self, ratio: Any) -> Any:
-        """What the contact resists along the normal to an impulse of this ratio: where it is not above 0, the bodies jam."""
+        """The contact's resistance along the normal to an impulse of this ratio; where it is not above 0, the bodies jam."""
         return sum(a + b * rt * (rt - ratio * rn) for a, b, rn, rt in self.responses)
 
     def elastic_loss(self, ratio: Any) -> Any:
-        """The energy that an impact of this ratio with e = 1 loses that ends so: the least of all."""
+        """The energy lost by an impact of this ratio with e = 1 that ends this way: the least possible."""
         normal = 2.0 * self.separation / self.resistance(ratio)
         return 0.0 - ratio * normal * (self.slip - 0.5 * self._slip_change(normal, ratio * normal))
 
     def always_sticks(self, law: str = BRACH) -> Any:
-        """Whether the contact is under this law and cannot end but as one that sticks."""
+        """Whether the contact is under this law and can only end sticking."""
         if self.rule == IMPULSE_RATIO or self.law != law:
             return False
         return np.isposinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
 
     def slip_range(self) -> tuple[Any, Any]:
-        """Between which slips before a contact that stuck under "brach" had its own; infinite where friction jams."""
+        """The range of the slip before, for a contact that stuck under "brach"; infinite where friction jams."""
         if not self.slides or self.law != BRACH:
             return np.full((), np.nan), np.full((), np.nan)
         slips = [np.where(one.jams, np.copysign(np.inf, self.k_nt), one.contact_velocity[1]) for one in self.slides]
@@ -165,7 +165,7 @@ class End:
         return sum(np.hypot(b[2], b[3]) + abs(b[4]) * np.hypot(self.p[0] - b[5], self.p[1] - b[6]) for b in bodies)
 
     def _noise(self, eps: float) -> Any:
-        """What rounding may leave of the slip and of the separation speed when the contact is at rest after the impact.
+        """What rounding may leave of the slip and of the separation speed where the contact is at rest after the impact.
 
         The motion after may be next to nothing then, so the motion before counts. A slip before that stuck lies between those
         of a contact that slid either way, and the energy lost bounds it; where friction jams on one side or has no end, and no

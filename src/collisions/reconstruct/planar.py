@@ -1,7 +1,8 @@
 """``planar``: reconstructs the motion before an impact from the motion after, rotation included.
 
-Time reversed, an impact is an impact: velocities change sign, closing and separation exchange places and the impulse stays. So
-every origin of an end state is a candidate impulse taken off that state; the forward kernel then says whether it leads there.
+An impact run backwards in time is again an impact: velocities change sign, closing and separation exchange places, and the
+impulse stays the same. So every origin of an end state is that state less a candidate impulse; the forward kernel then says
+whether it leads there.
 """
 
 from __future__ import annotations
@@ -62,11 +63,11 @@ def planar(
 ) -> Impact:
     """The impact that ended in these motions: ``eccentric`` backwards.
 
-    The states after, the contact and the material determine the states before, except where the impact has wiped them out. A
-    contact that ended without slip under "brach", or at rest under either law, keeps no trace of the slip before; after a
-    plastic impact nothing is left of the closing speed, unless it or the energy loss is known; and an end state may have two
-    origins. Those are refused, with what there is in ``solutions`` and what would decide. The theory is eqs
-    10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with friction, solved for the motion before.
+    The states after, the contact and the material determine the states before, except where the impact has erased them. A
+    contact that ended without slip under "brach", or at rest under either law, keeps no trace of the slip before it; a plastic
+    impact leaves no trace of the closing speed, so that it or the energy loss must be known; and an end state may have two
+    origins. Such cases are refused, with any answers in ``solutions``; the message says what would decide. The theory is eqs 10
+    to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions" with friction, solved for the motion before.
 
     Parameters
     ----------
@@ -77,7 +78,7 @@ def planar(
     point : pair [m]
         Contact point.
     restitution : float, str, Quantity or array [1], optional
-        Coefficient of restitution, above 0: exactly one of these three.
+        Coefficient of restitution, above 0. Exactly one of restitution, closing speed and energy loss is given.
     closing_speed : float, str, Quantity or array [m/s], optional
         Speed at which the contact points approached along the normal, > 0.
     energy_loss : float, str, Quantity or array [J], optional
@@ -89,17 +90,18 @@ def planar(
     regime : {"frictionless", "sliding", "sticking", "given"}, optional
         How the contact ended, where that decides between two origins: a value of ``Impact.regime``.
     incomplete : bool, optional
-        Whether the restitution may be below 0, above -1, as for ``eccentric``: the contact points still approach.
+        Whether the restitution may be negative (above -1), as for ``eccentric``: the contact points then go on approaching.
     on_failure : {None, "raise", "nan"}, optional
-        What a refused case of a batch does.
+        What happens to a refused case of a batch.
 
     Returns
     -------
     Impact
-        The answer of ``eccentric`` for the states found; ``reconstruction.condition`` is (1+e)/e for a given restitution and
-        for a contact that sticks under "kudlich-slibar", else 1 for a closing speed, and at most 2 for an energy loss; where
-        a slip may be none, see below, the jump over it, or infinite. Impulse and energy have all digits also where the closing
-        speed is tiny: they are worked out from ``reconstruction.contact_velocity``, not from the rounded motions before.
+        The result of ``eccentric`` for the states found. ``reconstruction.condition`` is (1+e)/e for a given restitution and
+        for a contact that sticks under "kudlich-slibar"; otherwise it is 1 for a closing speed, and at most 2 for an energy
+        loss. Where a slip may be zero (see below) it is the jump divided by that slip, or infinite. Impulse and energy keep all
+        their digits even where the closing speed is tiny: they are computed from ``reconstruction.contact_velocity``, not from
+        the rounded motions before.
 
     Raises
     ------
@@ -108,17 +110,17 @@ def planar(
     AmbiguousSolutionError
         More than one origin fits; all are in ``solutions``.
     NoSolutionError
-        The motions do not part, or by no more than rounding; the contact stuck and says nothing of the slip before; or nothing
-        before ends so.
+        The contact points do not separate, or by no more than rounding; the contact stuck and says nothing about the slip
+        before; or no motion before the impact ends in these motions.
 
     Warns
     -----
     IllConditionedWarning
-        The slip after is so small that it may be none: under "brach" the answer then jumps with its sign,
-        or is the one end of a range that is open where friction jams.
+        The slip after the impact is so small that it may be zero: under "brach" the answer then jumps with its sign, or is the
+        only end of a range that is open on the side where friction jams.
     OutOfRangeWarning
-        With ``closing_speed`` or ``energy_loss``: the contact points still approach, by at most 1 percent of the closing speed,
-        and were taken to stay together.
+        With ``closing_speed`` or ``energy_loss``: the contact points still approach after the impact, by at most 1 percent of
+        the closing speed, and were taken to stay together.
 
     Examples
     --------

@@ -30,8 +30,8 @@ _MOSTLY_REFUSED = 0.05  # of the prior
 class PosteriorOutput(Sampled):
     """One unknown, or one output of the model, given the evidence and the priors; otherwise like an output of ``propagate``.
 
-    ``values`` are the samples, equally likely. Standard errors are those of sampling: the jackknife over the islands,
-    NaN where one island has all of the samples.
+    ``values`` are the samples, equally likely. Standard errors are those of sampling, by the jackknife over the islands; NaN
+    where one island has all the samples.
     """
 
     given = "the evidence and the priors"
@@ -71,29 +71,30 @@ class Posterior(Summarized):
     Attributes
     ----------
     priors : dict
-        What was stated of each unknown.
+        The prior stated for each unknown.
     observed : dict
         What was observed, as read: ``Normal`` or ``Censored``.
     draws : dict
-        Joint samples, equally likely: of each unknown, and of each output of the model that is not named like one [SI].
+        Joint samples, equally likely [SI]: of each unknown, and of each output of the model whose name is not that of an
+        unknown.
     unknowns, predicted : dict of PosteriorOutput
-        The unknowns, and what the model makes of them; ``predicted`` is to be held against what was observed.
+        The unknowns, and the outputs the model computes from them; compare ``predicted`` with what was observed.
     residuals : dict of Residual
-        By observation: observed less computed, the mean over the samples; over the stated error too.
+        By observation, observed less computed as the mean over the samples, also in units of the stated error.
     log_evidence, log_evidence_error : float
-        Logarithm of the probability (for values: the density in SI) of all observations given model and priors, and its
-        standard error from sampling. It means something only beside that of another account of the same observations.
+        Logarithm of the probability (for values, the density in SI) of all observations given model and priors, and its
+        standard error from sampling. It has a meaning only beside that of another account of the same observations.
     p_value : float
-        Chance of a misfit this large or larger: that of the best sample, counting also how far each unknown is from the middle
+        Chance of a misfit as large as that of the best sample or larger, counting also how far each unknown is from the middle
         of its prior; NaN if every observation has sharp bounds.
     refused : float
-        Share of the prior that the model has no answer for; there the evidence is impossible.
+        Share of the prior for which the model has no answer; the evidence counts as impossible there.
     moved : float
-        Share of the samples that the last steps of the sampling moved, in the island where it is the least.
+        Share of the samples that the last steps of the sampling moved, in the island where it is smallest.
     samples : int
         How many samples there are.
     seed : int
-        What reproduces the result to the bit, for any number of threads.
+        The seed that reproduces the result to the bit, for any number of threads.
     interrupted : bool
         Whether it was stopped early; the figures are those of the finished islands.
     """
@@ -136,14 +137,14 @@ class Posterior(Summarized):
         Parameters
         ----------
         condition : function
-            Is called with a dict of arrays [SI], one number a sample: the unknowns and the outputs of the model by name.
-            Returns one boolean a sample. Where an output is NaN, comparisons are False.
+            Called with a dict of arrays [SI], one number per sample: the unknowns and the outputs of the model by name. Returns
+            one boolean per sample. Where an output is NaN, comparisons are False.
 
         Returns
         -------
         probability, standard_error : float
-            Between 0 and 1. Of what no sample shows, or each, the error is one sample in all. It is NaN where one island has
-            all of the samples, of which ``posterior`` warns.
+            Between 0 and 1. If the condition holds in no sample or in every one, the error is one sample in the total. It is
+            NaN where one island has all the samples, of which ``posterior`` warns.
 
         Raises
         ------
@@ -181,12 +182,12 @@ class Posterior(Summarized):
 
     @property
     def shrinkage(self) -> dict[str, float]:
-        """By unknown, the share of the prior's variance that the evidence took away: 1 if it tells all, 0 if nothing."""
+        """By unknown, the share of the prior's variance that the evidence removed: 1 if it tells all, 0 if nothing."""
         return {name: 1.0 - (float(one.std) / self.priors[name].sd) ** 2 for name, one in self.unknowns.items()}
 
     @property
     def prior_only(self) -> tuple[str, ...]:
-        """The unknowns of which the evidence says next to nothing: their figures are those of the prior."""
+        """The unknowns about which the evidence says next to nothing: their figures are those of the prior."""
         return tuple(
             name
             for name, share in self.shrinkage.items()

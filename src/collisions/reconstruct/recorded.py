@@ -31,11 +31,11 @@ _NAMES = {"time": "s", "delta_v_forward": "m/s", "delta_v_left": "m/s"}
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class RecordedPulse(Shown):
-    """The delta-V of a recorder: its components where the resultant is largest, when that was, and whether the pulse had ended.
+    """Recorded delta-V: its components at the largest resultant, when that was reached, and whether the pulse had ended.
 
     The errors are half the widths of the ranges that 49 CFR 563.8, Table III allows (``reference.RECORDER_ACCURACY``): a tenth
-    of each component, and at least half the step in which it is reported. A pulse that ended early is a lower bound: its
-    components say how far it had come. ``time``, ``forward`` and ``left`` are the samples.
+    of each component, and at least half the step in which it is reported. A record that stops before the pulse has ended is a
+    lower bound: its components say how far delta-V had come. ``time``, ``forward`` and ``left`` are the samples.
     """
 
     _title = "Recorded pulse"
@@ -51,7 +51,7 @@ class RecordedPulse(Shown):
 
     @derived("m/s")
     def delta_v(self) -> float:
-        """The resultant [m/s]; of a recorder without a lateral component its forward part alone."""
+        """The resultant [m/s]; the forward component alone if the recorder has no lateral one."""
         return math.hypot(self.delta_v_forward, self.delta_v_left or 0.0)
 
     @derived("rad")
@@ -66,12 +66,12 @@ class RecordedPulse(Shown):
 
     @derived("m/s")
     def error_left(self) -> float | None:
-        """Stated error of ``delta_v_left`` [m/s], to either side; None without it."""
+        """Stated error of ``delta_v_left`` [m/s], to either side; None without lateral delta-V."""
         return None if self.delta_v_left is None else _error(self.delta_v_left)
 
     @derived()
     def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
-        """Forward and left component as observations of ``posterior``: with their error, of a cut pulse at least so far."""
+        """Forward and left components as observations for ``posterior``, with errors; as bounds if the pulse is cut short."""
         return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -93,12 +93,12 @@ class RecordedPulse(Shown):
         return Summary(self._title, [Part(list(rows.items())), all_numbers(self._rows())])
 
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
-        """The components with their errors by the names of arguments of ``reconstruct.speeds``, as inputs of ``propagate``.
+        """The components with their errors, named as the arguments of ``reconstruct.speeds``, as inputs for ``propagate``.
 
         Raises
         ------
         InputError
-            The pulse ended early (code ``pulse_cut``): about a lower bound there is no range. See ``evidence``.
+            The record stops early (code ``pulse_cut``): a lower bound has no range about it. See ``evidence``.
         """
         if not isinstance(label, str) or label not in ("a", "b"):
             raise InputError(f"label must be 'a' or 'b', got {shown(label)}", code="bad_option", argument="label")
@@ -123,17 +123,17 @@ def recorded_pulse(
 ) -> RecordedPulse:
     """Total delta-V of a recorder's pulse, when it was reached, its direction, and whether the pulse had ended.
 
-    The total is where the resultant is largest (maximum delta-V of 49 CFR 563.5). The pulse has ended if from there on, or up
-    to there, the resultant changes by no more than 0.8 km/h within 20 ms (end of event time, ibid.). The recorder is taken to
-    sit at the centre of mass: in a car that turns one elsewhere reads another delta-V (``Side.delta_v_at``).
+    The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if, within 20 ms that end at that
+    time or later, the resultant changes by no more than 0.8 km/h (end of event time, ibid.). The recorder is taken to sit at
+    the centre of mass: in a car that turns, one mounted elsewhere reads a different delta-V (``Side.delta_v_at``).
 
     Parameters
     ----------
     time : array [s], or path of a CSV file
-        Times of the samples, rising. Or a file with a header, time, longitudinal and perhaps lateral delta-V in this order,
-        each with its unit in brackets: ``time [ms],longitudinal [km/h],lateral [km/h]``.
+        Times of the samples, increasing. Or a file with a header and columns of time, longitudinal and perhaps lateral delta-V
+        in this order, each with its unit in brackets: ``time [ms],longitudinal [km/h],lateral [km/h]``.
     delta_v_forward, delta_v_left : array [m/s], optional
-        Cumulative delta-V at these times; none with a file, and the lateral one may be missing.
+        Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}
         Whether lateral readings are positive from left to right, as in US recorders, or to the left, as in this library.
         Forward is positive in both. There is no default: the wrong sign puts the other car on the other side.
@@ -141,7 +141,7 @@ def recorded_pulse(
     Returns
     -------
     RecordedPulse
-        In the signs of this library.
+        With the signs of this library.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def _error(value: float) -> float:
 
 
 def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
-    """The reading with the standard deviation of its range; where the record stops early it went on in its direction."""
+    """The reading with the standard deviation of its range; where the record stops early, a bound beyond which it went on."""
     if value is None:
         return None
     error = _error(value) / math.sqrt(3.0)

@@ -35,7 +35,7 @@ _Mismatch = Callable[[Any, Any], Sequence[Any]]
 def crossings(mismatch: _Mismatch, count: int = 1, least: float = 0.0) -> list[tuple[int, int, float]]:
     """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows: case, row and root.
 
-    NaN marks where a row has no answer. A change of sign is narrowed down, also between the grid and the place where a row
+    NaN marks where a row has no answer. A change of sign is narrowed down, also between a grid point and the place where a row
     ends; where the mismatch comes near 0 and turns away again, its turning point is looked at, for two roots may hide there.
     """
     found = []
@@ -99,7 +99,7 @@ def _sampled(mismatch: _Mismatch, brackets: _Brackets, pieces: int) -> tuple[Any
 
 
 def _narrowed(mismatch: _Mismatch, brackets: _Brackets, first_piece: Callable[[Any], Any], count: int) -> _Brackets:
-    """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one that ``first_piece`` chooses."""
+    """Narrow the brackets by repeated subdivision, each time to ``count`` pieces from the one ``first_piece`` chooses."""
     for _ in range(_ROUNDS):
         places, values = _sampled(mismatch, brackets, _PIECES)
         if places.size:

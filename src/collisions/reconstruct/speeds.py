@@ -65,22 +65,23 @@ def speeds(
     delta_v_left_b: Input | None = None,
     forward_only: bool = False,
 ) -> tuple[Impact, ...]:
-    """Impact speeds of both vehicles from where and how they met and two things that were found out.
+    """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
-    The model is that of ``eccentric``: levers, rotation, friction and both laws. Every pair of speeds that fits is returned.
+    The model is that of ``eccentric``: lever arms, rotation, friction and both laws. Every pair of speeds that fits is
+    returned.
 
     Parameters
     ----------
     a, b : Vehicle
-        The vehicles at the moment of impact: mass, yaw inertia, position, yaw rate (heading for the PDOF). Their velocities are
-        what is asked for, and replaced.
+        The vehicles at the moment of impact: mass, yaw inertia, position, yaw rate (and heading for the PDOF). Their velocities
+        are sought; any that are given are replaced.
     course_a, course_b : angle [rad]
         Directions of motion before the impact; None for a vehicle whose speed is known to be 0.
     restitution : float, str, Quantity or array [1], or function
-        Coefficient of restitution, or a function that gives it for a closing speed in m/s: solved together with the speeds,
-        in a batch case by case, and called with arrays if it answers these element by element. With a number every root is
-        found in closed form. With a function, which is much slower, they are looked for on a grid of 129 restitutions, between
-        its places and where it turns or ends; two roots that the grid does not tell apart may be missed.
+        Coefficient of restitution, or a function that gives it for a closing speed in m/s. A function is solved together with
+        the speeds, in a batch case by case, and called with arrays if it takes them element by element. With a number, every
+        root is found in closed form. With a function, which is much slower, they are sought on a grid of 129 restitutions,
+        between its points and where the mismatch turns or ends; two roots that the grid does not separate may be missed.
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m]
@@ -90,49 +91,51 @@ def speeds(
     law : str, optional
         How restitution acts and what no slip means, as for ``eccentric``.
     incomplete : bool, optional
-        Whether the restitution, or what its function gives, may be below 0, above -1, as for ``eccentric``.
+        Whether the restitution, given or from its function, may be negative (above -1), as for ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
-        A known speed, >= 0. Exactly two of the six kinds of knowledge.
+        A known speed, >= 0. Exactly two are needed of: a speed, a delta-V, the energy dissipated, the energy at maximum crush.
     delta_v_a, delta_v_b : float, str, Quantity or array [m/s], optional
-        A known delta-V, as from an event data recorder at the centre of mass. Not both: they tell the same.
+        A known delta-V, as from an event data recorder at the centre of mass. Not both: they carry the same information.
     energy_loss : float, str, Quantity or array [J], optional
         Energy dissipated, along the normal and by friction.
     ees_a, ees_b : float, str, Quantity or array [m/s], optional
-        Energy equivalent speeds of both by ISO 12353: together they stand for the energy dissipated, so they replace it.
+        Energy equivalent speeds of both vehicles by ISO 12353: together they stand for the energy dissipated and replace it.
     max_crush_speed_a, max_crush_speed_b : float, str, Quantity or array [m/s], optional
-        Speeds of maximum crush of both: the energy absorbed along the normal at maximum crush, before restitution.
+        Speeds of maximum crush of both vehicles: the energy absorbed along the normal at maximum crush, before restitution.
     delta_v_forward_a, delta_v_left_a, delta_v_forward_b, delta_v_left_b : float, str, Quantity or array [m/s], optional
-        Components of delta-V in the axes of a vehicle, which then needs its heading, as from an event data recorder (which
-        counts lateral delta-V to the right: the opposite sign). They need two in all with the speeds that are known, and take
-        none of the other kinds beside them. Where the contact sticks, both components of one vehicle are enough, and with
-        ``friction=inf`` no value of friction is needed. Where it slides they repeat the friction, and one speed must be known.
+        Components of delta-V in the axes of a vehicle, which then needs its heading, as from an event data recorder (whose
+        lateral delta-V is positive to the right, the opposite sign). With the known speeds they must be two or more in all, and
+        none of the other kinds may be given beside them. Where the contact sticks, both components of one vehicle are enough,
+        and with ``friction=inf`` no value of friction is needed. Where it slides, they only repeat the friction, and one speed
+        must be known.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
 
     Returns
     -------
     tuple of Impact
-        Every impact that fits, by rising closing speed. In a batch each holds one root of every case, NaN where it has none.
-        Of more components than are needed the answer is that of least squares: all weigh alike as parts of the impulse, of
-        which a recorder is wrong by a share, and a speed is taken as exact.
+        Every impact that fits, in order of rising closing speed. In a batch each holds one root of every case, NaN where a case
+        has none. With more components than are needed, the answer is that of least squares: all have equal weight as parts of
+        the impulse, since the error of a recorder is a share of it, and a speed is taken as exact.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or not exactly two things known.
+        An argument that cannot be used, or too few or too many known quantities.
     NoSolutionError
-        Nothing fits; or what is known leaves the speeds open, or is of an infinite mass.
+        No speeds fit; or the known quantities leave the speeds open, or include the delta-V of an infinite mass.
 
     Warns
     -----
     OutOfRangeWarning
-        A speed came out negative: backwards along its course. Or under ``propagate`` and the like: where two answers meet and
-        end, or near it, the samples are no range of one answer.
+        A speed came out negative: backwards along its course. Or, under ``propagate`` and the like, two answers meet and end
+        among the samples or near them, which are then not the range of one answer.
     IllConditionedWarning
-        Components differ among themselves, or from a speed, by more than ``reference.RECORDER_ACCURACY``; beyond three times
-        that they are refused. Or they leave open whether the contact stuck, as taken, or slid.
+        Components disagree with one another, or with a known speed, by more than ``reference.RECORDER_ACCURACY``; beyond three
+        times that they are refused. Or they leave open whether the contact stuck, as assumed, or slid; or, with no speed known,
+        the courses are near one line.
     CollisionsWarning
-        Cases of a batch have no answer at all; they are NaN, and ``status`` of the first impact says why.
+        Some cases of a batch have no answer; they are NaN, and ``status`` of the first impact says why.
 
     Examples
     --------
@@ -147,7 +150,7 @@ def speeds(
     >>> round(found.a.before.vx, 2), round(found.a.delta_v, 12)
     (11.96, 6.0)
 
-    With both components, and a contact that stuck, neither speed nor friction need be known.
+    With both components, and a contact that stuck, neither a speed nor the friction need be known.
 
     >>> a, b = (v.replace(heading=heading) for v, heading in ((a, "10 deg"), (b, "80 deg")))
     >>> (found,) = col.reconstruct.speeds(
@@ -222,7 +225,7 @@ def speeds(
 
 
 def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
-    """What was given: two of the kinds of knowledge, or components, with speeds, two at least."""
+    """What was given: two known quantities, or components and speeds, at least two in all."""
     others = {name: value for name, value in known.items() if value is not None} if components else exactly(known, 2, "speeds")
     if {"speed_a", "speed_b"} <= others.keys():
         raise InputError(
@@ -245,7 +248,7 @@ def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
 
 
 def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, measured: Sequence[str]) -> Angle:
-    """The course of a vehicle, which needs none at rest; refuses a vehicle that has a pivot, or lacks the heading it needs."""
+    """The course of a vehicle, not needed at rest; refuses a vehicle that has a pivot, or lacks the heading it needs."""
     if given is None and np.any(np.not_equal(speed, 0.0)):
         reader.refuse(
             MissingInputError(
@@ -267,7 +270,7 @@ def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: An
 
 
 def _refuse_combinations(inputs: Inputs, known: dict[str, Any], function: bool) -> None:
-    """Refuse what tells the same twice, and what cannot be solved together."""
+    """Refuse what gives the same information twice, and what cannot be solved together."""
     if LAWS[inputs.law or BRACH].energetic:
         raise InputError(
             f"reconstruct.speeds cannot go back under law {inputs.law!r}, whose impulse is not linear in the speeds; give "
@@ -429,7 +432,7 @@ def _answers(
 
 
 def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:
-    """Warn a study of samples where two answers meet: some have none, or they come as near to it as they are apart."""
+    """Warn a study of samples near a fold: some cases have no answer, or its two answers all but meet."""
     if len(found) < 2:
         return
     (one, _), (other, both) = found[:2]

@@ -55,7 +55,7 @@ _FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
 
 
 class Root(NamedTuple):
-    """A candidate solution: both speeds, their restitution, how well-posed they are, and the slope of both observations."""
+    """A candidate solution: both speeds, their restitution and condition, and the slope of both observations."""
 
     speed_a: Any
     speed_b: Any
