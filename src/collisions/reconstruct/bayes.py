@@ -98,8 +98,7 @@ def posterior(
 
     Examples
     --------
-    A speed known to lie around 20 m/s, read twice. Everything is normal, so the answer is the weighted mean: weights 1/4, 1 and
-    1.
+    A speed known to lie around 20 m/s, read twice. All are normal, so the answer is the weighted mean: weights 1/4, 1 and 1.
 
     >>> from collisions.reconstruct import posterior
     >>> from collisions.uncertainty import Normal

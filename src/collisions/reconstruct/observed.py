@@ -124,8 +124,8 @@ def friction(
     Parameters
     ----------
     a_before, b_before, a_after, b_after : Vehicle
-        The vehicles just before and just after the impact, each with the same mass and, where given, the same yaw inertia and
-        position (that at the moment of impact).
+        The vehicles just before and just after the impact, each unchanged in mass and, where given, in yaw inertia and position
+        (that at the moment of impact).
     normal : angle [rad] or tuple (nx, ny)
         Direction from A into B.
     point : pair [m], optional

@@ -143,8 +143,8 @@ class Posterior(Summarized):
         Returns
         -------
         probability, standard_error : float
-            Between 0 and 1. If the condition holds in no sample or in every one, the error is one sample in the total. It is
-            NaN where one island has all the samples, of which ``posterior`` warns.
+            Between 0 and 1. If the condition holds in no sample or in every one, the error is 1 over the number of samples. It
+            is NaN where one island has all the samples, of which ``posterior`` warns.
 
         Raises
         ------

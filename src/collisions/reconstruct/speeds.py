@@ -67,8 +67,7 @@ def speeds(
 ) -> tuple[Impact, ...]:
     """Impact speeds of both vehicles from the geometry of the impact and two known quantities.
 
-    The model is that of ``eccentric``: lever arms, rotation, friction and both laws. Every pair of speeds that fits is
-    returned.
+    The model is that of ``eccentric``: lever arms, rotation, friction and both laws. All pairs of speeds that fit are returned.
 
     Parameters
     ----------
