@@ -77,7 +77,7 @@ def central(
         Whether the restitution may be negative (above -1), as for ``linear_central``. Both velocities before and the energy
         loss then leave its sign open, and there are two answers.
     on_failure : {None, "raise", "nan"}, optional
-        What happens to a refused case of a batch: NaN and one warning, an error, or NaN without a warning.
+        What to do with a refused case of a batch: NaN and one warning, an error, or NaN without a warning.
 
     Returns
     -------

@@ -38,8 +38,8 @@ def crush_energy(
 
     The force per unit width at a depth C is taken as A + B C, A being what the structure bears before it yields, so each unit
     of width absorbs A C + B C^2 / 2 + A^2 / (2 B). Between two measured depths the profile is taken as straight, which
-    integrates exactly to the trapezoid rule of the CRASH programs for any number of points. Of a force at an angle the whole
-    work counts: the energy is divided by the square of the cosine.
+    integrates exactly to the trapezoid rule of the CRASH programs for any number of points. If the force is at an angle, the
+    energy is divided by the square of the cosine, so that its whole work is counted.
 
     A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. For many cases give lists whose
     entries are arrays, one entry for each point or gap, with one element for each case; the other arguments may be arrays too.
@@ -187,8 +187,8 @@ def crush_delta_v(
 ) -> tuple[Value, Value]:
     """Delta-V of both vehicles from the crush energy of both together, as in the CRASH programs.
 
-    The impulse keeps one direction and passes each centre of mass at a moment arm, where the vehicle responds like a mass gamma
-    m; at maximum crush both move alike there::
+    The impulse keeps one direction and passes each centre of mass at a moment arm. On its line a vehicle responds like the mass
+    gamma m, and at maximum crush both move alike there::
 
         delta_v_a = sqrt(2 energy gamma_a / (mass_a (1 + gamma_a mass_a / (gamma_b mass_b))))
 

@@ -77,7 +77,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         its value.
     NoSolutionError
         The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink, an edge or a turning point
-        of the model, where no error can be given, or where at most two of the searches ended (code "no_convergence").
+        of the model, where no error can be given, or at a point that at most two of the searches reached (code
+        "no_convergence").
 
     Warns
     -----

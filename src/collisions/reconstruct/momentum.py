@@ -79,7 +79,7 @@ def momentum(
     outside_impulse : pair [N*s], optional
         Impulse of the tyres or a kerb on both vehicles together, during the impact.
     on_failure : {None, "raise", "nan"}, optional
-        What happens to a refused case of a batch.
+        What to do with a refused case of a batch.
 
     Returns
     -------

@@ -86,13 +86,13 @@ def planar(
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [1], optional
         Exactly one, as for ``eccentric``.
     law : {"brach", "kudlich-slibar"}, optional
-        How restitution acts and what no slip means.
+        How restitution acts and what friction does, as for ``eccentric``.
     regime : {"frictionless", "sliding", "sticking", "given"}, optional
         How the contact ended, where that decides between two origins: a value of ``Impact.regime``.
     incomplete : bool, optional
         Whether the restitution may be negative (above -1), as for ``eccentric``: the contact points then go on approaching.
     on_failure : {None, "raise", "nan"}, optional
-        What happens to a refused case of a batch.
+        What to do with a refused case of a batch.
 
     Returns
     -------

@@ -88,7 +88,7 @@ def speeds(
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [1], optional
         Exactly one, as for ``eccentric``.
     law : str, optional
-        How restitution acts and what no slip means, as for ``eccentric``.
+        How restitution acts and what friction does, as for ``eccentric``.
     incomplete : bool, optional
         Whether the restitution, given or from its function, may be negative (above -1), as for ``eccentric``.
     speed_a, speed_b : float, str, Quantity or array [m/s], optional
