@@ -63,7 +63,7 @@ class Answers:
             if isinstance(one, (Impact, MomentumSolution)):
                 options["notes"] = (*own, *_stated(self.case.call, inputs_of(one), own))
             else:
-                # Of a study the result holds neither the solver nor what is known exactly.
+                # The result of a study holds neither the solver nor what is known exactly.
                 options["notes"] = (*own, f"The case is {self.case.solver}, with {', '.join(_known(self.case.call))}.")
         whole: str = self._made(report, {**options, "impact": one})
         return whole
@@ -195,7 +195,7 @@ def _limits(name: str) -> tuple[float, float]:
     return least, 1.0 if name in ("restitution", "critical_fraction") else math.inf
 
 
-# What an impact changes of a vehicle.
+# What an impact changes in a vehicle.
 _MOVING = ("vx", "vy", "speed", "course", "yaw_rate")
 
 
@@ -287,7 +287,7 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
         if any(not np.all(root.refused) for root in roots[count:]):
             text = "has more answers in some cases than in the stated one; narrow what is uncertain, or give what decides"
             raise CaseError((case.solver, text), refused=True, code="ambiguous")
-        # Where roots have met and gone, those left cannot be told apart.
+        # Where two roots have met and vanished, those left cannot be told apart.
         all_there = True if count == 1 else np.False_ if len(roots) < count else ~roots[count - 1].refused
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
         found = roots[min(which, len(roots) - 1)]

@@ -289,7 +289,7 @@ def _filled(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
         if node.key not in values:
             return node.nominal
-        # Of what is stated with a unit a bare angle of more than a turn would be warned of.
+        # Where it was stated with a unit, a bare angle of more than a turn would give a warning.
         given = values[node.key]
         return to_quantity(given, node.stated.unit) if hasattr(node.stated.unit, "written") else given
     if isinstance(node, Call):
@@ -505,7 +505,7 @@ class _Reader:
 
     def _observed(self, key: str, value: Any) -> Any:
         """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
-        # Of an observation two dots say that it lies between, not how likely it is where.
+        # For an observation, two dots say that it lies between, not how probable each place is.
         call = Call(key, stated, {"text": value, "bounds": uncertainty.Interval})
         found = value
         if isinstance(value, str) and _UNCERTAIN.fullmatch(value):

@@ -302,7 +302,7 @@ def motions(page: Page, s: Symbols) -> None:
         "Delta-V is the change of velocity of the centre of mass. The PDOF is where the impulse on a vehicle comes from, seen "
         "from that vehicle: 0 from ahead, positive clockwise. Directions are counted counter-clockwise from the x axis."
     )
-    # What a body of infinite mass is pushed by is known from the other one.
+    # The impulse on a body of infinite mass is known from the other body.
     for body in sorted(s.bodies, key=lambda body: body.fixed):
         if body.fixed:
             page.say(f"{body.label} has an infinite mass, so its delta-V is 0.")
@@ -357,7 +357,7 @@ def _speed_and_course(page: Page, body: Body) -> None:
     if page.system.working(state.speed, "speed") == "0":
         page.say(f"{label} is at rest after: {page.shown(speed)}, and no course.")
         return
-    # What keeps its velocity keeps the symbols of that before.
+    # A body that keeps its velocity keeps the symbols of the velocity before.
     x, y = (body.axis(axis, BEFORE if body.fixed else AFTER) for axis in "xy")
     page.equation(f"Speed of {label} after (definition)", speed, magnitude(x, y))
     course = Symbol(rf"\theta_{{{label}}}'", state.course, "angle")

@@ -29,7 +29,7 @@ from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
-# Of a standard deviation: what an answer may differ from the mean of its propagation.
+# In standard deviations: how far an answer may differ from the mean of its propagation.
 _OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
 NOT_EXPLAINED = (

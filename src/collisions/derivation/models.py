@@ -395,7 +395,7 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")
     if s.impact.inputs.outside_a is not None or not s.impact.complete:
         return
-    # From the body that changes more; max takes A of equal ones.
+    # From the body that changes more; if they are equal, max takes A.
     body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))
     # Without friction a body that is free has it from (13).
     if body.turns and (body.pinned or s.tangential.value != 0.0):

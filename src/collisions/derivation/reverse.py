@@ -13,7 +13,7 @@ from .page import Page
 from .symbols import AFTER, Symbol, Symbols
 
 _VELOCITIES = ("va", "vb", "va_after", "vb_after")
-# Of these both vehicles' are known at once, by the name of that of A.
+# These are known for both vehicles at once, under the name of the one of A.
 _OF_BOTH = {"ees_a": "EES of both (ISO 12353)", "max_crush_speed_a": "speeds of maximum crush of both"}
 
 

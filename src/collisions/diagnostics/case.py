@@ -32,7 +32,7 @@ _ENERGY_FIGURES = 4
 
 
 class Damage(NamedTuple):
-    """The PDOF and delta-V that a vehicle's damage shows, independently of the result; the direction if it came as a pair."""
+    """The PDOF and delta-V shown by a vehicle's damage, independent of the result, with a direction if given as a pair."""
 
     pdof: float | None
     delta_v: float | None

@@ -14,7 +14,7 @@ from .finding import MESSAGES, METHOD, Measured, above, finding
 
 # In metres, of positions and outlines together.
 _POSITION_ERROR = 0.3
-# A lever that a force turned by 10 degrees would reverse tells nothing.
+# A lever arm that would reverse if the force were turned by 10 degrees tells nothing.
 _LEVER_TOL = math.sin(math.radians(10.0))
 # Slower than this, in m/s, a course tells little; faster than this, in rad/s, a vehicle spins.
 _SLOW, _SPINNING = 1.0, 0.5
@@ -183,7 +183,7 @@ def jamming(case: ImpactCase) -> Iterator[Measured]:
 def contact_points_approach(case: ImpactCase) -> Iterator[Measured]:
     impact = case.answer
     point, (nx, ny) = impact.point, impact.normal
-    # Where places and normal move on, those given tell nothing of the end.
+    # Where positions and normal change during the contact, the given ones tell nothing of its end.
     if (
         point is None
         or impact.pulse is not None

@@ -26,7 +26,7 @@ _YAW_RATE_SEEN = 0.1
 def near_collinear(case: MomentumCase) -> Iterator[Measured]:
     names = case.answer.unknowns
     one, other = (getattr(case.answer, name.replace("speed", "course")) for name in names)
-    # Exactly ten degrees still count, also where rounding makes them more.
+    # Exactly ten degrees still count, even where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
     sentence = (
         f"the courses of {' and '.join(names)} are {case.text(angle, 'angle')} from one line: across it, momentum tells little "
@@ -88,7 +88,7 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
         if isinstance(case, ImpactCase) and case.left_out is not None:
             left = getattr(case.left_out, label)
             most, part = left.tyre_delta_v_bound, left.tyre_share_bound
-            # Of a body that turns about a pivot it is an estimate.
+            # For a body that turns about a pivot it is an estimate.
             how = "up to" if getattr(case.answer, label).before.pivot is None else "about"
         else:
             most = case.drag * GRAVITY * case.duration

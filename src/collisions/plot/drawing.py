@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 Place = tuple[float, float]
 
 _FONT = 9.5
-# Of the larger extent: what is left free around, and the least there is of the other one.
+# As shares of the larger extent: the margin left free all round, and the least of the other extent.
 _MARGIN, _STRIP = 0.14, 0.42
 # Points: a cell of the map of what is drawn, what stays free around a label, and what is mapped beyond the Axes.
 _CELL, _CLEAR, _BEYOND = 2.0, 3.0, 120.0
 # What a cell costs a label that covers it: of a line, by its width; of another label; beyond the Axes.
 _LINE, _LABEL, _OUTSIDE = 40.0, 100.0, 30.0
-_FOREIGN = 100.0  # what lying wholly on the other vehicle costs
+_FOREIGN = 100.0  # the cost of lying wholly on the other vehicle
 _LONGEST = 5000.0  # points of a line that are mapped
 _RING = np.stack([np.cos(np.linspace(0.0, math.tau, 13)), np.sin(np.linspace(0.0, math.tau, 13))], axis=1)
 _NEAR, _FAR, _TURN = 5.0, 0.4, 3.0  # points that are too near, and the cost of a point and of a radian away

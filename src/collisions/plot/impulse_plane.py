@@ -101,7 +101,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     compressed = [part * factor for part in until_compressed(impact.inputs, answer_of(impact), impact.choice, names)]
     ends = closing, closing + impact.separation_speed * factor
     if impact.inputs.outside_a is not None:
-        # Begun at another closing speed: where the impulses end that there were.
+        # The contact began at another closing speed, so the lines go where the actual impulses ended.
         ends = k_nn * compressed[0] + k_nt * compressed[1], k_nn * normal + k_nt * tangential
     if not plain:
         _draw_friction(axes, impact, right, low, high)

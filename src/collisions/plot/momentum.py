@@ -16,7 +16,7 @@ from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Of the longest: between momenta side by side, if all are so, or if only some would hide each other.
+# Gap between momenta side by side, as a share of the longest: where all are, or where only some would hide each other.
 _SIDE_BY_SIDE, _APART = 0.11, 0.04
 _TRIED = 12
 _NOTHING = 1e-9  # relative: a momentum or a speed this small is rounding
@@ -129,7 +129,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
     axes.set_ylabel(labels.label("momentum along y", "kg*m/s"))
     for axis, along in ((axes.yaxis, (0.0, 1.0)), (axes.xaxis, (1.0, 0.0))):
-        # Arrows along the other axis lie side by side, and this one counts nothing.
+        # Arrows along the other axis are drawn side by side, so distances along this one mean nothing.
         axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
     vehicles = enumerate((impact.a.before, impact.b.before))
     named = [in_lines(f"{'AB'[at]}: {vehicle.name}", _TITLE, 1) for at, vehicle in vehicles if who(at, vehicle) != "AB"[at]]

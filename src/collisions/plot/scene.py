@@ -180,7 +180,7 @@ def corners_of(vehicle: Vehicle, outline: Any, name: str, letter: str) -> list[P
 
 
 def size_of(known: list[Place], labels: Units, sketched: bool) -> float:
-    """The larger extent of the places, or of vehicles where these are all in one."""
+    """The larger extent of the places, or of vehicles where all the places coincide."""
     size = max(max(place[i] for place in known) - min(place[i] for place in known) for i in (0, 1))
     farthest = max(abs(part) for place in known for part in place)
     length = labels.factor("m")
@@ -268,7 +268,7 @@ class Picture:
             self.drawing.label(start if before else tip, text, away, COLOURS[index], of=index)
 
     def impulses(self, impact: Impact, starts: list[Place], pins: list[Place | None]) -> float:
-        """The impulse on both from these places, and that of each pivot; how much one unit of length stands for."""
+        """Draw the impulse on both from these places, and that of each pivot; gives how much one unit of length stands for."""
         sides = impact.a, impact.b
         impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
         pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]

@@ -224,7 +224,7 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
     parts = notes if isinstance(notes, (list, tuple)) else [notes] if isinstance(notes, (str, Mapping)) else []
     paragraphs = [part for part in parts if not isinstance(part, Mapping)]
     beside = {name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()}
-    # Of an impulse duration and drag are no inputs, but options of the page, as the outlines are.
+    # For an impulse, duration and drag are not inputs but options of the page, as the outlines are.
     own = ["duration", "drag"] if isinstance(impact, Impact) and impact.pulse is None else []
     own += (name for name in ("outline_a", "outline_b") if options[name] is not None)
     known = list(dict.fromkeys([*inputs_of(impact), *own]))

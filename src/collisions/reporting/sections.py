@@ -34,7 +34,7 @@ from .render import Sheet, given_as, plain
 # A reverse solver's result agrees with its inputs within this, relative to the speeds or energies of the impact; end states
 # that still approach by up to a hundredth of the closing speed are taken to stay together.
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
-# Components of delta-V are measured: more of them than are needed are met as well as they agree.
+# Components of delta-V are measured: if more are given than are needed, they are met only as well as they agree.
 _RECORDED = 0.3
 _EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
