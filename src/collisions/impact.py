@@ -147,12 +147,12 @@ class Impact(Frozen, Summarized):
 
     @derived("m/s")
     def slip_before(self) -> Value:
-        """Tangential velocity of B relative to A at the contact, before [m/s]."""
+        """Tangential velocity of B relative to A at the contact before the impact [m/s]."""
         return self._output("slip_before")
 
     @derived("m/s")
     def slip_after(self) -> Value:
-        """Tangential velocity of B relative to A at the contact, after [m/s]."""
+        """Tangential velocity of B relative to A at the contact after the impact [m/s]."""
         return self._output("slip_after")
 
     @derived("N*s")
@@ -259,9 +259,9 @@ class Impact(Frozen, Summarized):
         """Energy equivalent speeds (A, B) [m/s] by ISO 12353, if A dissipated this share of ``energy_loss`` and B the rest.
 
         The EES is the speed at which the vehicle alone would dissipate as much energy against a fixed rigid object. It counts
-        what is left of the energy after restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no default
-        share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where energy was
-        gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
+        the energy that remains dissipated after restitution, so that the sum of m EES^2 / 2 is ``energy_loss``. There is no
+        default share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where
+        energy was gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
 
         Examples
         --------

@@ -66,7 +66,7 @@ def linear_central(
         and one warning counts them. "raise": the first one raises, also in a batch. "nan": NaN with a status, without a
         warning.
     threads : int, optional
-        Threads for a batch.
+        Number of threads for a batch.
     progress : callable or True, optional
         Called as ``progress(done, total)`` after each block of a batch; True shows a bar once a run takes over a second,
         with tqdm where that is installed (extra ``progress``).
@@ -196,12 +196,12 @@ def eccentric(
 ) -> Impact:
     """Solve an eccentric impact: the line of impact misses a centre of mass, so the bodies turn.
 
-    The model is impulse and momentum, linear and angular, of both bodies, with restitution between the velocities of the
+    The model applies impulse and momentum, linear and angular, to both bodies, with restitution between the velocities of the
     contact points along the normal (eqs 10 to 19 of "Application of Impulse Momentum Theory to Vehicle Collisions") and
-    friction along the tangent, for free, pinned and fixed bodies. The contact is one point with one normal, the impact takes no
-    time and no distance, and tyre forces during it are left out unless they are given as ``outside_a`` and ``outside_b``. It is
-    valid where the impulse of the contact is large compared with that of the tyres, and where a point and a normal can be
-    assigned to the damage.
+    friction along the tangent. The bodies may be free, pinned or fixed. The contact is one point with one normal, the impact
+    takes no time and no distance, and tyre forces during it are left out unless they are given as ``outside_a`` and
+    ``outside_b``. The model is valid where the impulse of the contact is large compared with that of the tyres, and where a
+    point and a normal can be assigned to the damage.
 
     Parameters
     ----------
@@ -428,17 +428,17 @@ def required_model(
     """The simplest model whose answer stays within a tolerance of the eccentric one.
 
     The candidates are the linear central model (which leaves motion across the normal unchanged), the oblique central model and
-    the eccentric one. The error of a candidate is taken for the vehicle for which it is larger: the hypotenuse of the error of
-    the delta-V vector and of the radius of gyration times the error of the change of yaw rate. It is worked out from the
+    the eccentric one. The error of a candidate is that of the vehicle for which it is larger: the hypotenuse of the error of
+    its delta-V vector and of its radius of gyration times the error of its change of yaw rate. It is worked out from the
     impulse at the contact, without the rest of the eccentric answer, and a candidate is accepted if 1.15 times its error is
     within the tolerance. The effect of a lever arm depends on yaw inertia, position and point; where one of these is not known,
     and a lever arm may matter, the error is not known either. A lever arm of up to 16 eps of the coordinates, and of 0.1 mm at
     most, is rounding and does not matter.
 
     With ``duration``, a contact of that duration with tyres of that drag is a fourth candidate, ``time_resolved``, and the one
-    with which all are compared; for this it is followed roughly, in 25 steps. The errors of the models that take no time then
-    include what they leave out. It needs ``friction``, and takes no pivot, no impulse from outside and no restitution below 0;
-    otherwise it is not a candidate, and the reason says so, as it does where it has no answer.
+    against which all are measured; for this it is followed roughly, in 25 steps. The errors of the models that take no time
+    then include what they leave out. ``time_resolved`` needs ``friction``, and takes no pivot, no impulse from outside and no
+    restitution below 0; otherwise it is not a candidate, and the reason says so, as it does where it has no answer.
 
     Parameters
     ----------
