@@ -175,7 +175,7 @@ class _Candidate:
     def moves(self) -> tuple[Any, Any]:
         """Two errors of each unknown up and down (2, n), within the bounds, and how far the misfit rises there, in sigma.
 
-        The others move along within theirs as the slopes say, those here and then those there.
+        The others follow within their bounds, first by the slopes here, then by those there.
         """
         covariance = self.determination_of(self.free).covariance
         known = np.isfinite(np.diagonal(covariance))
@@ -202,14 +202,14 @@ class _Candidate:
     def nonlinearity(self) -> float:
         """Relative error of the half-width of the 95 percent intervals; NaN if the model refuses within two errors.
 
-        Of a straight model the misfit rises by as many sigma as an unknown is moved in standard errors.
+        In a linear model the misfit rises by as many sigma as an unknown is moved in standard errors.
         """
         far, risen = self.moves
         compared = ~(np.maximum(far, risen) <= _LEAST_MOVE)
         return float(np.max(abs(far / risen - 1.0)[compared], initial=0.0))
 
     def turns_round(self, ends: Ends) -> bool:
-        """Whether the searches agree in an unknown of which slopes tell nothing: its misfit turns there."""
+        """Whether the searches agree in an unknown about which the slopes tell nothing: its misfit turns there."""
         here = ends.points[_ended_at(ends, self.chi_squared)]
         return len(here) > 0 and bool(np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale)))
 

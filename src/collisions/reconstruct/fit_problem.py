@@ -43,7 +43,7 @@ class FitInputs(NamedTuple):
         return np.array([one is not None for one in found] if part == "prior" else found)
 
     def starts(self, count: int) -> Any:
-        """Where to start: all over the bounds, or as far about the start as its scale, or three deviations of the prior."""
+        """Where to start: all over the bounds, or around the start as far as its scale, or three deviations of the prior."""
         start, low, high = (self.numbers_of(part) for part in ("start", "low", "high"))
         span = np.where(self.numbers_of("prior"), _PRIOR_SPAN, 1.0) * self.numbers_of("scale")
         points = spread(count, np.maximum(low, start - span), np.minimum(high, start + span))

@@ -26,9 +26,9 @@ _LARGEST = 1e100
 class Problem(NamedTuple):
     """A least-squares problem in units of standard deviations.
 
-    ``evaluate`` takes points (k, n) and gives what the model makes of them (k, m), NaN where it refuses; ``period`` is NaN for
-    what does not go round a circle; ``scale`` is how far each unknown may be thought to move, and ``size`` the length over
-    which the model changes, for the steps of the slopes; without it a guess from the scale.
+    ``evaluate`` takes points (k, n) and returns the outputs of the model there (k, m), NaN where it refuses; ``period`` is NaN
+    for what does not go round a circle; ``scale`` is how far each unknown may be expected to move, and ``size`` the length over
+    which the model changes, which sets the steps of the slopes; without it, a guess from the scale.
     """
 
     evaluate: Callable[[Any], Any]
@@ -112,8 +112,8 @@ def spread(count: int, low: Any, high: Any) -> Any:
 def minimise(problem: Problem, starts: Any) -> Ends:
     """Levenberg-Marquardt from every start at once, projected on the bounds; a step into a refusal is never taken.
 
-    Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, seen in the metric of
-    the standard errors, is rounding; one that no step however short takes lower, as at a jump or a refusal, has not.
+    Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is left, in the metric of the
+    standard errors, is rounding; one that no step, however short, takes lower, as at a jump or a refusal, has not.
     """
     points = np.clip(starts, problem.low, problem.high)
     outputs, slopes = problem.with_slopes(points)
@@ -157,7 +157,7 @@ def _slope_error(outputs: Any, scale: Any, steps: Any) -> Any:
 def _step(problem: Problem, points: Any, outputs: Any, slopes: Any, damping: Any) -> tuple[Any, Any, Any]:
     """Where the damped step within the bounds leads, the predicted fall of chi-squared, and how much there is left to go.
 
-    That is the length of the undamped step in standard errors, over the misfit where that is above 1, along directions of
+    The last is the length of the undamped step in standard errors, over the misfit where that is above 1, along directions in
     which the slopes are more than rounding.
     """
     misfit, scaled = problem.misfit(outputs), slopes * problem.scale

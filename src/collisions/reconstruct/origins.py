@@ -167,9 +167,9 @@ class End:
     def _noise(self, eps: float) -> Any:
         """What rounding may leave of the slip and of the separation speed where the contact is at rest after the impact.
 
-        The motion after may be next to nothing then, so the motion before counts. A slip before that stuck lies between those
-        of a contact that slid either way, and the energy lost bounds it; where friction jams on one side or has no end, and no
-        energy is known, nothing does.
+        The motion after may then be next to nothing, so the motion before counts. The slip before a contact that stuck lies
+        between those of contacts that slid either way, and the energy lost bounds it; where friction jams on one side or has no
+        end, and no energy is known, nothing does.
         """
         size = self.size + np.where(self.closing > 0.0, self.closing, 0.0)
         endless = np.isinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
@@ -237,7 +237,7 @@ class End:
         return self._origin(regime, normal, tangential, e, condition, velocity, resistance > 0.0)
 
     def _sticking(self, regime: str, possible: Any) -> Origin:
-        """The origin of a contact that does not slip under "kudlich-slibar", which sends all of the velocity back e-fold."""
+        """The origin of a contact that does not slip under "kudlich-slibar", which returns the whole velocity times e."""
         if self.law == BRACH:
             nothing = np.full((), np.nan)
             return self._origin(regime, nothing, nothing, nothing, nothing, (nothing, nothing), False)

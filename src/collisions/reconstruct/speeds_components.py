@@ -102,7 +102,7 @@ class ComponentScene(Scene):
     def _edges(self) -> list[tuple[Any, Root, Any, Any]]:
         """With one speed known: where sticking just uses up the friction, one way or the other.
 
-        There the least misfit lies where each regime has its own beyond its end.
+        The least misfit lies there where that of each regime lies beyond its end.
         """
         if self.rule != FRICTION or len(self.unknown) > 1:
             return []
@@ -137,7 +137,7 @@ class ComponentScene(Scene):
         return [target - one for target, one in zip(self._momenta, seen, strict=True)]
 
     def _of(self, label: str, left: Sequence[Any]) -> Any:
-        """The length of what is left of the components of one vehicle."""
+        """The length of what remains of the components of one vehicle."""
         return np.sqrt(sum((one * one for kind, one in zip(self.components, left, strict=True) if kind[-1] == label), 0.0))
 
     def fits(self, root: Root) -> tuple[Any, Any]:
