@@ -214,7 +214,7 @@ for side in (forward.a, forward.b):
 #
 # The readings and their errors go in as distributions: the chain of run-out, momentum and impact is computed for thousands of
 # cases at once, and the answer is a range, given these inputs. The friction of the asphalt is the same for both cars, because
-# they slid on one road. The positions near the impact decide the courses, so the second and third positions of each car are
+# it is one road. The positions near the impact decide the courses, so the second and third positions of each car are
 # moved across its path, within the 0.1 m to which they were read.
 
 # %%
@@ -330,7 +330,7 @@ for answer in answers:
 # - `planar` and `eccentric` undo each other: each errs by a few eps of speeds below 20 m/s, times a condition of 11, which is
 #   below 1e-12; the limit of 1e-10 m/s and rad/s leaves room for other processors.
 # - The two methods agree within two standard deviations of their difference, with friction, lock and contact held at the
-#   values above and the positions and courses varied within their reading errors.
+#   values above and the positions and courses varied within their stated errors.
 # - The single answers lie within their ranges, but need not be the means, because the chain is not linear.
 # - Solved forward, the speeds from momentum meet the marks: the speeds within 1.5 km/h; the courses within 3 degrees, which is
 #   the reading error of 0.1 m at either end of a first segment of 2.4 to 3.1 m (0.1/2.4 is 2.4 degrees); the yaw rates within

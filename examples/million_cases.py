@@ -91,7 +91,7 @@ print(
 # ## Cases without an answer
 #
 # Such a case is NaN in every answer, and `status` says why. To leave these cases out is to say that they cannot have happened.
-# Here that is true: the impact did happen, so A was the faster, and restitution is never negative.
+# Here that is true: the impact did happen, so A was the faster, and in such an impact the restitution is not negative.
 
 # %%
 for code, count in zip(*np.unique(batch.status, return_counts=True), strict=True):

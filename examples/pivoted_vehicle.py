@@ -115,7 +115,7 @@ legend = figure.legend(loc="outside lower center", ncols=3)
 # - The momentum that A and B gain together comes from the pivot; their angular momentum about O is the same after as before.
 # - The pivot takes nothing when B is struck at two thirds of its length, the centre of percussion of a rod that hangs by its
 #   end (see any textbook of mechanics). By the same rule a free rod struck at its end turns about the point one third of its
-#   length from the other end, which stays where it is.
+#   length from the other end: that point has no velocity.
 
 # %%
 turn, va = pinned.b.after.yaw_rate, pinned.a.after.vx

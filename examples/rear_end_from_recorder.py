@@ -6,7 +6,8 @@
 # together.
 #
 # The function is `reference.restitution`, a published fit; it is used here from 2 to 15 mph. A recorder counts longitudinal
-# delta-V positive forward; like `delta_v`, it is that of the centre of mass.
+# delta-V positive forward, as `delta_v_forward` does. Here it is taken as that of the centre of mass; a sensor elsewhere in a
+# car that turns shows another (`delta_v_at`).
 
 # %%
 import math

@@ -5,9 +5,9 @@
 # follows. This example shows how to give it as `impulse_ratio=`, how that differs from `friction=`, and what a wrong ratio
 # costs.
 #
-# **The scene is invented.** `impulse_ratio` is the tangential impulse over the normal impulse, *signed*, along the tangent on
-# B. `friction` is a limit without a sign: the solver finds the direction of the tangential impulse, and stops where slip stops.
-# With a ratio it does neither.
+# **The scene is invented.** `impulse_ratio` is the tangential impulse over the normal impulse, *signed*: positive if
+# the impulse on B points along the tangent. `friction` is a limit without a sign: the solver finds the direction of the
+# tangential impulse, and stops where slip stops. With a ratio it does neither.
 
 # %%
 import math
