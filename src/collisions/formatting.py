@@ -30,7 +30,7 @@ def clock_hour(pdof: float) -> int:
 
 
 def clock(name: str, value: float) -> str:
-    """What stands behind a PDOF, by the name of its attribute: the hour; nothing behind other numbers."""
+    """The text after a PDOF, known by the name of its attribute: its clock hour; "" after other numbers."""
     return f" ({clock_hour(value)} o'clock)" if "pdof" in name.lower() and math.isfinite(value) else ""
 
 

@@ -45,13 +45,13 @@ class Vehicle(_AsGiven):
     Parameters
     ----------
     mass : float, str, Quantity or array [kg]
-        Mass, > 0; ``inf`` for a body that does not move.
+        Mass, > 0; ``inf`` for a body that keeps its velocity whatever strikes it, such as a wall.
     vx, vy : float, str, Quantity or array [m/s]
         Velocity of the centre of mass.
     yaw_rate : float, str, Quantity or array [rad/s]
         Yaw rate, positive counter-clockwise.
     yaw_inertia : float, str, Quantity or array [kg*m**2], optional
-        Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that does not rotate.
+        Yaw moment of inertia about the centre of mass, > 0; ``inf`` for a body that keeps its yaw rate.
     x, y : float, str, Quantity or array [m], optional
         Position of the centre of mass. It is never taken as 0 when it was not given.
     heading : float, str, Quantity or array [rad], optional

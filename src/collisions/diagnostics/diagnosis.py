@@ -95,7 +95,7 @@ def diagnose(
         An argument that cannot be used, an unknown code, a batch (``ShapeError``), an answer that was refused, outlines for an
         answer of planar momentum, which has no positions, or a ``reconstruct.Fit`` (diagnose the impact at its values instead).
     MissingInputError
-        An outline of a vehicle without position or heading, or a PDOF from the damage of one without heading.
+        An outline of a vehicle without position or heading, or a PDOF from the damage of a vehicle without heading.
 
     Notes
     -----

@@ -114,9 +114,10 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
 def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
     """Each observation minus its computed value, divided by its stated error: where the evidence disagrees with the model.
 
-    If the errors are as stated, two of three observations lie within the dark band and nineteen of twenty within the light one.
-    For a posterior, the line holds 95 percent of the computed values; a censored reading has no line, and its point is off the
-    middle only where its bound is missed. Readings with sharp bounds, which are met, are left out.
+    If the errors are as stated and the observations many more than the unknowns, two of three lie within the dark band and
+    nineteen of twenty within the light one; with few observations more do, because the unknowns follow them. For a posterior,
+    the line holds 95 percent of the computed values; a censored reading has no line, and its point is off the middle only where
+    its bound is missed. Readings with sharp bounds, which are met, are left out.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def central(
     Parameters
     ----------
     mass_a, mass_b : float, str, Quantity or array [kg]
-        Masses, > 0; ``inf`` for a body that does not move.
+        Masses, > 0; ``inf`` for a body that keeps its velocity, such as a wall.
     va, vb : float, str, Quantity or array [m/s], optional
         Velocities before the impact.
     va_after, vb_after : float, str, Quantity or array [m/s], optional

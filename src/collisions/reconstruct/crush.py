@@ -39,7 +39,7 @@ def crush_energy(
     The force per unit width at a depth C is taken as A + B C, A being what the structure bears before it yields, so each unit
     of width absorbs A C + B C^2 / 2 + A^2 / (2 B). Between two measured depths the profile is taken as straight, which
     integrates exactly to the trapezoid rule of the CRASH programs for any number of points. If the force is at an angle, the
-    energy is divided by the square of the cosine, so that its whole work is counted.
+    energy is divided by the square of the cosine, so that the work of the whole force is counted.
 
     A list, a tuple, a numpy array or a Quantity of one dimension is the profile of one case. For many cases give lists whose
     entries are arrays, one entry for each point or gap, with one element for each case; the other arguments may be arrays too.
@@ -197,7 +197,7 @@ def crush_delta_v(
     energy : float, str, Quantity or array [J]
         Energy of both vehicles, >= 0: the sum of their ``crush_energy``.
     mass_a, mass_b : float, str, Quantity or array [kg]
-        Masses, > 0; ``inf`` for one that does not move.
+        Masses, > 0; ``inf`` for one that keeps its velocity, such as a wall.
     gamma_a, gamma_b : float, str, Quantity or array
         Mass reduction factors k^2 / (k^2 + h^2), with the radius of gyration k and the moment arm h of the impulse, as
         ``gamma`` of each side of an ``Impact``. 1 where the impulse passes through the centre of mass.

@@ -73,8 +73,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         cases it is called with, or answers the same case differently when asked again.
     AmbiguousSolutionError
         Another answer, more than a standard error away, has a chi-squared less than 4 above the best; all that the searches
-        found are in ``solutions``. An unknown friction leads to this if the contact may have slid, or may have stuck whatever
-        its value.
+        found are in ``solutions``. With an unknown friction this happens where the evidence fits a contact that slid and,
+        about as well, one that stuck, whose friction may be any that is high enough.
     NoSolutionError
         The model refuses at every start (code "refused"); or the misfit is least at a jump, a kink, an edge or a turning point
         of the model, where no error can be given, or at a point that at most two of the searches reached (code

@@ -73,7 +73,8 @@ def inline_closing_speed(
 
     Examples
     --------
-    A delta-V of 5 km/h between cars of equal mass: a restitution suited to the low speed makes a difference of two km/h.
+    For a delta-V of 5 km/h in a car struck by one of equal mass, a restitution suited to the low speed makes a difference of
+    two km/h:
 
     >>> from collisions import reconstruct, reference
     >>> def low_speed(v):  # from 2 to 15 mph

@@ -123,9 +123,10 @@ def recorded_pulse(
 ) -> RecordedPulse:
     """Total delta-V of a recorder's pulse, when it was reached, its direction, and whether the pulse had ended.
 
-    The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if, within 20 ms that end at that
-    time or later, the resultant changes by no more than 0.8 km/h (end of event time, ibid.). The recorder is taken to sit at
-    the centre of mass: in a car that turns, one mounted elsewhere reads a different delta-V (``Side.delta_v_at``).
+    The total is the largest resultant (maximum delta-V of 49 CFR 563.5). The pulse has ended if there are 20 ms, up to that
+    maximum or later, in which the resultant changes by no more than 0.8 km/h (end of event time, ibid.). The recorder is
+    taken to sit at the centre of mass: in a car that turns, one mounted elsewhere reads a different delta-V
+    (``Side.delta_v_at``).
 
     Parameters
     ----------

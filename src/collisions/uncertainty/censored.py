@@ -13,8 +13,8 @@ class Censored(Stated):
 
     A recorder that ended early would have read at least what it had reached; a speed class or a display in steps gives two
     values with the reading between them. As evidence, it is weighted by the probability that a reading falls within the
-    bounds, where readings are normally distributed about the truth with this error. Without an error, the truth itself lies
-    within the bounds, and an observation ``Interval(low, high)`` says the same.
+    bounds, where readings are normally distributed about the truth with the standard deviation ``error``. Without an error, the
+    truth itself lies within the bounds, and an observation ``Interval(low, high)`` says the same.
 
     Parameters
     ----------

@@ -144,7 +144,7 @@ class NormalFamily(Distribution):
 
     @property
     def _steepness(self) -> float:
-        """Derivative of the quantity's logarithm over the score; 0 for Normal, whose quantity is linear in the score."""
+        """Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is linear in the score."""
         return 0.0
 
     @staticmethod

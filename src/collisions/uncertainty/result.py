@@ -65,10 +65,10 @@ class Output(Summarized):
     interval the truth lies.
 
     Directions, that is angles returned with a unit that all lie in [-pi, pi], are counted round the circle from the point
-    opposite their mean, and so may exceed pi. The mean, in (-pi, pi], is the direction for which the mean square of the angular
-    distances is least; the standard deviation is the root of this mean square; quantiles and intervals are those of the
-    directions so counted. For a direction with a normal error far smaller than half a turn, these are its ordinary mean and
-    standard deviation.
+    opposite their mean, and so may lie beyond pi or -pi. The mean, in (-pi, pi], is the direction for which the mean square
+    of the angular distances is least; the standard deviation is the root of this mean square; quantiles and intervals are
+    those of the directions so counted. For a direction with a normal error far smaller than half a turn, these are its
+    ordinary mean and standard deviation.
     """
 
     given = "the stated inputs"

@@ -228,9 +228,9 @@ def _blocks(start: int, stop: int) -> list[tuple[int, int]]:
 def sampled_shares(model: Model, joint: Joint, design: Callable[[int], Design], samples: int) -> dict[str, Shares]:
     """Each input's share of the variance of every output, by redrawing that input while the others stay.
 
-    It takes ``samples`` cases for each input and twice more. First-order shares by the estimator of A. Saltelli et al.,
-    "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares by that of
-    M. J. W. Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999).
+    It takes ``samples`` cases for each input, and twice as many besides. First-order shares by the estimator of A. Saltelli
+    et al., "Variance based sensitivity analysis of model output", Computer Physics Communications 181 (2010), total shares
+    by that of M. J. W. Jansen, "Analysis of variance designs for model output", Computer Physics Communications 117 (1999).
     """
     places = -(-samples // REPLICATES)
     points = design(2 * joint.dimensions)(0, places).reshape(2 * joint.dimensions, -1)
