@@ -171,6 +171,23 @@ def stated(found: dict[str, Any]) -> str:
     return text.replace("| --- | ---: |", "| --- | --- |", 1)
 
 
+def lowest(found: dict[str, Any]) -> str:
+    """Whether the lowest share that ``stated`` lists of a mean or a standard deviation may be chance."""
+    grouped: dict[Any, list[Any]] = {}
+    for row in found["sampled"]:
+        grouped.setdefault((row["method"], row["samples"]), []).append(row)
+    shares = []
+    for rows in grouped.values():
+        runs = sum(row["seeds"] for row in rows)
+        shares += [(round(sum(row["seeds"] * row["within"][i] for row in rows)), runs) for i in (0, 1)]
+    held, runs = min(shares, key=lambda share: share[0] / share[1])
+    chance = sum(math.comb(runs, k) * 0.95**k * 0.05 ** (runs - k) for k in range(held + 1))
+    return (
+        f"The lowest share of a mean or a standard deviation is {held} of {runs} runs. Where the true share is 95 percent, chance alone "
+        f"gives so few about once in {float(f'{1.0 / chance:.1g}'):.0f} shares, and the table has {len(shares)} of these."
+    )
+
+
 def agreement(found: dict[str, Any]) -> str:
     """How far the sampling methods are from the reference, in the standard errors of the comparison."""
     large = [row for row in found["sampled"] if row["samples"] >= chosen(found)]
