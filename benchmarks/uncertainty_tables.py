@@ -182,9 +182,10 @@ def lowest(found: dict[str, Any]) -> str:
         shares += [(round(sum(row["seeds"] * row["within"][i] for row in rows)), runs) for i in (0, 1)]
     held, runs = min(shares, key=lambda share: share[0] / share[1])
     chance = sum(math.comb(runs, k) * 0.95**k * 0.05 ** (runs - k) for k in range(held + 1))
+    once = f"once in {float(f'{1.0 / chance:.1g}'):.0f} shares"
     return (
-        f"The lowest share of a mean or a standard deviation is {held} of {runs} runs. Where the true share is 95 percent, chance alone "
-        f"gives so few about once in {float(f'{1.0 / chance:.1g}'):.0f} shares, and the table has {len(shares)} of these."
+        f"The lowest share of a mean or a standard deviation is {held} of {runs} runs. Where the true share is 95 percent, "
+        f"chance alone gives so few about {once}, and the table has {len(shares)} of these."
     )
 
 
