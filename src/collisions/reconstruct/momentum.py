@@ -296,7 +296,7 @@ def _refusal(status: Status, first: str, second: str) -> CollisionsError:
         )
     if status is Status.INFINITE_MASS:
         return NoSolutionError(
-            "a mass is inf, and a body that no impulse can slow has no balance of momentum to solve; for an impact on a barrier use "
+            "a mass is inf, and a body that no impulse slows down has no balance of momentum; for an impact on a barrier use "
             "reconstruct.central, reconstruct.planar or reconstruct.speeds",
             code="infinite_mass",
         )
