@@ -1083,6 +1083,15 @@ def test_there_is_a_cone_only_where_friction_bounds_the_impulse(case, lines):
     assert ("no slip" in names(axes)) == (case != "example 2")
 
 
+def test_a_friction_as_good_as_infinite_has_no_cone():
+    """Its edges would lie beyond what floats hold."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        axes = plot.impulse_plane(col.eccentric(A, B, 0.1, friction=1e308, **T_BONE))
+    assert not [name for name in names(axes) if name.startswith("friction")]
+    assert "cone" not in axes.get_xlabel()
+
+
 @pytest.mark.parametrize(
     ("case", "ends"),
     [

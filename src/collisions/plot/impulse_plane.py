@@ -15,7 +15,7 @@ from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..model_choice import until_compressed
 from ..warning import quietly
-from .canvas import FORCE, GREY, INK, LIGHT, Units, answered, begin, legend_below, only_of_an_impulse, tidy
+from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Units, answered, begin, legend_below, only_of_an_impulse, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -103,8 +103,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     if impact.inputs.outside_a is not None:
         # The contact began at another closing speed, so the lines go where the actual impulses ended.
         ends = k_nn * compressed[0] + k_nt * compressed[1], k_nn * normal + k_nt * tangential
-    if not plain:
-        _draw_friction(axes, impact, right, low, high)
+    cone = not plain and _draw_friction(axes, impact, right)
 
     def line(gid: str, along_n: float, along_t: float, total: float, text: str, **style: Any) -> None:
         """The line along_n Pn + along_t Pt = total; not in the legend if no part of it is in the picture."""
@@ -148,7 +147,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
     how = f",\nhere {_ENDS[impact.regime]}."
-    if shows_no_slip and impact.friction not in (None, 0.0, math.inf):
+    if shows_no_slip and cone:
         how = ":\nat the diamond if the contact sticks, on the cone if it slides."
     how = "" if plain else f"\nThe impulse ends on the solid line{how}"
     axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
@@ -168,20 +167,22 @@ def _regime(impact: Impact) -> str:
     return {"given": "ratio given"}.get(impact.regime, str(impact.regime))
 
 
-def _draw_friction(axes: Axes, impact: Impact, right: float, low: float, high: float) -> None:
-    """Draw the tangential rule: a friction cone, or the given impulse ratio."""
+def _draw_friction(axes: Axes, impact: Impact, right: float) -> bool:
+    """Draw the tangential rule, a friction cone or the given impulse ratio; whether it is a cone."""
     mu = impact.friction
     if mu is None:
         ratio = impact.impulse_ratio
         text = f"Pt/Pn = {ratio:.3g}, given"
         axes.plot([0.0, right], [0.0, ratio * right], color=GREY, lw=1.3, ls=(0, (3, 2)), gid="ratio", label=text)
-        return
-    if math.isinf(mu) or mu == 0.0:
-        return
+        return False
+    # A friction as good as infinite bounds nothing that can be drawn.
+    if mu == 0.0 or mu * right > LARGEST:
+        return False
     axes.fill([0.0, right, right], [0.0, mu * right, -mu * right], fc=LIGHT, ec="none", alpha=0.45, zorder=0, gid="cone")
     style: Any = {"color": GREY, "lw": 1.2, "ls": (0, (3, 2))}
     axes.plot([0.0, right], [0.0, mu * right], gid="friction +", label=f"friction cone (friction {mu:.3g})", **style)
     axes.plot([0.0, right], [0.0, -mu * right], gid="friction -", **style)
+    return True
 
 
 def _where_slip_stops(impact: Impact, slip: float, k_nt: float, k_tt: float) -> tuple[float, float]:
