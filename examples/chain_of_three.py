@@ -97,7 +97,7 @@ for ax, (label, (track, _, cars)) in zip(axes, played.items(), strict=True):
         ax.fill_between(clocks, back, front, **style)
     for clock in clocks[1:-1]:
         ax.axvline(clock, color="0.3", lw=0.8, ls=":")
-    ax.set(title=label, ylabel="place along the road [m]")
+    ax.set(title=label, ylabel="position along the road [m]")
 axes[0].legend(loc="lower right")
 axes[1].set_xlabel("time [s] (dotted: an impact)")
 

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Types of eccentric collision
 #
-# The front of A strikes the front door of B, its rear wing, half of its back or half of its front: four types from the paper's
-# figure 12. The impulse passes to one side of a centre of mass, so the cars turn. The example shows which way each car turns,
+# The front of A strikes the front door of B, its rear wing, half of its rear end or half of its front end: four types from
+# the paper's figure 12. The impulse passes to one side of a centre of mass, so the cars turn. The example shows which way each car turns,
 # that friction can reverse the rotation, and how far off a model without rotation is.
 #
 # The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact as frictionless (eqs 10 to 19).
@@ -37,11 +37,11 @@ TYPES = {
         B.replace(vy="40 km/h", x=0.9, y=1.3, heading="90 deg"),
         (0.0, 0.0),
     ),
-    "half of the back": (
+    "offset rear": (
         B.replace(vx="20 km/h", x=2.2, y=-0.9),
         (0.0, -0.45),
     ),
-    "half of the front": (
+    "offset frontal": (
         B.replace(vx="-40 km/h", x=2.2, y=0.9, heading="180 deg"),
         (0.0, 0.45),
     ),
@@ -80,7 +80,7 @@ for kind in TYPES:
 # %% [markdown]
 # Struck ahead of its centre of mass, B turns to the right without friction, and to the left with friction, because its side
 # drags along the front of A. Struck on the rear wing, B is turned the same way by the normal impulse and by friction. In both
-# cases only friction turns A, because the normal goes through A's centre of mass. In the two half-width collisions, friction
+# cases only friction turns A, because the normal goes through A's centre of mass. In the two offset collisions, friction
 # takes most of the rotation away.
 
 # %%
@@ -98,8 +98,8 @@ for kind, ax in zip(TYPES, axes.flat, strict=True):
 # - The contact points separate at e times the speed at which they met (eq 16 of the paper).
 # - Without friction the effective mass at the contact is $1/(1/m_A + 1/m_B + r_A^2/I_A + r_B^2/I_B)$, as in textbooks of
 #   dynamics.
-# - Two equal cars at equal speeds, half of the front, without friction: by symmetry each behaves as if it met a wall, so the
-#   impulse is $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
+# - Two equal cars at equal speeds in the offset frontal collision, without friction: by symmetry each behaves as if it met a
+#   wall, so the impulse is $(1 + e)\,v/(1/m + r^2/I)$, and both turn alike.
 #
 # Each side of a comparison is a sum of a few products; 1e-12 of the whole is a thousand times their rounding error.
 

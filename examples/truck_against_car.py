@@ -100,7 +100,7 @@ below.axhline(
 below.set(
     xlabel="mass of the truck [t]",
     ylabel="delta-V [km/h]",
-    title="The lighter takes the delta-V",
+    title="The lighter vehicle has the larger delta-V",
     ylim=(0, None),
 )
 legend = below.legend()
