@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Types of eccentric collision
 #
-# The front of A strikes the front door of B, its rear wing, half of its rear end or half of its front end: four types from
-# the paper's figure 12. The impulse passes to one side of a centre of mass, so the cars turn. The example shows which way each car turns,
-# that friction can reverse the rotation, and how far off a model without rotation is.
+# The front of A strikes the front door of B, its rear wing, half of its rear end or half of its front end: four types from the
+# paper's figure 12. The impulse passes to one side of a centre of mass, so the cars turn. The example shows which way each car
+# turns, that friction can reverse the rotation, and how far off a model without rotation is.
 #
 # The paper, "Application of Impulse Momentum Theory to Vehicle Collisions", treats the contact as frictionless (eqs 10 to 19).
 # The positions and speeds here are ours.
