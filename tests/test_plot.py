@@ -1474,6 +1474,16 @@ def test_a_momentum_beyond_floats_is_refused():
     assert refused.value.code == "out_of_range"
 
 
+def test_a_distribution_beyond_what_axes_hold_is_refused():
+    """In mph the largest values would be infinite."""
+    known = {"v": uncertainty.Normal(7e306, 3e305), "w": uncertainty.Normal(1.0, 0.1)}
+    found = uncertainty.propagate(lambda v, w: {"speed": v * w}, known, seed=1, samples=64)
+    with pytest.raises(col.InputError, match=r"^speed = .* cannot be drawn"):
+        plot.distribution(found["speed"])
+    with pytest.raises(col.InputError, match=r"^spread of speed = .* cannot be drawn"):
+        plot.contributions(found, "speed")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("mass", "speed", "duration", "argument"),

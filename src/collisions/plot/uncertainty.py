@@ -12,7 +12,7 @@ from ..hints import hinted
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
 from ..units import shown
-from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, drawable, in_lines, legend_below, number, tidy
+from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, check_size, drawable, in_lines, legend_below, number, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,6 +80,7 @@ def distribution(
         )
     low, high = output.interval(coverage)
     histogram = output.histogram(bins)
+    check_size(output.name, float(np.abs(histogram.edges).max()))
     axes = begin(axes, (6.5, 4.6))
     unit = output.unit
     factor = labels.factor(unit) if unit else 1.0
@@ -164,6 +165,7 @@ def contributions(
             code="no_variance",
             argument="result",
         )
+    check_size(f"spread of {found.name}", found.std)
     axes = begin(axes, (6.5, 1.9 + 0.42 * len(names)))
     rows = np.arange(len(names))
     percent = 100.0 * figures
