@@ -1425,3 +1425,23 @@ def test_notes_stand_beside_drag_duration_outlines_and_law():
     assert "| drag of the tyres | 0.7. Measured. |" in page
     with pytest.raises(col.InputError, match="'law', which is no input of this page"):
         report(followed, notes={"law": "None here."})
+
+
+def test_delta_v_in_the_axes_of_the_vehicle_takes_the_spread_of_its_propagation(impacts):
+    """As a recorder counts it: the row has the ±, the heading is in words, and explain derives what it prints."""
+    impact, names = impacts["eccentric"], ("a.delta_v_forward", "a.delta_v_left")
+    values = {name: getattr(impact.a, name[2:]) for name in names}
+    known = uncertainty.propagate(
+        lambda factor: {name: factor * value for name, value in values.items()}, {"factor": uncertainty.Normal(1.0, 0.1)}
+    )
+    page = report(impact, form="markdown", units="us", uncertainty=known)
+    working = col.explain(impact, units="us", form="text", uncertainty=known)
+    for what in ("delta-V forward", "delta-V to the left (recorders count to the right)"):
+        (text,) = (text for of, row, text in rows(section(page, "Results")) if of.startswith("A") and row == what)
+        assert "±" in text
+        assert (f"A: {what}", "mean ± standard deviation", text) in rows(page)
+        assert what in working
+        assert text in working
+    assert "delta_v_forward" not in section(page, "Uncertainty, given the stated inputs")
+    assert "Delta-V of A forward, from its heading psi_A (definition):" in working
+    assert "Delta-V of A to its left (definition):" in working

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from ..impact import answer_of
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, RULES
-from .expressions import HALF, ZERO, Direction, Expression, Sum, magnitude, root, signed_total, total
+from .expressions import HALF, ZERO, Direction, Expression, Function, Sum, magnitude, root, signed_total, total
 from .page import Page
-from .symbols import AFTER, BEFORE, Body, Symbol, Symbols
+from .symbols import AFTER, BEFORE, Body, Symbol, Symbols, delta_v
 
 
 class Mobility(NamedTuple):
@@ -321,6 +321,14 @@ def _delta_v(page: Page, body: Body) -> None:
         else:
             page.equation(f"Delta-V of {label} along {axis} (definition)", part, after - before)
     page.equation(f"Delta-V of {label} (definition)", body.delta_v(), magnitude(*parts))
+    if body.start.heading is not None:
+        psi = Symbol(rf"\psi_{label}", body.start.heading, "angle")
+        along, across = Function("cos", psi), Function("sin", psi)
+        forward = delta_v(label, "f", body.side.delta_v_forward)
+        left = delta_v(label, "l", body.side.delta_v_left)
+        caption = f"Delta-V of {label} forward, from its heading {page.symbol(psi)} (definition)"
+        page.equation(caption, forward, parts[0] * along + parts[1] * across)
+        page.equation(f"Delta-V of {label} to its left (definition)", left, parts[1] * along - parts[0] * across)
 
 
 def _pdof(page: Page, s: Symbols, body: Body) -> None:

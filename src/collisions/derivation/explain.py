@@ -65,6 +65,8 @@ _SIDE = {
     "after.course": ("course after", "angle"),
     "after.yaw_rate": ("yaw rate after", "yaw rate"),
     "delta_v": ("delta-V", "speed"),
+    "delta_v_forward": ("delta-V forward", "speed"),
+    "delta_v_left": ("delta-V to the left (recorders count to the right)", "speed"),
     "delta_vx": ("delta-V along x", "speed"),
     "delta_vy": ("delta-V along y", "speed"),
     "delta_yaw_rate": ("change of yaw rate", "yaw rate"),

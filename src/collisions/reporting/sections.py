@@ -413,11 +413,7 @@ def _outline(sheet: Sheet, corners: Sequence[tuple[float, float]]) -> str:
 
 def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     """Write the results, with the EES for a stated share."""
-    rows = []
-    for of, what, text in impact_answers(sheet, impact):
-        rows.append((of, what, text))
-        if what == "delta-V":
-            rows += _own_axes(sheet, impact, of)
+    rows = list(impact_answers(sheet, impact))
     if share_a is not None:
         share = ArgumentReader().number(share_a, "", "share_a")
         of = f"if A took up {100.0 * share:.6g} percent of the energy"
@@ -432,14 +428,6 @@ def results(sheet: Sheet, impact: Impact, share_a: Input | None) -> None:
     names = {"A": who(0, impact.a.before), "B": who(1, impact.b.before)}
     sheet.heading("Results")
     sheet.table([(plain(names.get(of, of)), what, text) for of, what, text in rows])
-
-
-def _own_axes(sheet: Sheet, impact: Impact, of: str) -> Iterator[tuple[str, str, str]]:
-    """Rows of a vehicle's delta-V forward and to its left."""
-    side = impact.a if of == "A" else impact.b
-    if side.delta_v_forward is not None and side.delta_v_left is not None:
-        yield of, "delta-V forward", sheet.system.answer(side.delta_v_forward, "speed")
-        yield of, "delta-V to the left (recorders count to the right)", sheet.system.answer(side.delta_v_left, "speed")
 
 
 def posterior(sheet: Sheet, found: Posterior) -> None:
