@@ -1445,3 +1445,10 @@ def test_delta_v_in_the_axes_of_the_vehicle_takes_the_spread_of_its_propagation(
     assert "delta_v_forward" not in section(page, "Uncertainty, given the stated inputs")
     assert "Delta-V of A forward, from its heading psi_A (definition):" in working
     assert "Delta-V of A to its left (definition):" in working
+
+
+def test_a_page_of_planar_momentum_compares_no_duration(impacts):
+    """Momentum has none; the page of an impact tells what is left out in one."""
+    source = "For comparison with the duration"
+    assert source not in report(crossed(), form="markdown")
+    assert source in section(report(impacts["eccentric"], form="markdown"), "References")

@@ -482,9 +482,10 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
         for name in re.findall(r"reference\.(\w+)", finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
                 lines.append(f"{value.name}: {value.source}. {value.quality}")
-    duration = reference.CONTACT_DURATION
-    ends = f"{duration.low:g} to {duration.high:g} s"
-    lines.append(f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. {duration.quality}")
+    if isinstance(impact, Impact):
+        duration = reference.CONTACT_DURATION
+        ends = f"{duration.low:g} to {duration.high:g} s"
+        lines.append(f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. {duration.quality}")
     sheet.listed(list(dict.fromkeys(lines)))
 
 
