@@ -20,7 +20,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import reconstruct, uncertainty
+from collisions import reconstruct, reference, uncertainty
 from collisions.derivation import explain
 from collisions.diagnostics import LIMITS, diagnose
 from collisions.formatting import typeset
@@ -342,6 +342,12 @@ def test_components_of_a_recorder_are_printed_and_kept():
     assert report(replay(page), **options(page)) == page
 
 
+def in_words(source):
+    """The source of a limit, with published values by the names they have under References."""
+    source = source.replace("reference.restitution_range", "the published range of restitution (see References)")
+    return re.sub(r"reference\.(\w+)", lambda found: f"“{getattr(reference, found[1]).name}” (see References)", source)
+
+
 def test_every_finding_is_told(impacts):
     limits = {"tyre_impulse": 0.01}
     for name in ("pinned", "eccentric", "energy gain"):
@@ -351,11 +357,11 @@ def test_every_finding_is_told(impacts):
         for finding in found:
             assert f"**{label_of(finding.code)}" in section(text, "Findings")
             assert finding.sentence in text
-            assert finding.source in text
+            assert f"Basis of the limit: {in_words(finding.source)}." in text
         assert "- **Limit of tyre impulse:** 0.01, set for this report." in text
     assert "FIT" not in text
     pins = re.sub(r"\\(.)", r"\1", report(impacts["pinned"], form="markdown"))
-    assert "reference.restitution_range" in section(pins, "Findings")
+    assert "Basis of the limit: the published range of restitution (see References)." in section(pins, "Findings")
     assert "Cipriani and others, SAE 2002-01-0540" in section(pins, "References")
     none = report(pinned(), form="markdown", limits={"restitution": 0.9, "normal": 1.0})
     assert "which proves nothing by itself." in section(none, "Findings")
@@ -1452,3 +1458,13 @@ def test_a_page_of_planar_momentum_compares_no_duration(impacts):
     source = "For comparison with the duration"
     assert source not in report(crossed(), form="markdown")
     assert source in section(report(impacts["eccentric"], form="markdown"), "References")
+
+
+def test_the_basis_of_a_limit_is_no_name_in_python():
+    """It is what the list of references calls the published value, which stands there with its source."""
+    page = report(crash(friction=0.01), form="markdown", duration="3 s")
+    told, listed = section(page, "Findings"), section(page, "References")
+    assert "reference." not in told
+    for name in (reference.INTER_VEHICLE_FRICTION.name, reference.CONTACT_DURATION.name):
+        assert f"“{name}” (see References)" in told
+        assert f"- {name}: " in listed

@@ -62,6 +62,8 @@ _RANGE = (
     reference.RESTITUTION_OBLIQUE,
     reference.RESTITUTION_SMALL_OVERLAP,
 )
+# A published value in the source of a limit.
+_PUBLISHED = re.compile(r"reference\.(\w+)")
 # Below and above 30 mph.
 _DRAG = tuple(value for value in reference.DRAG_FACTORS if value.name.startswith("drag factor, travelled dry asphalt,"))
 
@@ -462,7 +464,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
         lines.append(
             (
                 f"{label_of(finding.code)}{of}:",
-                f"{sentence}{end} Measured {measured}, limit {limit}. Basis of the limit: {finding.source}.",
+                f"{sentence}{end} Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}.",
             )
         )
     sheet.items(lines)
@@ -479,7 +481,7 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
         values += [("drag", value) for value in _DRAG if impact.pulse is None or impact.inputs.drag is not None]
         lines += [f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}" for what, value in values]
     for finding in found:
-        for name in re.findall(r"reference\.(\w+)", finding.source):
+        for name in _PUBLISHED.findall(finding.source):
             for value in _RANGE if name == "restitution_range" else (getattr(reference, name),):
                 lines.append(f"{value.name}: {value.source}. {value.quality}")
     if isinstance(impact, Impact):
@@ -487,6 +489,14 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
         ends = f"{duration.low:g} to {duration.high:g} s"
         lines.append(f"For comparison with the duration: {duration.name}, {ends}; {duration.source}. {duration.quality}")
     sheet.listed(list(dict.fromkeys(lines)))
+
+
+def _basis(finding: Finding) -> str:
+    """Where the limit comes from, with what the list of references calls a published value in place of its name in Python."""
+    words = {"restitution_range": "the published range of restitution"}
+    return _PUBLISHED.sub(
+        lambda found: f"{words.get(found[1]) or f'“{getattr(reference, found[1]).name}”'} (see References)", finding.source
+    )
 
 
 def _amount(sheet: Sheet, value: float, unit: str) -> str:
