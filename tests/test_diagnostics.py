@@ -805,9 +805,17 @@ def test_tyres_are_no_finding_on_most_ordinary_impacts():
 def test_a_model_of_which_nothing_is_known():
     """A note, which counts what is missing; without levers in either vehicle there is nothing to know."""
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1200.0), 0.1)
-    (finding,) = diagnose(impact)
+    found = diagnose(impact)
+    (finding,) = found
     assert (finding.code, finding.measured) == ("model_unknown", 7.0)
     assert "a.yaw_inertia" in finding.sentence
+    # A count is no size to judge: neither the table nor a page sets it against a limit.
+    assert found.summary().parts[0].rows == [("model_unknown", finding.sentence, "\N{EN DASH}", "\N{EN DASH}")]
+    page = report(impact, form="markdown", figures=False)
+    told = page[page.index("## Findings") : page.index("## References")]
+    assert "supply a.yaw" in told
+    assert "Measured" not in told
+    assert "Basis of the limit" not in told
     fixed = [col.Vehicle(mass=mass, vx=vx, yaw_inertia=math.inf) for mass, vx in ((1500.0, 20.0), (1200.0, 0.0))]
     assert diagnose(col.linear_central(*fixed, 0.1)) == ()
 

@@ -9,7 +9,7 @@ from ..drag import HIGHEST_DRAG
 from ..reference import CONTACT_DURATION
 from ..vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
-from .finding import Measured, above, below, finding
+from .finding import NOTE, Measured, above, below, finding
 
 # How far a contact may be from the centre of mass: in radii of gyration, and in metres where there is none.
 _RADII, _FURTHEST = 3.0, 10.0
@@ -208,7 +208,7 @@ def suspect_duration(case: Case) -> Iterator[Measured]:
     yield Measured(times, sentence)
 
 
-@finding("number of inputs that are missing to estimate the error of a central model", above(0.0), "set here: a note")
+@finding("number of inputs that are missing to estimate the error of a central model", above(0.0), NOTE)
 def model_unknown(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
     if name not in ("eccentric", "time_resolved"):

@@ -12,6 +12,8 @@ from ..quantities import OWN, Quantities
 from ..summary import Cells, Part, Summarized, Summary
 
 _NO_PROOF = "A finding is a reason to look again, not an error; no finding is no proof."
+# The source of a limit of what is a note: its count has no size to judge, and pages and tables show neither.
+NOTE = "set here: a note"
 # Sources of several limits.
 _HVE = "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDCRASH"
 MESSAGES = f"EDCRASH manual, chapter 6 ({_HVE}/06-messages.md)"
@@ -76,6 +78,11 @@ class Finding:
         return Quantities(self)
 
 
+def is_note(finding: Finding) -> bool:
+    """Whether a finding is only a note, without a size that passes a limit."""
+    return finding.source == NOTE
+
+
 class Findings(tuple[Finding, ...], Summarized):
     """A tuple of findings; ``measured`` has the codes of all checks that were made, whether they found anything or not."""
 
@@ -95,7 +102,8 @@ class Findings(tuple[Finding, ...], Summarized):
         rows = []
         for finding in self:
             of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
-            measured, limit = (numbers.text(value, finding.unit) for value in (finding.measured, finding.limit))
+            sizes = (None, None) if is_note(finding) else (finding.measured, finding.limit)
+            measured, limit = (numbers.text(size, finding.unit) for size in sizes)
             rows.append((f"{finding.code}{of}", finding.sentence, measured, limit))
         checks = f"{len(self.measured)} checks were made."
         title = f"{len(self) or 'No'} finding{'s' * (len(self) != 1)}"

@@ -15,7 +15,7 @@ from ..derivation.evidence import momentum_answers, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
 from ..diagnostics import LIMITS, Finding
 from ..diagnostics.diagnosis import read_limits
-from ..diagnostics.finding import Findings
+from ..diagnostics.finding import Findings, is_note
 from ..directions import course
 from ..errors import Status
 from ..formatting import KIND_OF, SI_UNITS, percent, typeset
@@ -446,7 +446,7 @@ def posterior(sheet: Sheet, found: Posterior) -> None:
 
 
 def findings(sheet: Sheet, found: Findings) -> None:
-    """Write the findings, each with measure and limit; also the checks that were made, and those that were not."""
+    """Write the findings, each but a note with measure and limit; also the checks that were made, and those that were not."""
     sheet.heading("Findings")
     others = ", ".join(label_of(code) for code in LIMITS if code not in found.measured)
     others = f" Not made, because they lack an input, do not apply or are switched off: {others}." if others else ""
@@ -457,16 +457,14 @@ def findings(sheet: Sheet, found: Findings) -> None:
         return
     lines = []
     for finding in found:
-        measured, limit = (_amount(sheet, value, finding.unit) for value in (finding.measured, finding.limit))
         of = f" ({finding.vehicle.upper()})" if finding.vehicle else ""
         sentence = plain(finding.sentence).rstrip(".")
         end = "" if sentence.endswith("?") else "."
-        lines.append(
-            (
-                f"{label_of(finding.code)}{of}:",
-                f"{sentence}{end} Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}.",
-            )
-        )
+        judged = ""
+        if not is_note(finding):
+            measured, limit = (_amount(sheet, value, finding.unit) for value in (finding.measured, finding.limit))
+            judged = f" Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}."
+        lines.append((f"{label_of(finding.code)}{of}:", f"{sentence}{end}{judged}"))
     sheet.items(lines)
     sheet.say(f"{len(found.measured)} checks were made. A finding is a reason to look again, not an error.{others}")
 
