@@ -1468,3 +1468,14 @@ def test_the_basis_of_a_limit_is_no_name_in_python():
     for name in (reference.INTER_VEHICLE_FRICTION.name, reference.CONTACT_DURATION.name):
         assert f"“{name}” (see References)" in told
         assert f"- {name}: " in listed
+
+
+def test_numbers_that_have_no_unit_are_not_said_to_be_in_si_units():
+    """A drag factor; what an input of another name is, nobody can tell."""
+    inputs = {"drag": uncertainty.Interval(0.6, 0.8), "friction_b": uncertainty.Interval(0.3, 0.5)}
+    inputs["distance"] = uncertainty.Interval(19.0, 21.0)
+    known = uncertainty.propagate(lambda drag, friction_b, distance: {"own": drag + friction_b + distance}, inputs)
+    stated = {what: text for of, what, text in rows(report(crossed(), form="markdown", uncertainty=known)) if "stated" in of}
+    assert stated["drag"] == "0.6 to 0.8, no distribution assumed"
+    assert stated["friction_b"] == "0.3 to 0.5, no distribution assumed"
+    assert stated["distance"] == "19 to 21, no distribution assumed, in SI units"

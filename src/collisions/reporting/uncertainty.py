@@ -10,11 +10,20 @@ from ..derivation.explain import impact_inputs, is_mean, kinds_of_answers, words
 from ..errors import InputError
 from ..formatting import SI_UNITS, Numbers, typeset, with_decimals
 from ..impact import Impact
+from ..kernels.contact_laws import RULES
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet, plain
+
+# Kind and number of inputs of the library that have no unit, and so are no more in SI than in any other units; their number
+# in this result is not known.
+_UNITLESS = {
+    f"{name}{of}": ("number", math.nan)
+    for name in ("restitution", "drag", "lock", "grade", "share", *RULES)
+    for of in ("", "_a", "_b")
+}
 
 
 class Spread:
@@ -65,7 +74,7 @@ class Spread:
                 "Variance from an input: its share by itself, and in all, with its interactions with other inputs. Where the "
                 "shares fall short of 100 % by more than their errors, the rest comes from interactions."
             )
-        known = _inputs(self.impact)
+        known = _UNITLESS | _inputs(self.impact)
         stated = [
             (plain(name), _stated(sheet.system, value, *known.get(name, ()))) for name, value in uncertainty.inputs.items()
         ]
@@ -123,7 +132,7 @@ def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.na
     if getattr(value, "unit", None) != "":
         return plain(str(value))
     low, high = (value.low, value.high) if isinstance(value, Interval) else map(value.quantile, (0.0005, 0.9995))
-    if not low <= number <= high:
+    if kind != "number" and not low <= number <= high:
         return f"{value}, in SI units"
     if SI_UNITS[kind]:
         unit = GivenUnit(SI_UNITS[kind])
