@@ -358,8 +358,22 @@ def test_one_output_alone_is_shown_in_the_units_of_the_inputs():
     assert re.search(r"a +30\.0 ± 2\.0 mph +26\.1 to 33\.9 mph", str(found["a"]))
     assert "30.0 ± 2.0 mph" in found["a"]._repr_html_()
     assert plot.distribution(found["a"]).get_xlabel() == "a [mph]"
-    assert repr(found["a"].to("mph")).startswith("<a in mph: ")
+    assert repr(found["a"].to("km/h")) == (
+        "<a, given the stated inputs; mean ± standard deviation: 48.3 ± 3.2 km/h; 95 percent interval: 42.0 to 54.6 km/h>"
+    )
+    assert "48.3 ± 3.2 km/h" in found["a"].to("km/h")._repr_html_()
+    with pytest.raises(col.InputError, match=r"in other units plot.distribution\(result\['delta_v'\], units='us'\)"):
+        plot.distribution(found["a"].to("km/h"))
     assert str(Uniform("10 deg", "20 deg")) == "10 to 20°, all values equally likely"
+
+
+def test_figures_in_a_unit_asked_for_are_in_that_unit_whatever_their_kind():
+    def model(jerk):
+        return {"jerk": jerk * col.units.to_quantity(1.0, "m/s**3"), "course": jerk * col.units.to_quantity(1.0, "rad")}
+
+    found = propagate(model, {"jerk": Uniform(0.25, 0.75)}, seed=1)
+    assert "mean ± standard deviation: 1.64 ± 0.47 ft/s³; 95 percent" in repr(found["jerk"].to("ft/s**3"))
+    assert "mean ± standard deviation: 28.6 ± 8.3°; 95 percent" in repr(found["course"].to("deg"))
 
 
 def test_a_plain_table_is_at_most_88_wide():

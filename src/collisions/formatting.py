@@ -70,6 +70,8 @@ class Numbers:
 
     # Whether units are written as on a printed page, lb·ft² and 30°, or as pint reads them.
     typeset = False
+    # The kind that numbers are taken to be of if their SI unit is none of those in the table of kinds.
+    unlisted: str | None = None
 
     def __init__(self, system: str) -> None:
         self.name = system

@@ -12,9 +12,8 @@ import numpy as np
 
 from .errors import MissingInputError, Status
 from .formatting import in_words
-from .reading import ArgumentReader
 from .summary import Cells, Summarized, Summary, all_numbers, sided
-from .units import Value, shown, to_quantity
+from .units import Value, to_quantity
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -163,27 +162,6 @@ class Quantities:
 
     def __repr__(self) -> str:
         return f"<Quantities of {self._owner!r}>"
-
-
-class InUnit(Quantities):
-    """The owner's attributes and the results of its methods as plain numbers in a unit that was asked for."""
-
-    __slots__ = ("_factor", "_unit")
-
-    def __init__(self, owner: Any, unit: str) -> None:
-        super().__init__(owner)
-        reader = ArgumentReader()
-        # A text or a unit of pint; anything else is refused by how it is written.
-        name = f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
-        self._unit = unit
-        self._factor = reader.number(f"1 {name}", owner.unit, "unit")
-        reader.close()
-
-    def __repr__(self) -> str:
-        return f"<{self._owner.name} in {self._unit}: mean, std, interval(0.95) and so on as plain numbers>"
-
-    def _with_unit(self, value: Any, unit: str) -> Any:
-        return tuple(part / self._factor for part in value) if isinstance(value, tuple) else value / self._factor
 
 
 def in_quantities(function: Callable[P, Any], unit: str) -> Callable[P, Any]:

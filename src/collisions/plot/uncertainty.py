@@ -67,7 +67,7 @@ def distribution(
     if not isinstance(output, Output):
         raise InputError(
             f"output must be one output of what uncertainty.propagate returned, got {type(output).__name__}; write "
-            f"plot.distribution(result['delta_v'])",
+            f"plot.distribution(result['delta_v']), and in other units plot.distribution(result['delta_v'], units='us')",
             code="bad_option",
             argument="output",
         )

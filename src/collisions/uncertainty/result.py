@@ -13,11 +13,11 @@ import numpy as np
 
 from ..errors import InputError
 from ..formatting import KIND_OF, Numbers
-from ..quantities import OWN, Derived, InUnit, Quantities, derived, returns, same, show
-from ..reading import is_whole
+from ..quantities import OWN, Derived, Quantities, derived, returns, same, show
+from ..reading import ArgumentReader, is_whole
 from ..records import strict
 from ..summary import Cells, Part, Summarized, Summary, all_numbers
-from ..units import shown
+from ..units import shown, unit_as_written
 from . import angles
 from .designs import REPLICATES
 from .distribution import probability
@@ -246,6 +246,49 @@ class Output(Summarized):
         raise NotImplementedError
 
 
+class InUnit(Quantities):
+    """An output's attributes and the results of its methods as plain numbers in a unit that was asked for."""
+
+    __slots__ = ("_numbers",)
+
+    def __init__(self, owner: Output, unit: str) -> None:
+        super().__init__(owner)
+        reader = ArgumentReader()
+        # A text or a unit of pint; anything else is refused by how it is written.
+        name = f"{unit}" if isinstance(unit, str) or hasattr(unit, "dimensionality") else shown(unit)
+        factor = reader.number(f"1 {name}", owner.unit or "", "unit")
+        reader.close()
+        self._numbers = _OneUnit(unit_as_written(f"1 {unit}" if isinstance(unit, str) else unit), factor)
+
+    def __repr__(self) -> str:
+        text = "; ".join(f"{what}: {figure}" for what, figure in figures(self._owner, self._numbers))
+        return f"<{self._owner.name}, given {self._owner.given}; {text}>"
+
+    def _repr_html_(self) -> str:
+        summary: Summary = self._owner._summary(self._numbers)
+        return summary._repr_html_()
+
+    def _with_unit(self, value: Any, unit: str) -> Any:
+        factor = self._numbers.factor
+        return tuple(part / factor for part in value) if isinstance(value, tuple) else value / factor
+
+
+class _OneUnit(Cells):
+    """Writes numbers for a table in one unit, whatever their kind."""
+
+    unlisted = "number"
+
+    def __init__(self, unit: str, factor: float) -> None:
+        super().__init__("si")
+        self.written, self.factor = unit, factor
+
+    def label(self, kind: str) -> str:
+        return self.written
+
+    def scale(self, kind: str) -> float:
+        return 1.0 / self.factor
+
+
 class Sampled(Output):
     """An output that was sampled: one value for each case, in the order they were drawn, NaN where there was no answer."""
 
@@ -469,7 +512,7 @@ class Propagation(Summarized):
 
 def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[tuple[str, str]]:
     """What is known of an output, in words and numbers, for a table; ``kind`` is that of numbers without a unit."""
-    kind = kind or KIND_OF.get(output.unit or "")
+    kind = kind or KIND_OF.get(output.unit or "", numbers.unlisted)
     if kind is None:
         return [("figures", output.row()[1])]
     mean, std, (low, high) = ends_of(output.mean), ends_of(output.std), output.interval()
