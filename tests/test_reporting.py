@@ -499,6 +499,23 @@ def test_uncertainty_is_told():
     assert "lies outside" not in text
 
 
+def test_a_range_with_a_share_is_reported_as_it_was_stated():
+    """Also where bare numbers are written in the units of the page."""
+
+    def model(speed_a, restitution):
+        impact = col.linear_central(col.Vehicle(mass=1500.0, vx=speed_a), col.Vehicle(mass=1200.0), restitution)
+        return {"b.delta_v": impact.b.q.delta_v}
+
+    impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
+    between = uncertainty.Normal.between
+    known = {"speed_a": between(9.5, 10.5, 0.95), "restitution": between("9 percent", "11 percent", 0.9)}
+    found = uncertainty.propagate(model, known, method="first_order")
+    text = report(impact, form="markdown", units="metric", uncertainty=found, figures=False)
+    part = section(text, "Uncertainty, given the stated inputs")
+    assert "34.2 to 37.8 km/h (95 percent), normal" in part
+    assert "(90 percent), normal" in part
+
+
 def test_an_uncertainty_of_another_case_is_seen():
     text = report(crash(golf(vx="30 km/h")), form="markdown", uncertainty=spread())
     assert "of the propagation: are both of the same case?" in text

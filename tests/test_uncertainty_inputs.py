@@ -25,6 +25,7 @@ from collisions.uncertainty import (
     normal,
     normal_family,
 )
+from collisions.uncertainty.distribution import from_numbers
 from collisions.uncertainty.distributions import read_input
 from collisions.units import si_unit
 
@@ -849,3 +850,20 @@ def test_a_lognormal_whose_deviation_is_nothing_beside_its_mean(options):
         LogNormal(9.6049022777862, 5e-324, **options)
     assert refused.value.code == "out_of_range"
     assert Normal(9.6, 5e-324).quantile(0.9) == 9.6
+
+
+@pytest.mark.parametrize(
+    ("given", "read"),
+    [
+        (Normal.between("28 mph", "32 mph", 0.95), "28 to 32 mph (95 percent), normal"),
+        (Normal.between(0.6, 0.8, "99.7 percent"), "0.6 to 0.8 (99.7 percent), normal"),
+        (Normal.between("-5 deg", 0, 0.07, truncate=("-6 deg", None)), "-5 to 0° (7 percent), at least -6°, normal"),
+        (LogNormal.between("20 mph", "40 mph", 0.95), "20 to 40 mph (95 percent), log-normal"),
+    ],
+)
+def test_a_range_with_a_share_is_read_as_it_was_stated(given, read):
+    assert str(given) == str(pickle.loads(pickle.dumps(given))) == str(copy.deepcopy(given)) == read
+    plain = from_numbers(type(given), given.unit, given._parts)
+    assert plain == given
+    assert (hash(plain), repr(plain)) == (hash(given), repr(given))
+    assert str(plain) != read

@@ -137,7 +137,7 @@ def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.na
     if SI_UNITS[kind]:
         unit = GivenUnit(SI_UNITS[kind])
         unit.written, unit.factor = system.label(kind), 1.0 / system.scale(kind)
-        value = from_numbers(type(value), unit, value._parts)
+        value = from_numbers(type(value), unit, value._parts, value._range)
     return typeset(str(value))
 
 

@@ -37,18 +37,20 @@ class GivenUnit(str):
 class Stated:
     """Base of all statements about a quantity: a frozen value of SI numbers and the unit they are in.
 
-    ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and sets all else.
+    ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and sets all else. ``_range`` is
+    the low, high and share that ``between`` was given; people read these in place of the parts that follow from them.
     """
 
-    __slots__ = ("_parts", "unit")
+    __slots__ = ("_parts", "_range", "unit")
 
     unit: str
     _words: ClassVar[str]
     _parts: dict[str, Any]
+    _range: tuple[float, float, float] | None
     _derive: Callable[..., None]
 
     def _make(self, unit: str, **parts: Any) -> None:
-        self._set(unit=unit, _parts=parts)
+        self._set(unit=unit, _parts=parts, _range=None)
         self._derive(**parts)
 
     def _set(self, **values: Any) -> None:
@@ -70,14 +72,18 @@ class Stated:
         return hash((type(self), self.unit, *self._parts.values()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return from_numbers, (type(self), self.unit, self._parts)
+        return from_numbers, (type(self), self.unit, self._parts, self._range)
 
     def __repr__(self) -> str:
         shown = (f"{name}={show(part, self.unit)}" for name, part in self._parts.items() if part is not None)
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def __str__(self) -> str:
-        text = self._words.format(**{name: show(part, self.unit) for name, part in self._parts.items()})
+        return self._written(self._words, self._parts)
+
+    def _written(self, words: str, parts: Mapping[str, Any]) -> str:
+        """The numbers in these words, with the unit of a range at its end."""
+        text = words.format(**{name: show(part, self.unit) for name, part in parts.items()})
         unit = f" {self.unit.written}" if isinstance(self.unit, GivenUnit) else f" {self.unit}".rstrip()
         return typeset(text.replace(f"{unit} to ", " to ") if unit else text)
 
@@ -189,10 +195,13 @@ def _like(given: Any, found: Any) -> Any:
 T = TypeVar("T", bound=Stated)
 
 
-def from_numbers(kind: type[T], unit: str, parts: Mapping[str, Any]) -> T:
+def from_numbers(
+    kind: type[T], unit: str, parts: Mapping[str, Any], given_range: tuple[float, float, float] | None = None
+) -> T:
     """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
     made._make(unit, **parts)
+    made._set(_range=given_range)
     return made
 
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from ..errors import InputError, ShapeError
+from ..formatting import typeset
 from ..hints import hinted
 from ..reading import ArgumentReader
 from ..units import Input, shown
@@ -55,11 +56,15 @@ class NormalFamily(Distribution):
         self._make(unit, mean=given_mean, sd=given_sd, truncate=_pair(bounds))
 
     def __str__(self) -> str:
-        mean, sd = (show(value, self.unit) for value in (self.given_mean, self.given_sd))
-        _, apart, unit = mean.partition(" ")
-        text = f"{mean.removesuffix(apart + unit)} ± {sd}"
+        if self._range is not None:
+            low, high, share = self._range
+            text = self._written(f"{{low}} to {{high}} ({100.0 * share:.10g} percent)", {"low": low, "high": high})
+        else:
+            mean, sd = (show(value, self.unit) for value in (self.given_mean, self.given_sd))
+            _, apart, unit = mean.partition(" ")
+            text = f"{mean.removesuffix(apart + unit)} ± {sd}"
         ends = zip(("at least", "at most"), self.truncate or (), strict=False)
-        return ", ".join([text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)])
+        return typeset(", ".join([text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)]))
 
     @classmethod
     def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
@@ -101,7 +106,7 @@ class NormalFamily(Distribution):
             )
         check_order(start, end, unit=unit)
         mean, sd = cls._spanning(start, end, score_of_coverage(share))
-        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": _pair(bounds)})
+        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": _pair(bounds)}, (start, end, share))
 
     def _derive(self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None) -> None:
         if not sd > 0.0:
@@ -220,6 +225,9 @@ class Normal(NormalFamily):
     """
 
     __slots__ = ()
+
+    def __str__(self) -> str:
+        return super().__str__() if self._range is None else f"{super().__str__()}, normal"
 
     @staticmethod
     def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
