@@ -167,6 +167,10 @@ def scale(axes, what):
     return float(found.group(1).replace("\u2009", ""))
 
 
+def is_sketch(axes):
+    return "not all positions given: a sketch" in axes.get_xlabel()
+
+
 # What they have in common
 
 
@@ -179,6 +183,10 @@ def test_every_picture_of_every_impact_has_its_units_on_its_axes(picture, case):
     unit = SHOWN[system][kinds[picture]].replace("*", "·")
     if (picture, system) == ("momentum", "si"):
         unit = "kg·m/s"
+    if is_sketch(axes):
+        assert axes.get_xlabel().startswith("x\n")
+        assert axes.get_ylabel() == "y"
+        return
     assert f"[{unit}]" in axes.get_xlabel()
     if picture == "force_time":
         assert axes.get_ylabel() == f"normal force [{SHOWN[system]['force']}]"
@@ -367,12 +375,16 @@ def test_numbers_are_shown_with_units_as_well_as_they_can_be_known(system, value
 @pytest.mark.slow
 @pytest.mark.parametrize("case", IMPACTS)
 def test_velocities_and_impulses_of_the_scene_are_those_of_the_result(case):
-    """Read back with the scale that is printed below the picture."""
+    """Read back with the scale that is printed below the picture; in a sketch by the arrows of A, one scale for all."""
     impact, system = IMPACTS[case], UNITS[case]
     axes = drawn("scene", case)
     found = vectors(axes)
-    per_speed = scale(axes, "velocities") / factor(system, "speed")
-    per_impulse = scale(axes, "impulses") / factor(system, "impulse")
+    if is_sketch(axes):
+        per_speed = impact.a.before.speed / np.hypot(*found["a.before"])
+        per_impulse = impact.normal_impulse / np.hypot(*found["impulse.a"])
+    else:
+        per_speed = scale(axes, "velocities") / factor(system, "speed")
+        per_impulse = scale(axes, "impulses") / factor(system, "impulse")
     # Positions are a few metres, and taken from the ends of an arrow.
     near = 1e-11
     for letter in "ab":
@@ -598,14 +610,19 @@ def test_a_moment_that_is_not_known_is_refused():
 
 
 def test_places_that_were_not_given_are_a_sketch_and_said_to_be():
-    """No numbers on the axes, which would be made up."""
+    """No numbers or units on the axes, which would be made up, nor arrows measured in lengths."""
     for case in ("example 2", "wall in line"):
         axes = drawn("scene", case)
-        assert "not all positions given: a sketch" in axes.get_xlabel()
+        assert is_sketch(axes)
         assert len(axes.get_xticks()) == len(axes.get_yticks()) == 0
+        assert axes.get_xlabel().startswith("x\n")
+        assert axes.get_xlabel().endswith("\narrows: one scale for all velocities; one scale for all impulses")
+        assert axes.get_ylabel() == "y"
+        assert plot.scene(IMPACTS[case], moment="before").get_xlabel().endswith("\narrows: one scale for all velocities")
     for case in ("oblique", "sticking", "wall aslant"):
         axes = drawn("scene", case)
         assert "sketch" not in axes.get_xlabel()
+        assert "one scale" not in axes.get_xlabel()
         assert len(axes.get_xticks()) > 2
 
 

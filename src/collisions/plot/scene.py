@@ -48,7 +48,7 @@ def scene(
     impulse takes no time. The impulse acts at the contact point, or in a central impact at the centres of mass; that of a pivot
     on its vehicle acts at the pivot. Arrows that would hide each other, as in an in-line impact, are drawn side by side;
     a note below the picture says so, and the scales of the arrows are stated there too. Positions that a central model does not
-    need are never made up: without them the picture is a sketch, and says so.
+    need are never made up: without them the picture is a sketch without a scale of length, and says so.
 
     Parameters
     ----------
@@ -132,15 +132,19 @@ def scene(
     picture.frame(at, impact.normal, marked=impact.point is not None)
 
     scales = [("velocities", speed_scale, "m/s"), ("impulses", impulse_scale, "N*s")]
+    # A sketch has no scale of length, in which an arrow could be measured.
     stated = "; ".join(
-        f"1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)} for {what}"
+        f"one scale for all {what}"
+        if sketched
+        else f"1 {labels.name('m')} = {f'{scale:,g}'.replace(',', THIN)} {labels.name(unit)} for {what}"
         for what, scale, unit in scales
         if scale
     )
     note = "not all positions given: a sketch, places not to scale\n" if sketched else ""
     note += "arrows that would hide each other are drawn side by side\n" if picture.arrows.moved else ""
-    axes.set_xlabel(f"{labels.label('x', 'm')}\n{note}{stated and f'arrows: {stated}'}".rstrip())
-    axes.set_ylabel(labels.label("y", "m"))
+    x, y = (name if sketched else labels.label(name, "m") for name in "xy")
+    axes.set_xlabel(f"{x}\n{note}{stated and f'arrows: {stated}'}".rstrip())
+    axes.set_ylabel(y)
     axes.set_title(_TITLES[moment], fontsize=10.5)
     if sketched:
         axes.set(xticks=[], yticks=[])
