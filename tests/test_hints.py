@@ -38,22 +38,25 @@ def test_a_vehicle_without_a_mass_says_what_a_mass_may_be():
 
 def test_an_attribute_is_looked_up_where_it_is():
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1000.0), 0.1)
+    courses = {"course_a": 0.0, "course_b": 1.5, "course_a_after": 0.5, "course_b_after": 0.6}
+    solution = reconstruct.momentum(mass_a=1500.0, mass_b=1200.0, speed_a_after=8.0, speed_b_after=9.0, **courses)
     for owner, name, where in (
         (impact, "delta_v", "impact.a.delta_v or impact.b.delta_v"),
-        (impact, "speed", "impact.a.after.speed"),
+        (impact, "speed", "; write impact.a.after.speed (or .before, or impact.b)"),
         (impact.a, "speed", "before.speed or after.speed"),
         (impact.q, "delta_v", "impact.a.q.delta_v or impact.b.q.delta_v"),
         (impact.q, "speed", "impact.a.after.q.speed"),
         (impact.a.q, "speed", "before.q.speed or after.q.speed"),
+        (solution, "delta_v", "; write delta_v_a or delta_v_b"),
+        (solution.q, "pdof", "; write q.pdof_a or q.pdof_b"),
     ):
         with pytest.raises(AttributeError, match=re.escape(where)):
             getattr(owner, name)
         assert not hasattr(owner, name)
     for name in ("nothing", "_delta_v"):
-        with pytest.raises(AttributeError, match=rf"no attribute '{name}'$"):
-            getattr(impact, name)
-        with pytest.raises(AttributeError, match=rf"no attribute '{name}'$"):
-            getattr(impact.q, name)
+        for owner in (impact, impact.q, solution, solution.q):
+            with pytest.raises(AttributeError, match=rf"no attribute '{name}'$"):
+                getattr(owner, name)
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,9 @@ class Impact(Frozen, Summarized):
     """The inputs: the vehicles, restitution, normal, point, tangential rule and its value, and how each was given."""
 
     _answer: Any
-    _elsewhere = MappingProxyType({Side: "impact.a.{0} or impact.b.{0}", Vehicle: "impact.a.after.{0}, or of .before or b"})
+    _elsewhere = MappingProxyType(
+        {Side: "impact.a.{0} or impact.b.{0}", Vehicle: "impact.a.after.{0} (or .before, or impact.b)"}
+    )
 
     def __init__(self) -> None:
         raise TypeError("an Impact is made by linear_central, oblique_central, eccentric, or Impact.from_dict")

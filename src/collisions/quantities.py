@@ -58,8 +58,10 @@ class Derived(Generic[T]):
         def __set__(self, owner: Any, value: Never) -> None: ...
 
 
-class Frozen:
-    """Base of results that cannot be changed."""
+class LookedUp:
+    """Base of results that say where an attribute is that they do not have."""
+
+    __slots__ = ()
 
     # By attribute of something within the result, where it is found: a missing name is looked up there.
     _elsewhere: ClassVar[Mapping[type[Any], str]] = {}
@@ -72,6 +74,10 @@ class Frozen:
                 return object.__getattribute__(self, name)
             raise _no_attribute(self, name, name)
 
+
+class Frozen(LookedUp):
+    """Base of results that cannot be changed."""
+
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be set")
 
@@ -79,10 +85,12 @@ class Frozen:
         raise AttributeError(f"an answer is frozen: {name} of {type(self).__name__} cannot be deleted")
 
 
-def _no_attribute(owner: Frozen, name: str, written: str) -> AttributeError:
+def _no_attribute(owner: LookedUp, name: str, written: str) -> AttributeError:
     """The error for an attribute that an object does not have, with where it is and how it is written there."""
-    places = [where for kind, where in owner._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
-    hint = f"; write {places[0].format(written)}" if places else ""
+    places = [where.format(written) for kind, where in owner._elsewhere.items() if name[:1] != "_" and hasattr(kind, name)]
+    # What the object has of each vehicle.
+    places += [f"{written}_a or {written}_b"] if hasattr(type(owner), f"{name}_a") else []
+    hint = f"; write {places[0]}" if places else ""
     return AttributeError(f"{type(owner).__name__!r} object has no attribute {name!r}{hint}", name=name, obj=owner)
 
 
@@ -134,7 +142,7 @@ class Quantities:
         try:
             value = getattr(self._owner, name)
         except AttributeError:
-            if not isinstance(self._owner, Frozen) or hasattr(type(self._owner), name):
+            if not isinstance(self._owner, LookedUp) or hasattr(type(self._owner), name):
                 raise
             raise _no_attribute(self._owner, name, f"q.{name}") from None
         unit = unit_of(type(self._owner), name)
@@ -237,7 +245,7 @@ def same_fields(one: Any, other: Any) -> bool:
     return type(one) is type(other) and all(same(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))
 
 
-class Shown(Summarized):
+class Shown(LookedUp, Summarized):
     """Base of result dataclasses: shown with units as text and as a table, with ``.q``; arrays stay locked when unpickled."""
 
     __slots__ = ("_inputs_as_texts",)
