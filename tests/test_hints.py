@@ -93,7 +93,8 @@ def test_a_list_of_texts_names_the_quantity_to_write():
     with pytest.raises(col.UnitsError, match=re.escape("pint.Quantity([40, 50.5], 'mph')")):
         col.Vehicle(mass=1500.0, vx=["40 mph", "50.5 mph"])
     for other, cure in (
-        (["x", "y"], "pint.Quantity([40, 50], 'mph')"),
+        (["x", "y"], "pint.Quantity([...], 'mph')"),  # no numbers that were not given
+        (["40 mph", "x"], "pint.Quantity([40, ...], 'mph')"),
         (np.array(["40 mph", "50.5 mph"]), "pint.Quantity([40, 50.5], 'mph')"),
         (np.array([pint.Quantity(40, "mph"), 50.5], dtype=object), "pint.Quantity([40, ...], 'mph')"),
         (["40 mph", 3.0], "pint.Quantity([40, ...], 'mph')"),  # what 3.0 was meant in is not known
@@ -111,6 +112,12 @@ def test_a_list_of_texts_names_the_quantity_to_write():
         col.eccentric(A, B, 0.1, friction=[0.5, "0.6"], **CONTACT)
     with pytest.raises(col.UnitsError, match=re.escape("pint.Quantity([3400, ...], 'lb')")):
         col.Vehicle(mass=["3400 lb", 1500])
+    with pytest.raises(col.UnitsError, match=r"cannot read '0,5': a number has no comma here, write '0\.5'; give numbers"):
+        col.eccentric(A, B, 0.1, friction=["0,5", "0.6"], **CONTACT)
+    for masses in (["3400 lb", "3,500 lb"], ["3400 lb", " 3,500 lb"], np.array(["3400 lb", "3,500 lb"])):
+        with pytest.raises(col.InputError, match=re.escape("pint.Quantity([3400, 3500], 'lb')")) as caught:
+            col.Vehicle(mass=masses)
+        assert f"{masses[1]}': a number has no comma here, write '3500 lb' or '3.500 lb'; put" in str(caught.value)
     assert col.Vehicle(mass=1500.0, vx=pint.Quantity([40, 50.5], "mph")).vx[1] == pytest.approx(50.5 * 0.44704)
 
 

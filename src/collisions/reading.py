@@ -14,7 +14,21 @@ import numpy as np
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
 from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, POSITIVE_FINITE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import Default, units_required
-from .units import Texts, example, factor, has_unit, in_degrees, is_quantity, magnitude, parse, shown, si_unit, unit_as_written
+from .units import (
+    Texts,
+    example,
+    factor,
+    has_unit,
+    in_degrees,
+    is_quantity,
+    magnitude,
+    no_comma,
+    parse,
+    shown,
+    si_unit,
+    unit_as_written,
+    without_commas,
+)
 from .warning import warn
 
 # Above this a bare angle is probably in degrees, a bare yaw rate in degrees per second (20 rad/s is three turns a second).
@@ -295,18 +309,29 @@ def _from_sequence(value: Sequence[Any], argument: str, unit: str) -> Any:
 
 
 def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
-    """How a list of texts and Quantities is written as one Quantity, in the first unit in it; an example for others."""
+    """How a list of texts and Quantities is written as one Quantity, in the first unit in it; dots for what cannot be read."""
+    commas = {part: without_commas(part) for part in values if isinstance(part, str)}
+    note = next((f"cannot read {shown(part)}: {no_comma(part)}; " for part, meant in commas.items() if meant), "")
+    values = [commas[part][0] if isinstance(part, str) and commas[part] else part for part in values]
     first = next((part for part in values if has_unit(part)), None)
     if first is None:
-        return "give numbers, without quotes"
+        return f"{note}give numbers, without quotes"
+
+    def number(part: Any) -> str:
+        try:
+            # What a number without a unit was meant in is not known.
+            return f"{_read(part, unit, argument)[0] / by:.10g}" if has_unit(part) else "..."
+        except (InputError, TypeError):  # of an array among them, too
+            return "..."
+
     try:
         name, unit = unit_as_written(first), unit or si_unit(first)
         by, _ = _read(f"1 {name}", unit, argument)
-        # What a number without a unit was meant in is not known.
-        parts = [f"{_read(part, unit, argument)[0] / by:.10g}" if has_unit(part) else "..." for part in values]
-    except (InputError, TypeError):  # of an array among them, too
-        parts, name = ["40", "50"], example(unit).rpartition("'")[0].rpartition(" ")[2] or "%"
-    return f"put the unit on the whole: pint.Quantity([{shown(', '.join(parts))[1:-1]}], {name!r}), or give numbers in SI"
+        parts = [number(part) for part in values]
+    except InputError:
+        parts, name = ["..."], example(unit).rpartition("'")[0].rpartition(" ")[2] or "%"
+    whole = f"pint.Quantity([{shown(', '.join(parts))[1:-1]}], {name!r})"
+    return f"{note}put the unit on the whole: {whole}, or give numbers in SI"
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:

@@ -92,6 +92,7 @@ _NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
+_WITH_COMMA = r"[+-]?\d[\d,]*,\d"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 # Names that mean one thing to pint, or to one version of it, and another to their users.
@@ -323,10 +324,8 @@ def _cure(text: str, unit: str) -> str:
     feet = re.fullmatch(r"""(\d+)\s*(?:'|ft|feet)\s*(\d+(?:\.\d+)?)\s*(?:"|''|in|inch|inches)""", text)
     if feet:
         return f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' is one"
-    if re.match(r"[+-]?\d[\d,]*,\d", text):
-        whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
-        point = [text.replace(",", ".")] if text.count(",") == 1 and "." not in text else []
-        return f": a number has no comma here, write {' or '.join(map(repr, whole + point))}" if whole or point else ""
+    if re.match(_WITH_COMMA, text):
+        return f": {no_comma(text)}" if without_commas(text) else ""
     if "\u2212" in text:
         return ": a minus is typed as a hyphen, " + repr(text.replace("\u2212", "-"))
     if re.search(r"\d\s*(?:-|\.\.|to|–|±|\+/?-)\s*\d", text):
@@ -337,6 +336,20 @@ def _cure(text: str, unit: str) -> str:
         cured = _as_force(cured) if unit in _FORCES or re.search(r"\bs(?:ec)?\b", cured) else cured
         return f": units are multiplied by * and raised by **, {cured!r}"
     return ""
+
+
+def without_commas(text: str) -> list[str]:
+    """What a text may mean whose number has commas: between thousands, or as a decimal point; empty for others."""
+    text = text.strip()
+    if not re.match(_WITH_COMMA, text):
+        return []
+    whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
+    return whole + ([text.replace(",", ".")] if text.count(",") == 1 and "." not in text else [])
+
+
+def no_comma(text: str) -> str:
+    """The hint for a text whose number has commas."""
+    return f"a number has no comma here, write {' or '.join(map(repr, without_commas(text)))}"
 
 
 def _as_force(text: str) -> str:
