@@ -1139,6 +1139,16 @@ def test_the_impulse_plane_speaks_of_nothing_that_is_out_of_the_picture(case, en
     assert line.get_transform().transform_path(line.get_path()).intersects_bbox(box, filled=False) == (case != "grazing")
 
 
+def test_the_impulse_plane_of_a_collinear_impact_says_how_it_is_read():
+    ends = ",\nhere on the axis: there is no tangential impulse in this model."
+    for case in ("example 2", "wall in line"):
+        axes = drawn("impulse_plane", case)
+        assert axes.get_xlabel().endswith(f"\nThe impulse ends on the solid line{ends}")
+        x, y = named(axes, "answer").get_data()
+        assert y == [0.0]
+        assert named(axes, "end of restitution").get_xdata() == pytest.approx([x[0], x[0]])
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
 @pytest.mark.parametrize("slip", [0.0, 30.0])

@@ -146,11 +146,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
-    how = f",\nhere {_ENDS[impact.regime]}."
+    how = f",\nhere {'on the axis: there is no tangential impulse in this model' if plain else _ENDS[impact.regime]}."
     if shows_no_slip and cone:
         how = ":\nat the diamond if the contact sticks, on the cone if it slides."
-    how = "" if plain else f"\nThe impulse ends on the solid line{how}"
-    axes.set_xlabel(labels.label("normal impulse Pn on B", "N*s") + how)
+    axes.set_xlabel(f"{labels.label('normal impulse Pn on B', 'N*s')}\nThe impulse ends on the solid line{how}")
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
     without_slip = "is not defined: one degree of freedom" if math.isnan(no_slip[0]) else "lies outside the picture"
