@@ -111,9 +111,10 @@ class Sheet(Page):
 
 
 def given_as(value: str, text: str) -> str:
-    """A number as it is printed, and as it was given."""
+    """A number as it is printed, and as it was given; not if it has the digits of a conversion, which nobody types."""
     given = typeset(with_symbol(plain(text)))
-    return value if given == value else f"{value}, given as {given}"
+    digits = max(len(number.replace(".", "").lstrip("0")) for number in ["", *re.findall(r"\d*\.?\d+", text)])
+    return value if given == value or digits > _DIGITS else f"{value}, given as {given}"
 
 
 class Html(Sheet):

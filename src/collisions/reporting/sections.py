@@ -262,9 +262,8 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
     for answer, row in solution.sensitivity.items():
         for name, value in row.items():
             kind = {"mass": "mass", "speed": "speed", "course": "angle", "outside": "impulse"}[name.partition("_")[0]]
-            moved = (
-                f"{value * of_speed / system.scale(kind) + 0.0:+.3g} {system.label('speed')} per {typeset(system.label(kind))}"
-            )
+            by = value * of_speed / system.scale(kind)
+            moved = f"{f'{by:+.3g}' if by else '0'} {system.label('speed')} per {typeset(system.label(kind))}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
 
