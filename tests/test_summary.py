@@ -376,6 +376,17 @@ def test_figures_in_a_unit_asked_for_are_in_that_unit_whatever_their_kind():
     assert "mean ± standard deviation: 28.6 ± 8.3°; 95 percent" in repr(found["course"].to("deg"))
 
 
+def test_figures_of_plain_numbers_say_why_they_have_no_unit():
+    def model(speed):
+        return {"delta_v": struck(speed)["delta_v"], "bare": 0.5 * speed}
+
+    note = "Without a unit, as the model returned plain numbers: bare."
+    found = propagate(model, {"speed": Normal("40 mph", "2 mph")}, seed=1)
+    assert found.summary().notes == found["bare"].summary().notes == (note,)
+    assert note in str(found)
+    assert found["delta_v"].summary().notes == ()
+
+
 def test_a_plain_table_is_at_most_88_wide():
     found = col.diagnose(crash(), limits=dict.fromkeys(("normal", "tyre_impulse", "normal_yaw"), 1e-3))
     assert len(found) > 2

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import combinations
@@ -218,7 +218,8 @@ class Output(Summarized):
         return str(self.summary())
 
     def _summary(self, numbers: Cells) -> Summary:
-        return Summary(f"Given {self.given}", [outputs_part({self.name: self}, numbers), all_numbers([self.row()])])
+        parts = [outputs_part({self.name: self}, numbers), all_numbers([self.row()])]
+        return Summary(f"Given {self.given}", parts, _notes([self]))
 
     def _texts(self) -> tuple[str, ...]:
         return self.texts
@@ -501,7 +502,8 @@ class Propagation(Summarized):
     def _summary(self, numbers: Cells) -> Summary:
         title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
         stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
-        return Summary(title, [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())])
+        parts = [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())]
+        return Summary(title, parts, _notes(self.outputs.values()))
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.inputs)
@@ -557,6 +559,12 @@ def outputs_part(outputs: Mapping[str, Output], numbers: Cells, heading: str = "
     rows = [(name, dict(figures(output, numbers))) for name, output in outputs.items()]
     heads = tuple(dict.fromkeys(head for _, row in rows for head in row))
     return Part([(name, *(row.get(head, "") for head in heads)) for name, row in rows], heading, heads)
+
+
+def _notes(outputs: Iterable[Output]) -> list[str]:
+    """The sentence below the figures of outputs of which the model returned bare numbers."""
+    bare = [output.name for output in outputs if output.unit is None]
+    return [f"Without a unit, as the model returned plain numbers: {', '.join(bare)}."] if bare else []
 
 
 def units_of(stated: Mapping[str, Any]) -> Iterator[str]:
