@@ -117,6 +117,8 @@ RESULT = uncertainty.propagate(squared, INPUTS, method="quasi_random", samples=2
 
 @pytest.fixture(autouse=True)
 def _closed():
+    # Other tests in the same process may have left figures open.
+    plt.close("all")
     yield
     plt.close("all")
 
