@@ -17,7 +17,7 @@ from .kernels.batch import flat, precision
 from .kernels.elementwise import select
 from .quantities import Shown, hypot, in_units_of, lock
 from .reading import ArgumentReader, broadcast, widened
-from .settings import as_asked, computing
+from .settings import callers_options, computing
 from .travel.surfaces import out_of_range, settle
 from .units import Input, Value
 from .warning import quietly
@@ -208,7 +208,7 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
                 argument="impact",
             )
         )
-    with as_asked():
+    with callers_options():
         time = read_duration(reader, duration)
         pull = read_drag(reader, drag, "drag")
     reader.close()

@@ -15,7 +15,7 @@ from .units import shown
 F = TypeVar("F", bound=Callable[..., Any])
 
 units_required: ContextVar[bool] = ContextVar("units_required", default=False)
-_asked: ContextVar[bool] = ContextVar("_asked", default=False)
+_callers: ContextVar[bool] = ContextVar("_callers", default=False)
 
 
 class Default(float):
@@ -74,9 +74,9 @@ def in_si() -> Iterator[None]:
 
 
 @contextmanager
-def as_asked() -> Iterator[None]:
+def callers_options() -> Iterator[None]:
     """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
-    token = units_required.set(_asked.get())
+    token = units_required.set(_callers.get())
     try:
         yield
     finally:
@@ -86,17 +86,17 @@ def as_asked() -> Iterator[None]:
 def computing(function: F) -> F:
     """Decorate a function that works on results: the numbers it gives on are the package's own, in SI.
 
-    Its arguments are the caller's, and are read in ``as_asked``.
+    Its arguments are the caller's, and are read in ``callers_options``.
     """
     named = hinted(function)
 
     @wraps(function)
     def inside(*args: Any, **options: Any) -> Any:
-        token = _asked.set(units_required.get())
+        token = _callers.set(units_required.get())
         try:
             with in_si():
                 return named(*args, **options)
         finally:
-            _asked.reset(token)
+            _callers.reset(token)
 
     return cast(F, inside)

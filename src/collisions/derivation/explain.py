@@ -15,7 +15,7 @@ from ..inputs import PLACED
 from ..kernels.contact_laws import RULES
 from ..reading import ArgumentReader, at_least_zero, need_one_case
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..settings import as_asked, computing
+from ..settings import callers_options, computing
 from ..solving import error_of
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
@@ -177,7 +177,7 @@ def explain(
     need_one_case(impact, (Impact, MomentumSolution, Fit), "explain", instead=NOT_EXPLAINED, refused=error_of)
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
-    with as_asked():
+    with callers_options():
         deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, impact)
     page = Page(System(units), form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):

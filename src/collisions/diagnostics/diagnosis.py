@@ -17,7 +17,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
 from ..reading import ArgumentReader, amount, need_one_case
 from ..reconstruct import MomentumSolution
-from ..settings import as_asked, computing, units_required
+from ..settings import callers_options, computing, units_required
 from ..summary import spoken_system
 from ..units import Input, Pair, shown
 from ..vehicle import Vehicle, missing
@@ -124,7 +124,7 @@ def diagnose(
     # An implausible limit is intended, so it is not warned of; where units are required, it has one.
     implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     need_one_case(impact, (Impact, MomentumSolution), "diagnose")
-    with as_asked():
+    with callers_options():
         reader = ArgumentReader(trusted=() if units_required.get() else implausible)
         outlines = {
             label: _read_outline(reader, impact, given, label)

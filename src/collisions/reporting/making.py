@@ -28,7 +28,7 @@ from ..outlines import read_outline
 from ..plot.canvas import who
 from ..reading import ArgumentReader, need_one_case
 from ..reconstruct import Fit, MomentumSolution, Posterior
-from ..settings import as_asked, computing
+from ..settings import callers_options, computing
 from ..summary import cells
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
@@ -157,7 +157,7 @@ def report(
     sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
     sheet.title(plain(title or _title(impact)))
     # As they were given, so that it sees which have a unit.
-    with as_asked():
+    with callers_options():
         findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at)
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
