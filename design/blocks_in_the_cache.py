@@ -19,8 +19,9 @@ import numpy as np
 from measuring import QUICK, batch_speed, compare
 
 from collisions.kernels.batch import run_as_it_is
+from collisions.kernels.buffers import carved
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import Replay, aligned, record
+from collisions.kernels.replay import Replay, record
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000
@@ -48,7 +49,7 @@ def run(given, outputs, length, one):
 
 if __name__ == "__main__":
     given = inputs()
-    outputs = [aligned(CASES, kind) for kind in KINDS]
+    _, outputs = carved(CASES, KINDS)
     texts = tuple(value.hex() if isinstance(value, float) else None for value in given)
     program = record(eccentric, SETTINGS, texts, np.dtype(float), KINDS)
     straight = partial(run_as_it_is, eccentric, SETTINGS)

@@ -10,7 +10,7 @@ import pytest
 
 import collisions as col
 from collisions.kernels.batch import BLOCK, block_length
-from collisions.kernels.buffers import aligned
+from collisions.kernels.buffers import carved
 from collisions.kernels.central import linear_central, oblique_central
 from collisions.kernels.contact_laws import BRACH, FRICTION, KUDLICH_SLIBAR, LAWS, RULES
 from collisions.kernels.eccentric import eccentric
@@ -259,14 +259,18 @@ def test_blocks_of_threads_are_even_and_their_scratch_is_bounded(threads, scratc
             assert -(-size // length) % threads in (0, threads - 1)
 
 
-@pytest.mark.parametrize("dtype", [np.float64, np.float32, np.uint8])
-def test_scratch_begins_on_a_page(dtype):
-    """Which halves the time of a call on it."""
-    for length in (1, 1000, BLOCK):
-        found = aligned(length, dtype)
-        assert found.shape == (length,)
-        assert found.dtype == dtype
-        assert length == 1 or found.nbytes < 4096 or found.ctypes.data % 4096 == 0
+@pytest.mark.parametrize("length", [0, 1, 1000, BLOCK])
+def test_arrays_in_one_piece_of_memory(length):
+    """None shares a byte with another; those of a block begin on a page, which halves the time of a call on them."""
+    dtypes = [np.dtype(one) for one in (np.uint8, np.float64, np.float32, np.float64)]
+    memory, arrays = carved(length, dtypes)
+    assert [(one.shape, one.dtype) for one in arrays] == [((length,), dtype) for dtype in dtypes]
+    for at, one in enumerate(arrays):
+        one.fill(at)
+    assert all((one == at).all() for at, one in enumerate(arrays))
+    assert all(one.ctypes.data % (4096 if length >= 1000 else 64) == 0 for one in arrays if length)
+    assert carved(length, dtypes[:2], memory)[0] is memory
+    assert carved(length + 4096, dtypes, memory)[0] is not memory
 
 
 def test_outputs_are_scratch_until_they_are_written():

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from .buffers import Program, aligned
+from .buffers import Program, carved
 from .elementwise import first_status
 from .model_error import ECCENTRIC, least_model
 from .replay import Replay, input_kind, record
@@ -143,7 +143,7 @@ def least_models(
 
     kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
     works = [Work(least_model, settings, inputs)]
-    outputs = [aligned(cases.size, kind) for kind in kinds]
+    _, outputs = carved(cases.size, kinds)
     _in_blocks(works, _programs(works, kinds, cases), None, outputs, cases, refuse, progress)
     which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
     return which, linear, oblique
@@ -194,7 +194,10 @@ def _solved(
     programs = _programs(works, kinds, cases)
     program = programs[0] if which is None and size > AS_IT_IS else None
     same = {} if program is None else program.outputs
-    outputs: list[Any] = [None if kind is None or at in same else aligned(size, kind) for at, kind in enumerate(kinds)]
+    outputs: list[Any] = [None] * len(kinds)
+    computed = {at: kind for at, kind in enumerate(kinds) if kind is not None and at not in same}
+    for at, output in zip(computed, carved(size, list(computed.values()))[1], strict=True):
+        outputs[at] = output
     _in_blocks(works, programs, which, outputs, cases, blank, progress)
     if dtype == np.float32:
         _refuse_beyond(outputs)
@@ -287,7 +290,7 @@ def _in_blocks(
         block = slice(start, min(start + per_block, size))
         if not hasattr(mine, "runs"):
             mine.runs = [run_of(work, program) for work, program in zip(works, programs, strict=True)]
-            mine.room = None if which is None else aligned(min(per_block, size), np.float64)
+            mine.room = None if which is None else np.empty(min(per_block, size))
         cut = plain | {key: column[block].astype(dtype, copy=False) for key, column in columns.items()}
         inputs = [[cut[key] for key in keys] for keys in taken]
         answers = [None if output is None else output[block] for output in outputs]

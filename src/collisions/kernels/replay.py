@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
-from .buffers import PAGE, Program, aligned, placed
-from .tracing import CODE, Step, Tape, Traced, cast
+from .buffers import Program, carved, placed
+from .tracing import Step, Tape, Traced, cast
 
 # Memory of runs that have ended, for the next ones: new pages would cost as much as some of the calls.
 _SPARE: list[Any] = []
@@ -62,15 +61,8 @@ class Replay:
         self.program = program
         self.length = length
         # Taking from a list and putting back is safe between threads, and in a call within a call.
-        self.memory = _SPARE.pop() if _SPARE else np.empty(0, CODE)
-        sizes = [-(-length * dtype.itemsize // PAGE) * PAGE for dtype in program.buffers]
-        if self.memory.size < sum(sizes):
-            self.memory = aligned(max(sum(sizes), PAGE), CODE)
-        ends = list(accumulate(sizes))
-        self.buffers = [
-            self.memory[end - size : end - size + length * dtype.itemsize].view(dtype)
-            for end, size, dtype in zip(ends, sizes, program.buffers, strict=True)
-        ]
+        spare = _SPARE.pop() if _SPARE else None
+        self.memory, self.buffers = carved(length, program.buffers, spare)
         self.numbers = [np.empty((), dtype) for dtype in program.numbers]
 
     def close(self) -> None:
