@@ -652,8 +652,8 @@ def test_a_model_that_is_no_function(model):
         ),
         (lambda x: {3: x}, "bad_model", "must name its outputs by texts, got 3"),
         (lambda x: {"y": 1.0}, "bad_shape", r"output 'y' of the model has shape \(\)"),
-        (lambda x: {"y": x[:-1]}, "bad_shape", r"an array of shape \(1024,\)"),
-        (lambda x: {"y": np.stack([x, x])}, "bad_shape", r"\(2, 1024\)"),
+        (lambda x: {"y": x[:-1]}, "bad_shape", r"an array of shape \(8192,\)"),
+        (lambda x: {"y": np.stack([x, x])}, "bad_shape", r"\(2, 8192\)"),
         (lambda x: {"y": "fast"}, "bad_units", "fast"),
         (lambda x: {"y": np.array(["a"] * len(x))}, "not_a_number", "y"),
         (lambda x: {"y": x * 1j}, "not_a_number", "y"),
@@ -665,7 +665,7 @@ def test_a_model_that_is_no_function(model):
 @pytest.mark.parametrize("method", ["quasi_random", "first_order"])
 def test_answers_that_are_none(answer, code, words, method):
     """Refused with the name of the output and what an answer is."""
-    with pytest.raises(col.InputError, match=words.replace("1024", "1024" if method == "quasi_random" else "5")) as caught:
+    with pytest.raises(col.InputError, match=words.replace("8192", "8192" if method == "quasi_random" else "5")) as caught:
         propagate(answer, X, method=method)
     assert caught.value.code == code
 

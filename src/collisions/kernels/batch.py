@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from itertools import chain
 from typing import Any, NamedTuple, TypeAlias, TypeVar
 
@@ -17,12 +17,15 @@ import numpy as np
 
 from .buffers import Program, carved
 from .elementwise import first_status
+from .floats import compile_for_floats
 from .model_error import ECCENTRIC, least_model
 from .replay import Replay, input_kind, record
 from .status import Answer, Status
 
 BLOCK = 8192
-# Batches of up to so many cases are answered by the kernel itself: it takes a fifth longer, and recording it as long as many.
+# Up to so many cases are answered one by one, as single cases are: a call of numpy takes longer than their arithmetic.
+FEW = 32
+# Up to so many are answered by the kernel itself: it takes a fifth longer, and recording it as long as many.
 AS_IT_IS = 100
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
@@ -282,7 +285,8 @@ def _in_blocks(
 
     def run_of(work: Work, program: Program | None) -> Run:
         if program is None:
-            return partial(run_as_it_is, work.kernel, work.settings)
+            few = size <= FEW and dtype == np.float64
+            return partial(run_one_by_one if few else run_as_it_is, work.kernel, work.settings)
         replays.append(Replay(program, length))
         return replays[-1]
 
@@ -371,6 +375,26 @@ def run_as_it_is(
         if output is not None:
             output[...] = answer
     return not outputs[0].any()
+
+
+def run_one_by_one(
+    kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
+) -> bool:
+    """Call the kernel compiled for floats on each case; the kernel itself on all of them if one is not plainly fine."""
+    count = len(outputs[0])
+    columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
+    answers = [*map(_for_floats(kernel, settings, len(inputs)), zip(*columns, strict=True))]
+    if None in answers:
+        return run_as_it_is(kernel, settings, inputs, outputs)
+    for output, answer in zip(outputs, zip(*answers, strict=True), strict=True):
+        if output is not None:
+            output[...] = answer
+    return True
+
+
+@lru_cache(maxsize=64)
+def _for_floats(kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], count: int) -> Callable[[Any], Any]:
+    return compile_for_floats(kernel, tuple(f"[{at}]" for at in range(count)), settings)
 
 
 def block_length(size: int, threads: int, scratch: int) -> int:

@@ -125,8 +125,5 @@ def carved(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any,
         whole = np.empty(sum(sizes) + PAGE, CODE)
         start = -whole.ctypes.data % PAGE
         memory = whole[start : start + sum(sizes)]
-    ends = accumulate(sizes)
-    return memory, [
-        memory[end - size : end - size + length * dtype.itemsize].view(dtype)
-        for end, size, dtype in zip(ends, sizes, dtypes, strict=True)
-    ]
+    starts = accumulate(sizes, initial=0)
+    return memory, [np.ndarray(length, dtype, memory, start) for start, dtype in zip(starts, dtypes, strict=False)]

@@ -20,6 +20,7 @@ REPLICATES = 16
 MOST_DIMENSIONS = 64
 _SHEET = 512
 _BITS = 52  # so that adding a half to the integer is exact and no number is 0 or 1
+_EXPONENT_OF_ONE = np.float64(1.0).view(np.uint64)
 # Made by benchmarks/lattice.py, which names the source of the construction.
 _VECTOR = (
     1, 676721, 1020265, 898277, 180061, 182105, 868669, 774733, 63087, 936555, 97147, 221963, 709561, 473463, 994195, 370017,
@@ -105,22 +106,14 @@ def quasi_random(dimensions: int, seed: int, length: int) -> Design:
 
 def _between(whole: Any) -> Any:
     """Whole numbers below 2**52 as numbers strictly between 0 and 1."""
-    found = whole.astype(np.float64)
-    found += 0.5
-    found *= 2.0**-_BITS
-    return found
+    # Their bits are the digits of numbers from 1 to 2, and the difference is exact.
+    return (whole | _EXPONENT_OF_ONE).view(np.float64) - (1.0 - 2.0 ** -(_BITS + 1))
 
 
 def _reversed_bits(index: Any) -> Any:
     """The index with its 52 bits in reverse: the van der Corput sequence, as whole numbers."""
-    found = np.zeros_like(index)
-    rest = index.copy()
-    place = _BITS - 1
-    while rest.any():
-        found |= (rest & np.uint64(1)) << np.uint64(place)
-        rest >>= np.uint64(1)
-        place -= 1
-    return found
+    bits = np.unpackbits(index.astype("<u8").view(np.uint8), bitorder="little")
+    return np.packbits(bits).view(">u8").astype(np.uint64) >> np.uint64(64 - _BITS)
 
 
 DESIGNS = {"monte_carlo": monte_carlo, "latin_hypercube": latin_hypercube, "quasi_random": quasi_random}

@@ -113,6 +113,11 @@ class Distribution(Stated):
     kurtosis: float
     support: tuple[float, float]
 
+    @property
+    def by_score(self) -> bool:
+        """Whether its values are worked out from normal scores, also where they are asked for by probability."""
+        return False
+
     def quantile(self, p: Any) -> Any:
         """Value below which the quantity lies with probability p.
 
@@ -185,6 +190,16 @@ class Distribution(Stated):
             code="out_of_range",
             argument=next(iter(self._parts)),
         )
+
+
+def at_probabilities(distribution: Distribution, p: Any) -> Any:
+    """The values of a distribution at an array of probabilities that needs no check."""
+    return distribution._at(p, 1.0 - p)
+
+
+def at_scores(distribution: Distribution, z: Any) -> Any:
+    """The values of a distribution at an array of normal scores that needs no check."""
+    return distribution._scored(z)
 
 
 def _like(given: Any, found: Any) -> Any:

@@ -115,6 +115,10 @@ class Model:
 
 def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:
     """Raise for inputs (or unknowns) that are not arguments of the model, and for arguments without an input."""
+    made: Any = getattr(function, "__code__", None)
+    arguments = set() if made is None else {*made.co_varnames[: made.co_argcount + made.co_kwonlyargcount]}
+    if arguments == {*names} and not made.co_posonlyargcount:
+        return  # most models: their signature, which takes longer to find than some of them to call, would say the same
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
@@ -159,12 +163,13 @@ def check_elementwise(
         compared |= answered
         for name, column in answers.items():
             for place, few in zip(places, found[name].tolist(), strict=True):
-                many, case = float(column[place]), _cases(values, [place])
+                many = float(column[place])
                 if _agree(many, few, column) or _jumps(answer, values, place, name, (many, few), column):
                     continue
                 batched_text, single_text = ("no answer" if math.isnan(one) else f"{one:.9g}" for one in (many, few))
                 raise _bad_model(
-                    f"model mixes cases: among {total} cases it answers {name!r} with {batched_text} for {_numbers_of(case)}, "
+                    f"model mixes cases: among {total} cases it answers {name!r} with {batched_text} for "
+                    f"{_numbers_of(_cases(values, [place]))}, "
                     f"and with {single_text} for that case {company}. Every case must be worked out by itself. In place of "
                     f"what is taken over all cases, such as x.mean(), x.max(), x[0], a running sum, a sort or an if on the "
                     f"whole array, write a number into the model, or numpy.where. Random numbers drawn in the model do this "
@@ -236,14 +241,14 @@ def _agree(batched: float, single: float, answers: Any) -> bool:
     """Whether a case's value in a batch and by itself agree up to rounding or the convergence of an iteration."""
     if math.isnan(batched) or math.isnan(single):
         return math.isnan(batched) and math.isnan(single)
-    away = abs(batched - single)
+    away, roundings = abs(batched - single), _ROUNDINGS * max(abs(batched), abs(single))
+    if away <= roundings:
+        return True
     if angles.are_directions(np.array([batched, single])):
         away = min(away, abs(away - 2.0 * math.pi))  # a direction may come out at either end of its turn
-    if away == 0.0:
-        return True
     with np.errstate(all="ignore"):
         low, high = np.nanquantile(answers, (0.25, 0.75))
-        return bool(away <= _ROUNDINGS * max(abs(batched), abs(single)) + (_UNNOTICED * high - _UNNOTICED * low))
+        return bool(away <= roundings + (_UNNOTICED * high - _UNNOTICED * low))
 
 
 def _bad_model(text: str, **fields: Any) -> InputError:

@@ -177,6 +177,10 @@ class NormalFamily(Distribution):
         """Mean and standard deviation after truncation, from those about the anchor."""
         raise NotImplementedError
 
+    @property
+    def by_score(self) -> bool:
+        return self._split is None
+
     def _scored(self, z: Any) -> Any:
         return self._inside(self._value(z)) if self._split is None else super()._scored(z)
 

@@ -101,7 +101,8 @@ def propagate(
         Number of blocks of cases computed at once. If more than 1, the model must be safe to call from several threads.
     progress : function or bool, optional
         For methods that draw: called with the numbers of cases done and in all (with ``tolerance``, as far as known); True
-        shows a bar, by tqdm if it is installed (extra ``progress``). An interrupt returns what has been done until then.
+        shows a bar, by tqdm if it is installed (extra ``progress``). An interrupt returns the blocks of cases that are done, of
+        which the first has 1,024 cases with progress and 8,192 without; before that there is nothing to return.
 
     Returns
     -------
