@@ -4,7 +4,7 @@ from math import inf
 from typing import Any
 
 from .contact_laws import LAWS, RULES, dissipates, energetic_contact, energy_losses
-from .elementwise import all_zero, first_status, more_digits, select
+from .elementwise import all_zero, first_status, larger, more_digits, select
 from .status import EPS, Answer, Status
 
 
@@ -65,9 +65,10 @@ def linear_central(
         total = total + slip
     elif not all_zero(ny, vy_a, vy_b, spin_a, spin_b):
         spins = (spin_a != 0.0) | (spin_b != 0.0)
+        across_a, across_b = nx * vy_a - ny * vx_a, nx * vy_b - ny * vx_b
         # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
-        across = (abs(nx * vy_a - ny * vx_a) > most) | (abs(nx * vy_b - ny * vx_b) > most)
+        across = ((across_a != 0.0) | (across_b != 0.0)) & (larger(abs(across_a), abs(across_b)) > most)
     fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
     status = (
         Status.OK

@@ -39,11 +39,11 @@ def compile_for_floats(
     if fine is None:
         raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
     wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
-    paths = [f"inputs{path}" if path[0] == "[" else path for path in takes]
-    heads = dict.fromkeys(path.partition(".")[0].partition("[")[0] for path in takes)
+    paths = [f"inputs{path}" if path[0] == "[" else path if {*path} & {*".["} else f"inputs[{path!r}]" for path in takes]
+    heads = dict.fromkeys(path.partition(".")[0].partition("[")[0] for path in takes if path in paths)
     lines, (condition, *found) = statements(tape, wanted, paths, WRITTEN, _constant, kernel.__name__)
     returned = f"new(made, ({', '.join((['OK'] if isinstance(given, Answer) else []) + found)}))"
-    read = [f"{head} = inputs[{head!r}]" for head in heads if head]
+    read = [f"{head} = inputs[{head!r}]" for head in heads]
     body = "\n        ".join([*read, *lines, f"if {condition}:"])
     source = (
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
