@@ -46,9 +46,6 @@ import time_resolved
 import collisions as col
 from collisions import models, reconstruct
 from collisions.impact import solved
-from collisions.inputs import read_inputs
-from collisions.kernels.central import linear_central as linear_kernel
-from collisions.kernels.eccentric import eccentric as eccentric_kernel
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -338,46 +335,9 @@ def quantity_works(count: int) -> dict[str, Work]:
     }
 
 
-# --- Where the time goes ---------------------------------------------------------------------------------------------------
-
-
-def parts(effort: Effort) -> dict[str, Any]:
-    """Shares of the time: in one case those of the formulas, in a batch those of its arguments and of the attributes read."""
-    a, b = (col.Vehicle(**body) for body in BODIES)
-    line = [col.Vehicle(mass=1500.0, vx=13.9), col.Vehicle(mass=1200.0, vx=2.0)]
-    bodies = [number for car in (a, b) for number in (*(getattr(car, name) for name in batch_speed.BODY), 0.0, 0.0)]
-    eccentric = 0.1, math.cos(0.1), math.sin(0.1), 0.5, 0.0, 0.0, *bodies, "friction", "brach", False, False
-    linear = 0.1, 1.0, 0.0, *(number for car in line for number in (car.mass, car.vx, car.vy, car.yaw_rate))
-    works = {
-        "eccentric": Work("", lambda: col.eccentric(a, b, 0.1, normal=0.1, point=(0.0, 0.0), friction=0.5)),
-        "eccentric_formulas": Work("", lambda: eccentric_kernel(*eccentric)),
-        "linear": Work("", lambda: col.linear_central(*line, 0.1)),
-        "linear_formulas": Work("", lambda: linear_kernel(*linear)),
-    }
-    single = timed(works, effort.rounds, effort.seconds)
-    scene = batch_speed.states(batch_speed.scenes(effort.cases))
-    *inputs, friction = scene.values()
-    batch = timed(
-        {
-            "whole": Work("", lambda: batch_speed.library(**scene)),
-            "solved": Work("", lambda: col.eccentric(**scene, on_failure="nan")),
-            "arguments": Work("", lambda: read_inputs("eccentric", *inputs, (friction, None, None), "brach")),
-        },
-        effort.batch_rounds,
-        0.0,
-    )
-    solved = ratio(batch, "solved", "whole")["median"]
-    return {
-        "eccentric": ratio(single, "eccentric_formulas", "eccentric")["median"],
-        "linear": ratio(single, "linear_formulas", "linear")["median"],
-        "arguments": ratio(batch, "arguments", "whole")["median"],
-        "attributes": speed_errors.rounded(1.0 - solved),
-    }
-
-
 # --- Imports ---------------------------------------------------------------------------------------------------------------
 
-MODULES = ("numpy", "collisions", "pint", "numba", "pymunk")
+MODULES = ("numpy", "collisions", "collisions.solvers", "pint", "numba", "pymunk")
 TIMED = "import sys, time; t = time.perf_counter(); import {0}; t = time.perf_counter() - t; print(t, 'pint' in sys.modules)"
 
 
@@ -494,9 +454,8 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
     of_batch = costs(batch, batch_times, UNIT)
     del batch, compiled
     taken = speed_errors.memory(effort.cases)
-    shares = parts(effort)
     say("imports")
-    imported = imports(effort.imports, MODULES if effort is FULL else MODULES[:2])
+    imported = imports(effort.imports, MODULES if effort is FULL else MODULES[:3])
     say("budgets")
     quick = effort is QUICK
     flags = ("--cases", str(effort.cases), *(["--quick"] if quick else []), *(["--busy"] if "--busy" in sys.argv else []))
@@ -518,7 +477,6 @@ def measure(effort: Effort = FULL) -> tuple[dict[str, Any], dict[str, Any]]:
         "budgets": held,
         "sizes": of_sizes,
         "memory": taken,
-        "parts": shares,
         "imports": imported,
         "rivals": versions,
         "errors": {"choices": speed_errors.choices(effort.scenes, contacts, rivals.pymunk), **speed_errors.curves()},

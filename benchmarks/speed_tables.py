@@ -94,42 +94,7 @@ def costs(found: dict[str, Any], group: str, keys: tuple[str, ...] | None = None
     )
 
 
-WHY = {
-    "import": "Its own modules are read one by one, on top of numpy's.",
-    "vehicle": "Every argument is checked.",
-    "eccentric": "It checks the case, uses forms that keep their accuracy, and makes a result object.",
-    "nine": "Attributes are worked out when they are read, and the states after are vehicles of their own.",
-    "linear": "Checks and the result object cost more than so small a formula.",
-    "batch": "The forms that keep their accuracy need more operations than the textbook, and all is checked.",
-    "batch_c": "numpy reads and writes every intermediate result, which compiled code keeps in registers.",
-    "batch_linear": "Some answers are worked out and kept that nobody may read.",
-    "batch_8192": "Reading the arguments and checking them costs as much for a few cases as for many.",
-    "batch_10": "A call of numpy costs as much for ten numbers as for a hundred.",
-    "processes": "Both cores have to be idle, and they share the memory.",
-    "memory": "The states after are arrays of their own.",
-    "quantities": "The type, the dimension and the factor of every argument are looked up.",
-    "propagate": "The cases are drawn from the distributions, and a few are asked again alone.",
-    "speeds": "Every regime of the contact has candidates of its own, each tried on the forward formulas.",
-    "solve": "It asks for the impulse by all models before it takes one.",
-}
 PROCESSOR = "A thread waits for Python's interpreter lock before each of some two hundred numpy calls a block"
-
-
-def why(found: dict[str, Any], key: str) -> str:
-    """Why a budget is missed, with the shares of the time where they were measured."""
-    shares = found.get("parts")
-    if shares is None or key not in ("eccentric", "linear", "batch"):
-        return WHY[key]
-    if key == "batch":
-        parts = ", ".join(
-            f"{100.0 * shares[name]:.0f} % {what}"
-            for name, what in (
-                ("arguments", "copies of the arguments and the sines and cosines of the normals"),
-                ("attributes", "the six velocities and yaw rates after"),
-            )
-        )
-        return f"{WHY[key]} Of its time {parts}."
-    return f"{WHY[key]} The formulas alone are {100.0 * shares[key]:.0f} % of its time."
 
 
 def threads(found: dict[str, Any]) -> str:
@@ -216,14 +181,14 @@ def drawn(found: dict[str, Any]) -> str:
 
 
 def budgets(found: dict[str, Any]) -> str:
-    """Held, or missed by how much and why."""
+    """Held, or missed by how much."""
     lines = []
     for row in found["budgets"]:
         if row["held"]:
             aim = row["aim"]
             outcome = "held" + ("" if aim is None else ", and the aim" if row["median"] <= aim else ", not the aim")
         else:
-            outcome = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**. {why(found, row['key'])}"
+            outcome = f"**missed by {100.0 * (row['median'] / row['budget'] - 1.0):.0f} %**"
         aim = "–" if row["aim"] is None else f"{row['aim']:g}"
         measured = f"{row['median']:.2g}" if row["median"] < 0.1 else f"{row['median']:.3g}"
         if row["low"] != row["high"]:

@@ -24,9 +24,7 @@ from .errors import (
     SuspectUnitsWarning,
     UnitsError,
 )
-from .impact import Impact
 from .settings import options
-from .solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
 from .vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -34,9 +32,11 @@ if TYPE_CHECKING:
     from .contact_effects import left_out
     from .derivation import explain
     from .diagnostics import diagnose
+    from .impact import Impact
     from .model_choice import ModelChoice
     from .reporting import report
     from .schema import impact_schema
+    from .solvers import eccentric, linear_central, oblique_central, required_model, solve, time_resolved
     from .what_if_page import what_if
 
 __version__ = "0.1.0"
@@ -82,6 +82,7 @@ __all__ = [
 
 # Modules of the lazily imported names.
 _LATER = {
+    "Impact": "impact",
     "ModelChoice": "model_choice",
     "diagnose": "diagnostics",
     "explain": "derivation",
@@ -89,12 +90,13 @@ _LATER = {
     "left_out": "contact_effects",
     "report": "reporting",
     "what_if": "what_if_page",
+    **dict.fromkeys(("eccentric", "linear_central", "oblique_central", "required_model", "solve", "time_resolved"), "solvers"),
 }
 _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:
-    """Lazily imports the names that not every caller needs."""
+    """Imports at its first use what not every caller needs: solvers and all that they bring along take half of an import."""
     if name in _MODULES:
         return import_module(f".{name}", __name__)
     if name not in _LATER:
