@@ -23,10 +23,8 @@ from .replay import Replay, input_kind, record
 from .status import Answer, Status
 
 BLOCK = 8192
-# Up to so many cases are answered one by one, as single cases are: a call of numpy takes longer than their arithmetic.
+# Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take longer than their arithmetic.
 FEW = 32
-# Up to so many are answered by the kernel itself: it takes a fifth longer, and recording it as long as many.
-AS_IT_IS = 100
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
 # Of one thread alone: a short formula gains by longer blocks, as each has its own calls of Python.
@@ -117,7 +115,7 @@ def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progr
     block, from the calling thread.
     """
     solve = partial(_solved, works, which, cases)
-    if cases.size > AS_IT_IS:
+    if cases.size > FEW:
         return BatchAnswer(solve, solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress))
     return Answer(**solve(Answer._fields, progress))
 
@@ -195,7 +193,7 @@ def _solved(
     dtype, size = np.dtype(cases.dtype), cases.size
     kinds = _kinds(tuple(names), dtype)
     programs = _programs(works, kinds, cases)
-    program = programs[0] if which is None and size > AS_IT_IS else None
+    program = programs[0] if which is None else None
     same = {} if program is None else program.outputs
     outputs: list[Any] = [None] * len(kinds)
     computed = {at: kind for at, kind in enumerate(kinds) if kind is not None and at not in same}
@@ -285,8 +283,7 @@ def _in_blocks(
 
     def run_of(work: Work, program: Program | None) -> Run:
         if program is None:
-            few = size <= FEW and dtype == np.float64
-            return partial(run_one_by_one if few else run_as_it_is, work.kernel, work.settings)
+            return partial(run_one_by_one, work.kernel, work.settings)
         replays.append(Replay(program, length))
         return replays[-1]
 
@@ -359,37 +356,26 @@ def _gathered(column: Any, some: Any) -> Any:
 
 
 def _programs(works: Sequence[Work], kinds: tuple[Any, ...], cases: Cases) -> list[Program | None]:
-    """The kernels recorded for inputs and outputs of these kinds; None for a small batch."""
+    """The kernels recorded for inputs and outputs of these kinds; None for a few cases."""
     dtype = np.dtype(cases.dtype)
+    few = cases.size <= FEW and dtype == np.float64
     return [
-        record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds) if cases.size > AS_IT_IS else None
-        for work in works
+        None if few else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds) for work in works
     ]
-
-
-def run_as_it_is(
-    kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
-) -> bool:
-    """Call the kernel itself on a block: for small batches, where tracing it would cost more."""
-    for output, answer in zip(outputs, kernel(*inputs, *settings), strict=True):
-        if output is not None:
-            output[...] = answer
-    return not outputs[0].any()
 
 
 def run_one_by_one(
     kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
 ) -> bool:
-    """Call the kernel compiled for floats on each case; the kernel itself on all of them if one is not plainly fine."""
-    count = len(outputs[0])
+    """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them is not plainly fine."""
+    count, function = len(outputs[0]), _for_floats(kernel, settings, len(inputs))
     columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
-    answers = [*map(_for_floats(kernel, settings, len(inputs)), zip(*columns, strict=True))]
-    if None in answers:
-        return run_as_it_is(kernel, settings, inputs, outputs)
-    for output, answer in zip(outputs, zip(*answers, strict=True), strict=True):
+    answers = [*map(function, zip(*columns, strict=True))]
+    found = kernel(*inputs, *settings) if None in answers else zip(*answers, strict=True)
+    for output, answer in zip(outputs, found, strict=True):
         if output is not None:
             output[...] = answer
-    return True
+    return not outputs[0].any()
 
 
 @lru_cache(maxsize=64)
