@@ -58,12 +58,15 @@ def test_there_are_examples():
     assert expected <= {script.stem for script in EXAMPLES}
 
 
+PAPER = ROOT / "examples" / "paper_examples.py"
+
+
 @pytest.mark.parametrize(
-    "script",
-    [pytest.param(path, id=path.stem, marks=() if path.stem == "paper_examples" else pytest.mark.slow) for path in EXAMPLES],
-)
-@pytest.mark.parametrize(
-    "elsewhere", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["from the root", "from elsewhere"]
+    ("script", "elsewhere"),
+    [
+        pytest.param(PAPER, False, id="from the root"),
+        *(pytest.param(path, True, id=path.stem, marks=pytest.mark.slow) for path in EXAMPLES),
+    ],
 )
 def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
     """An example exits with 0 and ends in its checks, without a warning, wherever it is started."""
@@ -76,7 +79,7 @@ def test_example_runs_and_its_checks_pass(script, elsewhere, tmp_path):
 @pytest.mark.slow
 def test_a_failed_comparison_fails_the_example(tmp_path):
     """The checks at the end are real: with one paper figure altered, the script fails and names it."""
-    script = (ROOT / "examples" / "paper_examples.py").read_text(encoding="utf-8")
+    script = PAPER.read_text(encoding="utf-8")
     altered = tmp_path / "altered.py"
     altered.write_text(script.replace("950 / 111", "951 / 111"), encoding="utf-8")
     done = run(altered, tmp_path)

@@ -73,7 +73,8 @@ class Side(Frozen, Summarized):
     @derived()
     def after(self) -> Vehicle:
         """The vehicle just after separation, ready to be the start of the next impact."""
-        before, (dvx, dvy, dw) = self.before, self._change()
+        # Not self.before: of one case, of which most callers read little else, it would be a tenth of the time.
+        before, (dvx, dvy, dw) = (self._inputs.b if self._index else self._inputs.a), self._change()
         motion = _changed(before.vx, dvx), _changed(before.vy, dvy), _changed(before.yaw_rate, dw)
         return moved(before, *motion, self._units())
 
