@@ -9,7 +9,8 @@ import pytest
 
 import collisions as col
 from collisions.directions import from_radians
-from collisions.kernels.batch import BLOCK
+from collisions.impact import answer_of
+from collisions.kernels.batch import BLOCK, FEW
 from collisions.kernels.status import Answer
 from test_refused_cases import outputs
 
@@ -109,6 +110,24 @@ def test_single_precision_angles_in_degrees():
     impact = col.oblique_central(col.Vehicle(mass=1.0, vx=3.0), col.Vehicle(mass=1.0), 0.1, normal=degrees, friction=0.0)
     assert impact.normal[0].dtype == impact.energy_loss.dtype == np.float32
     assert col.Impact.from_dict(impact.to_dict()) == impact
+
+
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar", "stronge"])
+@pytest.mark.parametrize("refusing", [False, True])
+def test_few_cases_and_many_have_the_same_bits(law, refusing):
+    """A few are answered one by one, many by recorded calls of numpy; a refused case among the few by the kernel itself."""
+    rng = np.random.default_rng(20)
+    vx = rng.uniform(-5.0 if refusing else 8.0, 25.0, 96)
+    e = rng.uniform(0.0, 1.0, 96)
+    friction = np.where(rng.random(96) < 0.2, 0.0, rng.uniform(0.0, 1.5, 96))
+    whole = solve(vx, e, friction=friction, law=law, on_failure="nan")
+    assert np.any(whole.refused) == refusing
+    for count in (1, 5, FEW):
+        parts = [slice(start, start + count) for start in range(0, 96, count)]
+        found = [solve(vx[part], e[part], friction=friction[part], law=law, on_failure="nan") for part in parts]
+        for name in Answer._fields:
+            joined = np.concatenate([getattr(answer_of(part), name) for part in found])
+            assert joined.tobytes() == np.ascontiguousarray(getattr(answer_of(whole), name)).tobytes(), (name, count)
 
 
 def test_blocks_and_threads_change_no_bit():
