@@ -58,7 +58,7 @@ class Budget(NamedTuple):
 
 
 BUDGETS = (
-    Budget("import", "`import collisions` against `import numpy`, best of 15; pint is not loaded", 1.15, 1.05),
+    Budget("import", "`import collisions` against `import numpy`, best of 15; pint and the solvers are not loaded", 1.15, 1.05),
     Budget("vehicle", "`Vehicle` from six floats against a bare frozen dataclass with slots", 2.5),
     Budget("eccentric", "one `eccentric` against the textbook formula as a bare function of floats", 3.0, 2.5),
     Budget("nine", "the same with nine outputs read", 8.0, 5.5),

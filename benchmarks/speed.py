@@ -46,6 +46,7 @@ import time_resolved
 import collisions as col
 from collisions import models, reconstruct
 from collisions.impact import solved
+from collisions.kernels.batch import FEW
 
 DATA = ROOT / "docs" / "_generated" / "speed.json"
 FIGURES = ROOT / "docs" / "_static"
@@ -181,6 +182,10 @@ def single_works() -> dict[str, Work]:
         "array_of_one": Work(
             "`eccentric`, an array of one case, nine outputs read",
             lambda: nine(col.eccentric(a, b, np.array([0.1]), **contact)),
+        ),
+        "array_of_few": Work(
+            f"`eccentric`, an array of {FEW} cases, nine outputs read",
+            lambda: nine(col.eccentric(a, b, np.linspace(0.1, 0.2, FEW), **contact)),
         ),
         "brach": Work('`eccentric`, sticking, law "brach"', lambda: col.eccentric(a, b, 0.1, **sticking)),
         "kudlich_slibar": Work(

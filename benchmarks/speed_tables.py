@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 
 from stability_tables import GREY, INK, OURS, TEXTBOOK, number, table
 
+from collisions.kernels.batch import FEW
+
 DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated"
 NOT_MEASURED = "not measured"
 
@@ -111,7 +113,7 @@ def threads(found: dict[str, Any]) -> str:
 def sizes(found: dict[str, Any]) -> str:
     """Batches of every size against plain numpy."""
     lines = [[f"{row['cases']:,}".replace(",", " "), number(row["ratio"])] for row in found["sizes"]]
-    return table(["cases, nine outputs read", "cost of plain numpy"], lines)
+    return table(["cases, nine outputs read", "cost against plain numpy"], lines)
 
 
 def solving(found: dict[str, Any]) -> str:
@@ -132,10 +134,10 @@ def memory(found: dict[str, Any]) -> str:
     """What batches take beside what goes in and comes out."""
     taken, cases = found["memory"], f"{found['effort']['cases']:,}".replace(",", " ")
     return (
-        f"Beyond inputs and answers a batch of {cases} cases takes {number(taken['eccentric'])} MiB in `eccentric`, "
-        f"{number(taken['solve'])} MiB in `solve` and {number(taken['left_out'])} MiB in `left_out`, and no more with more "
-        f"cases. Each thread has scratch of its own: with two threads `eccentric` takes "
-        f"{number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB."
+        f"Beyond inputs, answers and the scratch that is kept for the next batch, {cases} cases take "
+        f"{number(taken['eccentric'])} MiB in `eccentric`, {number(taken['solve'])} MiB in `solve` and "
+        f"{number(taken['left_out'])} MiB in `left_out`, and no more with more cases. Each thread has scratch of its own: with "
+        f"two threads `eccentric` takes {number(taken['eccentric_threads'])} and `solve` {number(taken['solve_threads'])} MiB."
     )
 
 
@@ -380,10 +382,12 @@ def imports(found: dict[str, Any]) -> str:
 def break_even(found: dict[str, Any]) -> str:
     """From how many cases on arrays are worth it."""
     known = rows(found, "single")
-    cases = known["array_of_one"]["median"] / known["eccentric_nine"]["median"]
+    one, few = (known[key]["median"] / known["eccentric_nine"]["median"] for key in ("array_of_one", "array_of_few"))
+    further = (few - one) / (FEW - 1)
     return (
-        f"An array of one case costs as much as {number(cases)} single cases, and each further one hardly anything. From about "
-        f"{math.ceil(cases)} cases on, a batch is the faster way."
+        f"An array of one case costs as much as {number(one)} single cases. Up to {FEW} cases are answered one by one, and "
+        f"each further one costs {number(further)} of a single case; beyond that each costs hardly anything. From about "
+        f"{min(FEW + 1, math.ceil((one - further) / (1.0 - further)))} cases on, a batch is the faster way."
     )
 
 

@@ -21,7 +21,8 @@ import measuring
 BASE = "import numpy"
 ADDED = {
     "collisions": "import collisions",
-    "... and a batch": "import collisions.kernels.batch",
+    "... and solvers": "import collisions.solvers",
+    "... and a batch": "import collisions.solvers, collisions.kernels.batch",
     "... and reconstruct": "import collisions.reconstruct",
     "... and uncertainty": "import collisions.uncertainty",
     "... and diagnose, explain": "import collisions.diagnostics, collisions.derivation",

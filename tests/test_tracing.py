@@ -175,7 +175,7 @@ def scene(size, dtype=np.float64):
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("rule", "law"), LAW_RULES)
 def test_large_batches_hold_the_answers_of_small_ones(rule, law, dtype):
-    """More cases than a block holds are replayed, fewer are not: the same bits, whatever the size of the last block."""
+    """Blocks of any length have the same bits, and so have a few cases that are answered one by one."""
     a, b, e, normal = scene(2 * BLOCK + 5, dtype)
     options = {"point": (0.0, 0.1), rule: 0.2, "law": law, "on_failure": "nan"}
     with warnings.catch_warnings():

@@ -1,5 +1,6 @@
 """What a propagation answers with: cases that fail, interrupts, directions, units, tables, pickles; and every refusal."""
 
+import functools
 import itertools
 import json
 import math
@@ -772,6 +773,35 @@ def test_inputs_that_do_not_fit(inputs, words):
     with pytest.raises(col.InputError, match=words) as caught:
         propagate(lambda x: {"y": x}, inputs, method="quasi_random")
     assert caught.value.code == "bad_inputs"
+
+
+class Scaled:
+    """A model that is an object, with a method that could be one."""
+
+    def __call__(self, x):
+        return {"y": x}
+
+    def method(self, x):
+        return {"y": x}
+
+
+@functools.wraps(lambda x: {"y": x})
+def wrapping(*args, **options):
+    """It shows the signature of what it wraps."""
+    return {"y": options["x"]}
+
+
+@pytest.mark.parametrize(
+    "model",
+    [Scaled(), Scaled().method, functools.partial(lambda x, k: {"y": k * x}, k=1.0), wrapping, lambda x, k=1.0: {"y": k * x}],
+)
+def test_models_that_are_no_plain_function(model):
+    """They are called by the same names, and refused by them."""
+    assert propagate(model, X, method="monte_carlo", seed=1)["y"].std == pytest.approx(1.0, rel=0.05)
+    for inputs in ({}, {"self": X["x"]}, {"z": X["x"]}):
+        with pytest.raises(col.InputError, match="but the model takes") as caught:
+            propagate(model, inputs, method="monte_carlo")
+        assert caught.value.code == "bad_inputs"
 
 
 def test_models_without_a_signature():

@@ -96,8 +96,8 @@ _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:
-    """Imports at its first use what not every caller needs: solvers and all that they bring along take half of an import."""
-    if name in _MODULES:
+    """Imports at its first use what not every caller needs; what the solvers bring along takes as long as the rest of this."""
+    if name in _MODULES or name in _LATER.values():
         return import_module(f".{name}", __name__)
     if name not in _LATER:
         homes = [] if name[0] == "_" else [part for part in _MODULES if name in import_module(f".{part}", __name__).__all__]

@@ -86,8 +86,8 @@ class Inputs:
     normal: tuple[Value, Value]
     rule: str
     rule_value: Value
-    law: str | None = None
-    point: tuple[Value, Value] | None = field(default=None, metadata={"unit": "m"})
+    law: str | None
+    point: tuple[Value, Value] | None = field(metadata={"unit": "m"})
     given: Mapping[str, Any] | None = None
     tolerance: Value | None = None
     contact_velocity: tuple[Value, Value] | None = None
@@ -237,11 +237,9 @@ def plain_inputs(
         found["normal"] = _ALONG_X if normal == 0.0 else from_radians(normal)
         found["rule"] = FRICTION
         found["rule_value"] = friction
+        found["law"] = law if lawful else None
+        found["point"] = point
         found["shape"] = None
-        if lawful:
-            found["law"] = law
-        if point is not None:
-            found["point"] = point
         return inputs
     return None
 

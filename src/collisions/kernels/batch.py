@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from .buffers import Program, carved
+from .buffers import Program, large_arrays
 from .elementwise import first_status
 from .floats import compile_for_floats
 from .model_error import ECCENTRIC, least_model
@@ -24,7 +24,7 @@ from .status import Answer, Status
 
 BLOCK = 8192
 # Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take longer than their arithmetic.
-FEW = 32
+FEW = 24
 # Of all threads together, in bytes; a longer block gains nothing.
 _SCRATCH, _LONGEST = 6 * 2**20, 32768
 # Of one thread alone: a short formula gains by longer blocks, as each has its own calls of Python.
@@ -144,7 +144,7 @@ def least_models(
 
     kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
     works = [Work(least_model, settings, inputs)]
-    _, outputs = carved(cases.size, kinds)
+    outputs = large_arrays(cases.size, kinds)
     _in_blocks(works, _programs(works, kinds, cases), None, outputs, cases, refuse, progress)
     which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
     return which, linear, oblique
@@ -197,7 +197,7 @@ def _solved(
     same = {} if program is None else program.outputs
     outputs: list[Any] = [None] * len(kinds)
     computed = {at: kind for at, kind in enumerate(kinds) if kind is not None and at not in same}
-    for at, output in zip(computed, carved(size, list(computed.values()))[1], strict=True):
+    for at, output in zip(computed, large_arrays(size, list(computed.values())), strict=True):
         outputs[at] = output
     _in_blocks(works, programs, which, outputs, cases, blank, progress)
     if dtype == np.float32:

@@ -14,6 +14,7 @@ import numpy as np
 from .tracing import CODE, Step, Tape
 
 PAGE = 4096
+LARGE_PAGE = 2 * 2**20
 Call: TypeAlias = tuple[Callable[..., Any], Callable[[Any], Any]]
 
 
@@ -114,16 +115,28 @@ def placed(tape: Tape, written: dict[int, int], inputs: int, outputs: int, same:
 
 
 def carved(length: int, dtypes: Sequence[Any], memory: Any = None) -> tuple[Any, list[Any]]:
-    """A piece of memory, and empty arrays of these types in it: ``memory`` where it is large enough, else a new one.
-
-    The system hands a large piece out in large pages, at a fraction of the faults of an array at a time.
-    """
+    """A piece of memory, and empty arrays of these types in it: ``memory`` where it is large enough, else a new one."""
     # Numpy's own alignment can make a step over a block take up to twice as long as one that begins a memory page.
     unit = PAGE if 8 * length >= PAGE else 64
     sizes = [-(-length * dtype.itemsize // unit) * unit for dtype in dtypes]
     if memory is None or memory.size < sum(sizes):
-        whole = np.empty(sum(sizes) + PAGE, CODE)
-        start = -whole.ctypes.data % PAGE
-        memory = whole[start : start + sum(sizes)]
+        memory = _aligned(sum(sizes), PAGE)
     starts = accumulate(sizes, initial=0)
     return memory, [np.ndarray(length, dtype, memory, start) for start, dtype in zip(starts, dtypes, strict=False)]
+
+
+def large_arrays(length: int, dtypes: Sequence[Any]) -> list[Any]:
+    """Empty arrays in memory that the system can hand out in large pages, at a fraction of the faults of small ones.
+
+    Those shorter than a large page share one piece of memory, which stays as long as any of them.
+    """
+    if 8 * length < LARGE_PAGE:
+        return carved(length, dtypes)[1]
+    return [_aligned(length * dtype.itemsize, LARGE_PAGE).view(dtype) for dtype in dtypes]
+
+
+def _aligned(size: int, unit: int) -> Any:
+    """So many empty bytes that begin a page of this size; the memory behind them reaches to the end of their last page."""
+    whole = np.empty(-(-size // unit) * unit + unit, CODE)
+    start = -whole.ctypes.data % unit
+    return whole[start : start + size]

@@ -65,6 +65,7 @@ def linear_central(
         total = total + slip
     elif not all_zero(ny, vy_a, vy_b, spin_a, spin_b):
         spins = (spin_a != 0.0) | (spin_b != 0.0)
+        # Most cases have none and need no limit: compiled for floats, the first condition ends the look at it.
         across_a, across_b = nx * vy_a - ny * vx_a, nx * vy_b - ny * vx_b
         # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))

@@ -34,7 +34,8 @@ def larger(one: Any, other: Any) -> Any:
     """The larger of the two; NaN only if both are."""
     if isinstance(one, float) and isinstance(other, float):
         return one if one >= other or other != other else other
-    return np.fmax(one, other)
+    xp = library(one, other)
+    return np.fmax(one, other) if xp is np else xp.where((one >= other) | (other != other), one, other)
 
 
 def safe_divisor(usable: Any, value: Any) -> Any:

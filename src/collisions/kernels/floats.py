@@ -1,4 +1,4 @@
-"""Prints a tape as one plain Python function of floats, which answers a single case, or repeats a step of one."""
+"""Prints a tape as one plain Python function of floats, which answers one case, or repeats a step of one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .tracing import TextTape, statements
 
 WRITTEN: dict[Any, str] = {
     np.add: "({} + {})", np.subtract: "({} - {})", np.multiply: "({} * {})", np.true_divide: "({} / {})",
-    np.negative: "(-{})", np.absolute: "abs({})", np.fmax: "larger({}, {})", np.sqrt: "({} ** 0.5)",
+    np.negative: "(-{})", np.absolute: "abs({})", np.fmax: "larger({}, {})", np.sqrt: "sqrt({})",
     np.greater: "({} > {})", np.greater_equal: "({} >= {})", np.less: "({} < {})", np.less_equal: "({} <= {})",
     np.equal: "({} == {})", np.not_equal: "({} != {})", np.logical_not: "(not {})", np.bitwise_and: "({} and {})",
     np.bitwise_or: "({} or {})", np.bitwise_xor: "({} != {})", np.where: "({1} if {0} else {2})",
@@ -39,11 +39,11 @@ def compile_for_floats(
     if fine is None:
         raise ValueError(f"{kernel.__name__} does not end by choosing whether its case is fine")
     wanted = [fine, *(answers[1:] if isinstance(given, Answer) else answers)]
-    paths = [f"inputs{path}" if path[0] == "[" else path if {*path} & {*".["} else f"inputs[{path!r}]" for path in takes]
-    heads = dict.fromkeys(path.partition(".")[0].partition("[")[0] for path in takes if path in paths)
+    paths = [f"inputs[{path!r}]" if path.isidentifier() else f"inputs{path}" if path[0] == "[" else path for path in takes]
+    heads = dict.fromkeys(path.partition(".")[0].partition("[")[0] for path in takes if not path.isidentifier())
     lines, (condition, *found) = statements(tape, wanted, paths, WRITTEN, _constant, kernel.__name__)
     returned = f"new(made, ({', '.join((['OK'] if isinstance(given, Answer) else []) + found)}))"
-    read = [f"{head} = inputs[{head!r}]" for head in heads]
+    read = [f"{head} = inputs[{head!r}]" for head in heads if head]
     body = "\n        ".join([*read, *lines, f"if {condition}:"])
     source = (
         f"def function(inputs):\n    try:\n        {body}\n            return {returned}\n"
@@ -82,7 +82,7 @@ def compile_loop(
 
 
 def _made(source: str, name: str, kind: type = tuple) -> Callable[..., Any]:
-    names: dict[str, Any] = {"larger": larger, "OK": Status.OK, "made": kind, "new": tuple.__new__}
+    names: dict[str, Any] = {"larger": larger, "OK": Status.OK, "made": kind, "new": tuple.__new__, "sqrt": math.sqrt}
     exec(compile(source, f"<{name} of floats>", "exec"), names)
     made: Callable[..., Any] = names["function"]
     return made

@@ -19,7 +19,7 @@ Design: TypeAlias = Callable[[int, int], Any]
 REPLICATES = 16
 MOST_DIMENSIONS = 64
 _SHEET = 512
-_BITS = 52  # so that adding a half to the integer is exact and no number is 0 or 1
+_BITS = 52  # so that a number half a step up is exact, and none is 0 or 1
 _EXPONENT_OF_ONE = np.float64(1.0).view(np.uint64)
 # Made by benchmarks/lattice.py, which names the source of the construction.
 _VECTOR = (

@@ -113,11 +113,6 @@ class Distribution(Stated):
     kurtosis: float
     support: tuple[float, float]
 
-    @property
-    def by_score(self) -> bool:
-        """Whether its values are worked out from normal scores, also where they are asked for by probability."""
-        return False
-
     def quantile(self, p: Any) -> Any:
         """Value below which the quantity lies with probability p.
 

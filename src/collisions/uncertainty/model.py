@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Collection, Mapping
+from types import FunctionType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -115,10 +116,11 @@ class Model:
 
 def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:
     """Raise for inputs (or unknowns) that are not arguments of the model, and for arguments without an input."""
-    made: Any = getattr(function, "__code__", None)
-    arguments = set() if made is None else {*made.co_varnames[: made.co_argcount + made.co_kwonlyargcount]}
-    if arguments == {*names} and not made.co_posonlyargcount:
-        return  # most models: their signature, which takes longer to find than some of them to call, would say the same
+    if type(function) is FunctionType and not vars(function):
+        # Most models are plain functions: to find their signature can take longer than to call them.
+        made = function.__code__
+        if {*made.co_varnames[: made.co_argcount + made.co_kwonlyargcount]} == {*names} and not made.co_posonlyargcount:
+            return
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):

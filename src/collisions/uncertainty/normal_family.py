@@ -177,10 +177,6 @@ class NormalFamily(Distribution):
         """Mean and standard deviation after truncation, from those about the anchor."""
         raise NotImplementedError
 
-    @property
-    def by_score(self) -> bool:
-        return self._split is None
-
     def _scored(self, z: Any) -> Any:
         return self._inside(self._value(z)) if self._split is None else super()._scored(z)
 
@@ -199,6 +195,11 @@ class NormalFamily(Distribution):
     def _inside(self, value: Any) -> Any:
         """The value, clipped to bounds that rounding may have crossed."""
         return value if self.truncate is None else np.clip(value, *self.support)
+
+
+def is_whole_normal(distribution: Distribution) -> bool:
+    """Whether the values of a distribution are worked out from normal scores, also where they are asked for by probability."""
+    return isinstance(distribution, NormalFamily) and distribution._split is None
 
 
 class Normal(NormalFamily):

@@ -102,7 +102,7 @@ def propagate(
     progress : function or bool, optional
         For methods that draw: called with the numbers of cases done and in all (with ``tolerance``, as far as known); True
         shows a bar, by tqdm if it is installed (extra ``progress``). An interrupt returns the blocks of cases that are done, of
-        which the first has 1,024 cases with progress and 8,192 without; before that there is nothing to return.
+        which the first has 1,024 cases with progress and 8,192 without; during the first one it is a KeyboardInterrupt.
 
     Returns
     -------

@@ -17,6 +17,7 @@ from .designs import REPLICATES, Design
 from .distribution import at_probabilities, at_scores
 from .distributions import Distribution, Samples
 from .model import Model
+from .normal_family import is_whole_normal
 from .result import Shares, average, deviation
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
@@ -47,12 +48,12 @@ class Joint:
             self.rows[group] = list(range(self.dimensions, self.dimensions + count))
             self.dimensions += count
         self._factors = {group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1}
-        # Together their scores take two thirds of the time.
+        # Rows whose normal scores are needed: worked out together, they take two thirds of the time of one by one.
         self._by_score = [
             row
             for group, rows in self.rows.items()
             for row in rows
-            if group[0] not in self._columns and (group in self._factors or inputs[group[0]].by_score)
+            if group[0] not in self._columns and (group in self._factors or is_whole_normal(inputs[group[0]]))
         ]
 
     def values(self, points: Any) -> dict[str, Any]:
