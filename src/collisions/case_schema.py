@@ -23,7 +23,7 @@ def case_schema() -> dict[str, Any]:
     reverse: dict[str, Any] = {}
     for name, function in (SOLVERS | STUDIES).items():
         module, _, own = name.rpartition(".")
-        (reverse if module else tables)[own] = _arguments(function, vehicles(function))
+        (reverse if module else tables)[own] = _arguments(function)
     tables["propagate"]["properties"]["outputs"] = {"type": "array", "items": {"type": "string"}}
     pair = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 2, "maxItems": 2}
     tables |= {
@@ -34,7 +34,6 @@ def case_schema() -> dict[str, Any]:
         ),
         "answer": {"type": "integer", "minimum": 1, "description": OTHERS["answer"]},
     }
-    moving = {name: _argument(one, Vehicle.from_speed) for name, one in parameters(Vehicle.from_speed).items()}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "$id": "urn:collisions:case",
@@ -46,15 +45,15 @@ def case_schema() -> dict[str, Any]:
                 "anyOf": [{"type": ["number", "string"]}, {"$ref": "#/$defs/function"}],
             },
             "pair": {"type": "array", "items": _NUMBER},
-            "vehicle": _arguments(Vehicle) | {"properties": {**_arguments(Vehicle)["properties"], **moving}},
+            "vehicle": _object(_arguments(Vehicle)["properties"] | _arguments(Vehicle.from_speed)["properties"]),
             "function": _nested({name: _arguments(one, plain=name in DISTRIBUTIONS) for name, one in FUNCTIONS.items()}),
         },
     }
 
 
-def _arguments(function: Callable[..., Any], leave_out: list[str] | None = None, plain: bool = False) -> dict[str, Any]:
+def _arguments(function: Callable[..., Any], plain: bool = False) -> dict[str, Any]:
     """The table of the arguments of a function; the vehicles of a solver stand in tables of their own."""
-    takes = {name: one for name, one in parameters(function).items() if name not in (leave_out or ())}
+    takes = {name: one for name, one in parameters(function).items() if name not in vehicles(function)}
     return _object({name: {} if plain else _argument(one, function) for name, one in takes.items()})
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..impact import answer_of
-from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, LAWS, RULES
+from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
 from .expressions import HALF, ZERO, Direction, Expression, Function, Sum, magnitude, root, signed_total, total
 from .page import Page
 from .symbols import AFTER, BEFORE, Body, Symbol, Symbols, delta_v
@@ -61,12 +61,11 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
 
 def impulses(page: Page, s: Symbols, k: Mobility) -> None:
     """Both components of the impulse on B, and its parts of both periods."""
-    energetic, compressed = LAWS[s.impact.law or BRACH].energetic, None
-    if energetic and s.impact.inputs.rule_value != 0.0:
+    if s.law.energetic and s.impact.inputs.rule_value != 0.0:
         compressed = _by_energy(page, s, k)
     else:
         _by_rule(page, s, k)
-        compressed = (s.closing + k.push[0]) / k.normal if energetic else None
+        compressed = (s.closing + k.push[0]) / k.normal if s.law.energetic else None
     if not s.impact.complete:
         page.say("The impact is incomplete: it ends in the period of deformation, while the contact points still approach.")
         return
@@ -178,13 +177,12 @@ def _by_rule(page: Page, s: Symbols, k: Mobility) -> None:
 
 def _without_slip(page: Page, s: Symbols, k: Mobility, normal: Symbol, tangential: Symbol) -> None:
     """The impulse that stops the slip."""
-    law = LAWS[s.impact.law or BRACH]
     page.say(
         f"The impulse that just stops the slip has the components {page.symbol(normal)} and {page.symbol(tangential)}: with "
-        f"it, {law.derivation}."
+        f"it, {s.law.derivation}."
     )
     change = (1.0 + s.e) * s.closing + k.push[0]
-    stopped = (1.0 - law.sticking_slip(s.e)) * s.slip + k.push[1]
+    stopped = (1.0 - s.law.sticking_slip(s.e)) * s.slip + k.push[1]
     if k.coupling is None:
         page.equation("Its normal component", normal, change / k.normal)
         page.equation("Its tangential component", tangential, -(stopped / k.tangential))
@@ -226,21 +224,19 @@ def _sticks(page: Page, s: Symbols, normal: Symbol, tangential: Symbol) -> bool:
 def energy(page: Page, s: Symbols) -> None:
     """The loss along the normal and along the tangent."""
     page.heading("Energy")
-    along_n = Symbol(r"\Delta E_n", s.impact.energy_loss_normal, "energy")
-    along_t = Symbol(r"\Delta E_t", s.impact.energy_loss_tangential, "energy")
-    if LAWS[s.impact.law or BRACH].energetic and s.tangential.value != 0.0:
+    if s.law.energetic and s.tangential.value != 0.0:
         # The sum needs no path, its parts do.
         whole = HALF * (s.closing - s.separation) * s.normal - HALF * s.tangential * (s.slip + s.slip_after)
         page.equation("Energy lost, by the impulse at the mean of the contact velocities", s.loss, whole)
-        page.say(f"Of that the work of friction takes {page.shown(along_t)}, the normal {page.shown(along_n)}.")
+        page.say(f"Of that the work of friction takes {page.shown(s.loss_t)}, the normal {page.shown(s.loss_n)}.")
     else:
-        page.equation("Energy lost along the normal, (8) at the contact", along_n, HALF * (1.0 - s.e) * s.closing * s.normal)
+        page.equation("Energy lost along the normal, (8) at the contact", s.loss_n, HALF * (1.0 - s.e) * s.closing * s.normal)
         if s.tangential.value != 0.0:
             work = -(HALF * s.tangential * (s.slip + s.slip_after))
-            page.equation("Energy lost along the tangent, to the mean of both slips", along_t, work)
-            page.equation("Energy lost", s.loss, along_n + along_t)
+            page.equation("Energy lost along the tangent, to the mean of both slips", s.loss_t, work)
+            page.equation("Energy lost", s.loss, s.loss_n + s.loss_t)
         else:
-            page.equation("Energy lost, as nothing is lost along the tangent", s.loss, along_n)
+            page.equation("Energy lost, as nothing is lost along the tangent", s.loss, s.loss_n)
     kinetic_energies(page, s)
 
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 
 from ..impact import Impact, answer_of
-from ..kernels.contact_laws import BRACH, LAWS
 from .contact import Mobility, energy, impulses, kinetic_energies, velocity_after, velocity_before
 from .expressions import HALF, ZERO, Expression, total
 from .page import Page
@@ -53,6 +52,7 @@ def linear(page: Page, s: Symbols) -> None:
 
 
 def _reduced(a: Body, b: Body) -> Expression:
+    """The mass that the contact of two point masses feels."""
     return (b if a.fixed else a).mass if a.fixed or b.fixed else a.mass * b.mass / (a.mass + b.mass)
 
 
@@ -98,11 +98,8 @@ def oblique(page: Page, s: Symbols) -> None:
         velocity_before(page, body, s)
     page.equation("Closing speed", s.closing, a.along("n") - b.along("n"))
     page.equation("Slip, of B relative to A", s.slip, s.relative("t"))
-    if a.fixed or b.fixed:
-        hit = b if a.fixed else a
-        page.equation(f"Mass that the contact feels, as the other is infinite: that of {hit.label}", s.mass, hit.mass)
-    else:
-        page.equation("Mass that the contact feels", s.mass, a.mass * b.mass / (a.mass + b.mass))
+    whose = f", as the other is infinite: that of {(b if a.fixed else a).label}" if a.fixed or b.fixed else ""
+    page.equation(f"Mass that the contact feels{whose}", s.mass, _reduced(a, b))
     page.heading("Impulse")
     impulses(page, s, Mobility(1.0 / s.mass, 1.0 / s.mass, None))
     page.heading("Velocities after")
@@ -216,7 +213,7 @@ def eccentric(page: Page, s: Symbols) -> None:
 
 def time_resolved(page: Page, s: Symbols) -> None:
     """A contact in steps: its sums are not printed, but what they balance is."""
-    impact, steps = s.impact, s.impact.inputs.steps or 100
+    steps = s.impact.inputs.steps or 100
     geometry = (s.impact.inputs.geometry or "maximum_engagement").replace("_", " ")
     page.heading("Time-resolved impact")
     page.say(
@@ -237,12 +234,10 @@ def time_resolved(page: Page, s: Symbols) -> None:
                 push = push + held / body.mass
             page.equation(f"Velocity of {body.label} after, along {axis}", body.along(axis, AFTER), push)
     page.heading("Energy")
-    along_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
-    along_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
     page.say(
-        f"Lost along the normal and along the tangent, the sums over all steps: {page.shown(along_n)}, {page.shown(along_t)}."
+        f"Lost along the normal and along the tangent, the sums over all steps: {page.shown(s.loss_n)}, {page.shown(s.loss_t)}."
     )
-    page.equation("Energy lost in the contact", s.loss, along_n + along_t)
+    page.equation("Energy lost in the contact", s.loss, s.loss_n + s.loss_t)
     tyres = [Symbol(rf"W_{body.label}", body.side.tyre_loss, "energy") for body in s.bodies]
     whole = Symbol(r"\Delta T", s.loss.value + tyres[0].value + tyres[1].value, "energy")
     if tyres[0].value or tyres[1].value:
@@ -389,7 +384,7 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     """Write the restitution at the contact, from both bodies and from one."""
     a, b = levers
     closing = a.along("n", contact=True) - b.along("n", contact=True)
-    if LAWS[s.impact.law or BRACH].energetic:
+    if s.law.energetic:
         page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
         return
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")

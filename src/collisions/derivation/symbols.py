@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from ..impact import Impact
+from ..kernels.contact_laws import BRACH, LAWS
 from ..side import Side
 from ..vehicle import Vehicle
 from .expressions import ATOM, SUM, Expression, Pen, Written, signed_total
@@ -138,10 +139,10 @@ class Body:
 
 
 class Symbols:
-    """The symbols of an impact, of its contact and of both bodies."""
+    """The symbols of an impact, of its contact and of both bodies; and the law of the contact."""
 
     def __init__(self, impact: Impact) -> None:
-        self.impact = impact
+        self.impact, self.law = impact, LAWS[impact.law or BRACH]
         self.a, self.b = self.bodies = Body(impact, "A"), Body(impact, "B")
         self.e = Symbol("e", impact.restitution, "number")
         self.closing = Symbol("g", impact.closing_speed, "speed")
@@ -156,6 +157,8 @@ class Symbols:
         self.critical = Symbol(r"\mu_c", impact.critical_impulse_ratio, "number")
         self.ratio = Symbol(r"\mu_P", impact.impulse_ratio, "number")
         self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
+        self.loss_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
+        self.loss_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
         self.nx, self.ny = (Symbol(f"n_{axis}", part, "number") for axis, part in zip("xy", impact.normal, strict=True))
 
     def relative(self, direction: str, when: str = BEFORE, contact: bool = False) -> Expression:
