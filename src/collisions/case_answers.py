@@ -25,7 +25,6 @@ from .case_file import (
     CaseError,
     Uncertain,
     descriptions,
-    ends,
     nearest,
     parameters,
     vehicles,
@@ -41,6 +40,7 @@ from .reporting import report
 from .reporting.making import inputs_of
 from .reporting.record import record
 from .summary import spoken_system
+from .uncertainty import Interval
 from .units import shown, to_quantity
 from .what_if_page import starts, what_if
 
@@ -78,7 +78,7 @@ class Answers:
         if not found:
             known = starts(one)
             named = ((_slider(key), uncertain.stated) for key, uncertain in self.case.uncertain.items())
-            found = {name: ends(stated, *_limits(name)) for name, stated in named if name in known}
+            found = {name: _ends(name, stated) for name, stated in named if name in known}
             if not found:
                 text = 'is not there, and nothing else says what to move; write it, such as speed_a = ["30 km/h", "80 km/h"]'
                 raise CaseError(("what_if.ranges", text))
@@ -189,10 +189,17 @@ def _shares(output: Any) -> str:
     return ""
 
 
-def _limits(name: str) -> tuple[float, float]:
-    """Beyond these a slider would be refused, though a normal distribution reaches there."""
-    least = 0.0 if name in ("restitution", "friction", "critical_fraction", "speed_a", "speed_b") else -math.inf
-    return least, 1.0 if name in ("restitution", "critical_fraction") else math.inf
+def _ends(name: str, stated: Any) -> tuple[str, str]:
+    """The range of a slider over an uncertain number: its bounds, or three standard deviations to either side within them."""
+    low, high = (stated.low, stated.high) if isinstance(stated, Interval) else stated.support
+    if math.isinf(high - low):
+        low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
+    # Beyond these a slider would be refused, though a normal distribution reaches there.
+    if name in ("restitution", "friction", "critical_fraction", "speed_a", "speed_b"):
+        low = max(low, 0.0)
+    if name in ("restitution", "critical_fraction"):
+        high = min(high, 1.0)
+    return f"{low!r} {stated.unit}".rstrip(), f"{high!r} {stated.unit}".rstrip()
 
 
 # What an impact changes in a vehicle.

@@ -267,18 +267,6 @@ def stated(text: str, bounds: Callable[[str, str], Any] = uncertainty.Uniform) -
     return uncertainty.Normal.between(low, high, coverage)
 
 
-def ends(stated: Any, least: float, most: float) -> tuple[str, str]:
-    """The range of an uncertain number as texts: its bounds, or three standard deviations to either side within them.
-
-    Never below ``least`` nor above ``most``.
-    """
-    low, high = (stated.low, stated.high) if isinstance(stated, uncertainty.Interval) else stated.support
-    if math.isinf(high - low):
-        low, high = max(low, stated.mean - 3.0 * stated.sd), min(high, stated.mean + 3.0 * stated.sd)
-    low, high = max(low, least), min(high, most)
-    return f"{low!r} {stated.unit}".rstrip(), f"{high!r} {stated.unit}".rstrip()
-
-
 def _open(name: str, value: Any) -> Any:
     """A value of a distribution; an infinite end of a truncation, which a file can write, becomes an open one."""
     ends = value if name == "truncate" and isinstance(value, tuple) and len(value) == 2 else None
@@ -505,11 +493,10 @@ class _Reader:
 
     def _observed(self, key: str, value: Any) -> Any:
         """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
-        # For an observation, two dots say that it lies between, not how probable each place is.
-        call = Call(key, stated, {"text": value, "bounds": uncertainty.Interval})
         found = value
         if isinstance(value, str) and _UNCERTAIN.fullmatch(value):
-            found = self.stated(key, call)
+            # For an observation, two dots say that it lies between, not how probable each place is.
+            found = self.stated(key, Call(key, stated, {"text": value, "bounds": uncertainty.Interval}))
         elif isinstance(value, dict) and not value.keys() & {name.partition(".")[0] for name in FUNCTIONS}:
             self.refuse(key, 'has its name without quotes; write "a.delta_v" = "20 km/h +/- 1 km/h", the name in quotes too')
         elif isinstance(value, (str, dict)):

@@ -35,6 +35,7 @@ _OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes 
 _LEFT_OUT = {"incomplete": False}
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
+_MOMENTS = ("before", "after", "at_compression")
 _MOTION = ("vx", "vy", "yaw_rate")
 _POLAR: tuple[str, ...] = ("speed", "course")
 _INFINITIES = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
@@ -218,7 +219,7 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
     found["status"] = np.array([status.label for status in Status])[impact.status], None
     found[impact.inputs.rule] = impact.inputs.rule_value, ""
     for label, side in (("a", impact.a), ("b", impact.b)):
-        for moment in ("before", "after", "at_compression"):
+        for moment in _MOMENTS:
             vehicle = getattr(side, moment)
             for name in NAMES:
                 _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
@@ -288,12 +289,9 @@ def _results(owner: Any) -> list[tuple[str, Any]]:
 
 
 def _side(side: Side) -> dict[str, Any]:
-    states = {name: _state(getattr(side, name)) for name in ("before", "after", "at_compression")}
+    moments = {moment: getattr(side, moment) for moment in _MOMENTS}
+    states = {moment: {name: strict(getattr(vehicle, name)) for name in NAMES} for moment, vehicle in moments.items()}
     return {**states, **{name: strict(value) for name, value in _results(side)}}
-
-
-def _state(vehicle: Vehicle) -> dict[str, Any]:
-    return {name: strict(getattr(vehicle, name)) for name in NAMES}
 
 
 def strict(value: Any) -> Any:

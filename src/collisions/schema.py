@@ -23,9 +23,6 @@ from .vehicle import DOMAINS, Vehicle
 __all__ = ["impact_schema"]
 
 _MODELS = list(BY_NAME)
-_PRECISIONS = ["float32", "float64"]
-_KINDS = ["elastic", "elastoplastic", "plastic", "incomplete", ""]
-_REGIMES = ["frictionless", "sliding", "sticking", "reversing", "given", ""]
 _VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
 _NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
 _TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT} | {
@@ -54,7 +51,7 @@ def impact_schema() -> dict[str, Any]:
         "$id": f"urn:{FORMAT.replace(' ', ':')}",
         "title": "Record of an impact",
         "description": "What Impact.to_dict() gives: inputs to solve again from, and every result; SI, angles in radians.",
-        **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _results()}),
+        **_closed({"format": {"const": FORMAT}, "inputs": _inputs(), "results": _attributes(Impact)}),
         "$defs": {
             "number": {
                 "description": "A number; an infinity and NaN by name.",
@@ -62,7 +59,7 @@ def impact_schema() -> dict[str, Any]:
             },
             "value": {
                 "description": "A number, or one for each case of a batch, in the order of C.",
-                "anyOf": [_NUMBER, _batch(_NUMBER, {"enum": _PRECISIONS})],
+                "anyOf": [_NUMBER, _batch(_NUMBER, {"enum": ["float32", "float64"]})],
             },
             "given": {
                 "description": "A number or a batch in SI, or the text with a unit that it was given as.",
@@ -71,7 +68,7 @@ def impact_schema() -> dict[str, Any]:
             "pair": _pair(_VALUE),
             "vehicle": _closed({f.name: _field(f) for f in fields(Vehicle)}),
             "vehicle_inputs": _vehicle_inputs(),
-            "side": _closed({name: _attribute(Side, name) for name in attributes(Side)}),
+            "side": _attributes(Side),
             "choice": _closed(
                 {
                     "model": _each({"enum": _MODELS}),
@@ -126,9 +123,9 @@ def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
     return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
 
 
-def _results() -> dict[str, Any]:
-    """Every attribute of an impact."""
-    return _closed({name: _attribute(Impact, name) for name in attributes(Impact)})
+def _attributes(kind: type[Any]) -> dict[str, Any]:
+    """Every attribute of an impact or of a side of it."""
+    return _closed({name: _attribute(kind, name) for name in attributes(kind)})
 
 
 def _vehicle_inputs() -> dict[str, Any]:
@@ -213,8 +210,8 @@ def _each(value: dict[str, Any]) -> dict[str, Any]:
 
 _LISTED = {
     "model": _each({"enum": [*_MODELS, "solve"]}),
-    "kind": _each({"enum": _KINDS}),
-    "regime": _each({"enum": _REGIMES}),
+    "kind": _each({"enum": ["elastic", "elastoplastic", "plastic", "incomplete", ""]}),
+    "regime": _each({"enum": ["frictionless", "sliding", "sticking", "reversing", "given", ""]}),
     "status": _each({"enum": [int(status) for status in Status]}),
     "ok": _each({"type": "boolean"}),
     "complete": _each({"type": "boolean"}),

@@ -13,7 +13,7 @@ from .page import Page
 from .symbols import Symbol, delta_v
 
 # The results of planar momentum: vehicle, description and kind.
-_ANSWERS = {
+MOMENTUM_ANSWERS = {
     "speed_a": ("A", "speed before", "speed"),
     "speed_b": ("B", "speed before", "speed"),
     "speed_a_after": ("A", "speed after", "speed"),
@@ -26,9 +26,7 @@ _ANSWERS = {
     "restitution": ("centres", "restitution along the normal", "number"),
     "translational_energy_loss": ("both", "energy of translation lost", "energy"),
 }
-MOMENTUM_ANSWERS = {name: kind for name, (_, _, kind) in _ANSWERS.items()}
-MOMENTUM_WORDS = {name: f"{of}: {what}" if of in "AB" else what for name, (of, what, _) in _ANSWERS.items()}
-_SPEEDS = tuple(_ANSWERS)[:4]
+_SPEEDS = tuple(MOMENTUM_ANSWERS)[:4]
 _ANGLE_TOL = 1e-9 * math.tau  # rounding of a difference of angles; the short way round differs by a whole turn
 
 
@@ -198,7 +196,7 @@ def _is_known(value: float | None) -> bool:
 
 def momentum_answers(page: Page, solution: MomentumSolution) -> Iterator[tuple[str, str, str]]:
     """The rows of results."""
-    for name, (of, what, kind) in _ANSWERS.items():
+    for name, (of, what, kind) in MOMENTUM_ANSWERS.items():
         value = getattr(solution, name)
         if _is_known(value) and (name in solution.unknowns or name not in _SPEEDS):
             yield of, what, page.answer(name, value, kind)

@@ -21,7 +21,7 @@ from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..units import shown
 from .contact import motions
-from .evidence import MOMENTUM_ANSWERS, MOMENTUM_WORDS, fit, momentum
+from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import Function, System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
@@ -94,12 +94,9 @@ _CONTACT = {
     "energy_loss": ("energy lost", "energy"),
 }
 _OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
-_IMPACT_ANSWERS = {f"{label}.{name}": kind for label in "ab" for name, (_, kind) in (_BEFORE | _SIDE).items()}
-_IMPACT_ANSWERS |= {name: kind for name, (_, kind) in _CONTACT.items()}
-_IMPACT_WORDS = {
-    f"{label}.{name}": f"{label.upper()}: {what}" for label in "ab" for name, (what, _) in (_BEFORE | _SIDE).items()
-}
-_IMPACT_WORDS |= {name: what for name, (what, _) in _CONTACT.items()}
+# The results of an impact: vehicle or contact, description and kind.
+_IMPACT_ANSWERS = {f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in (_BEFORE | _SIDE).items()}
+_IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 
 
 @computing
@@ -207,12 +204,16 @@ def no_uncertainty(kind: str = "Fit") -> InputError:
 
 def kinds_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
     """The results that an uncertainty may be given for, by name, with their kind."""
-    return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
+    return {name: kind for name, (_, _, kind) in _answers(result).items()}
 
 
 def words_of_answers(result: Impact | MomentumSolution | Fit | Posterior) -> Mapping[str, str]:
     """The same results in words, such as "A: delta-V"."""
-    return MOMENTUM_WORDS if isinstance(result, MomentumSolution) else _IMPACT_WORDS
+    return {name: f"{of}: {what}" if of in "AB" else what for name, (of, what, _) in _answers(result).items()}
+
+
+def _answers(result: Any) -> Mapping[str, tuple[str, str, str]]:
+    return MOMENTUM_ANSWERS if isinstance(result, MomentumSolution) else _IMPACT_ANSWERS
 
 
 def _impact(page: Page, impact: Impact) -> None:
