@@ -124,8 +124,14 @@ def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
 
 
 def _attributes(kind: type[Any]) -> dict[str, Any]:
-    """Every attribute of an impact or of a side of it."""
-    return _closed({name: _attribute(kind, name) for name in attributes(kind)})
+    """Every attribute of an impact or a side: by its name in ``_LISTED`` or its declared type, described by its docstring."""
+    found = {}
+    for name in attributes(kind):
+        attribute = vars(kind)[name]
+        declared = attribute.work_out.__annotations__["return"]
+        first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
+        found[name] = {**(_LISTED[name] if declared == "Any" else _declared(declared)), "description": first}
+    return _closed(found)
 
 
 def _vehicle_inputs() -> dict[str, Any]:
@@ -152,14 +158,6 @@ def _input(name: str) -> dict[str, Any]:
     found = {"Value": _GIVEN, "tuple[Value, Value]": _pair(_GIVEN), "tuple[Value, ...]": several}[plain]
     unit = f"[{', '.join(units) if isinstance(units, tuple) else units or 1}]"
     return _or_null(found, unit) if optional else {**found, "description": unit}
-
-
-def _attribute(kind: type[Any], name: str) -> dict[str, Any]:
-    """The schema of an attribute: by its name in ``_LISTED`` or by its declared type; its docstring is the description."""
-    attribute = vars(kind)[name]
-    declared = attribute.work_out.__annotations__["return"]
-    first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
-    return {**(_LISTED[name] if declared == "Any" else _declared(declared)), "description": first}
 
 
 def _field(field: Field[Any]) -> dict[str, Any]:

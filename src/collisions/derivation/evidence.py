@@ -181,11 +181,10 @@ def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:
     """Closing speed and restitution of the centres of mass."""
     phi = Symbol(r"\varphi", normal_angle, "angle")
     before_a, before_b, after_a, after_b = (m.along(name, "cos", phi) for name in _SPEEDS)
-    approach, departure = before_a - before_b, after_b - after_a
     closing = Symbol("g", m.solution.closing_speed, "speed")
-    parting = Symbol("r", departure.value, "speed")
-    page.equation(f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)", closing, approach)
-    page.equation("Separation speed (definition)", parting, departure)
+    caption = f"Closing speed of the centres along the normal {page.symbol(phi)} (definition)"
+    page.equation(caption, closing, before_a - before_b)
+    parting = page.let("Separation speed (definition)", "r", "speed", after_b - after_a)
     if _is_known(m.solution.restitution):
         page.equation("Restitution (9)", Symbol("e", m.solution.restitution, "number"), parting / closing)
 

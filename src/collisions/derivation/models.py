@@ -299,8 +299,7 @@ def _mobility(page: Page, s: Symbols, levers: Sequence[Lever]) -> Mobility:
     if s.tangential.value == 0.0 and s.impact.friction == 0.0:
         return Mobility(k_nn, k_nn, None)
     tangential = total(*central, *(body.n.squared() / body.resistance for body in turning))
-    k_tt = Symbol("K_{tt}", tangential.value, "per mass")
-    page.equation("Along the tangent", k_tt, tangential)
+    k_tt = page.let("Along the tangent", "K_{tt}", "per mass", tangential)
     if not turning:
         return Mobility(k_nn, k_tt, None)
     k_nt = Symbol("K_{nt}", answer_of(s.impact).coupling, "per mass")

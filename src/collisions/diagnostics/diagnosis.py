@@ -139,13 +139,9 @@ def diagnose(
         allowed = read_limits(limits, reader)
         if crush_energy is not None:
             crush_energy = _single(reader, amount(reader, crush_energy, "J", "crush_energy"), "crush_energy")
-        known: dict[str, Any] = {
-            "damage": {
-                "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
-                "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
-            },
-            "crush_energy": crush_energy,
-            "units": units,
+        damage = {
+            "a": _read_damage(reader, impact, damage_pdof_a, damage_delta_v_a, "a"),
+            "b": _read_damage(reader, impact, damage_pdof_b, damage_delta_v_b, "b"),
         }
         left = None
         if isinstance(impact, Impact):
@@ -155,7 +151,7 @@ def diagnose(
         time = _single(reader, read_duration(reader, duration) if left is None else left.duration, "duration")
         pull = _single(reader, read_drag(reader, drag, "drag") if left is None else left.drag, "drag")
         reader.close()
-    known |= {"duration": time, "drag": pull}
+    known: Any = {"damage": damage, "crush_energy": crush_energy, "duration": time, "drag": pull, "units": units}
     case: Case
     if isinstance(impact, Impact):
         case = ImpactCase(answer=impact, outlines=outlines, left_out=left, **known)
