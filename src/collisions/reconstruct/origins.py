@@ -51,6 +51,9 @@ class End:
         self.numbers = numbers
         self.kind, self.rule, self.law, self.pinned, self.incomplete = kind, rule, law, pinned, incomplete
         self.known, self.bound = numbers[kind], numbers[rule]
+        # Whether all that the rule allows is sticking, and whether it allows it at all.
+        self.only_sticks = np.isposinf(self.bound) if rule == FRICTION else (rule == CRITICAL_FRACTION) & (self.bound == 1.0)
+        self.may_stick = self.bound > 0.0 if rule == FRICTION else self.only_sticks
         self.n = numbers["normal[0]"], numbers["normal[1]"]
         self.p = numbers["point[0]"], numbers["point[1]"]
         self.bodies = [[numbers[f"{label}_after.{name}"] for name in NUMBERS] for label in "ab"]
@@ -102,9 +105,7 @@ class End:
 
     def always_sticks(self, law: str = BRACH) -> Any:
         """Whether the contact is under this law and can only end sticking."""
-        if self.rule == IMPULSE_RATIO or self.law != law:
-            return False
-        return np.isposinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
+        return self.only_sticks & (self.law == law)
 
     def slip_range(self) -> tuple[Any, Any]:
         """The range of the slip before, for a contact that stuck under "brach"; infinite where friction jams."""
@@ -115,10 +116,7 @@ class End:
 
     def forgets_slip(self) -> Any:
         """Whether the contact ended so that the law keeps no trace of the slip before: without slip, or at rest."""
-        if self.rule == IMPULSE_RATIO:
-            return False
-        could_stick = self.bound > 0.0 if self.rule == FRICTION else self.bound == 1.0
-        return could_stick & (self.at_rest if self.law == KUDLICH_SLIBAR else abs(self.slip) <= self.noise)
+        return self.may_stick & (self.at_rest if self.law == KUDLICH_SLIBAR else abs(self.slip) <= self.noise)
 
     def _mobilities(self) -> None:
         """Whether K has an inverse, and by how much the rounding of a contact that sticks is magnified in the motion after."""
@@ -172,7 +170,7 @@ class End:
         end, and no energy is known, nothing does.
         """
         size = self.size + np.where(self.closing > 0.0, self.closing, 0.0)
-        endless = np.isinf(self.bound) if self.rule == FRICTION else self.bound == 1.0
+        endless = self.only_sticks
         for slide in self.slides:
             moved = self._size(self._moving(slide.motions))
             size = np.fmax(size, np.where(slide.jams, np.nan, self.size + moved))
@@ -197,10 +195,10 @@ class End:
         frictionless = np.where(self.bound == 0.0, 0.0, np.nan)
         if self.rule == FRICTION:
             without = self._along("frictionless", frictionless)
-            return [without, *self.slides, self._sticking("sticking", self.bound > 0.0)]
+            return [without, *self.slides, self._sticking("sticking", self.may_stick)]
         shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
         ratios = [frictionless, *shared]
-        return [*(self._along("given", ratio) for ratio in ratios), self._sticking("given", self.bound == 1.0)]
+        return [*(self._along("given", ratio) for ratio in ratios), self._sticking("given", self.may_stick)]
 
     def _slip_change(self, normal: Any, tangential: Any) -> Any:
         """What an impulse adds to the slip."""
