@@ -32,7 +32,7 @@ _BLOCK = 256
 _Mismatch = Callable[[Any, Any], Sequence[Any]]
 
 
-def crossings(mismatch: _Mismatch, count: int = 1, least: float = 0.0) -> list[tuple[int, int, float]]:
+def crossings(mismatch: _Mismatch, count: int, least: float = 0.0) -> list[tuple[int, int, float]]:
     """Every root of each row of ``mismatch(restitution, case)`` that a grid of restitutions shows: case, row and root.
 
     NaN marks where a row has no answer. A change of sign is narrowed down, also between a grid point and the place where a row

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -164,8 +164,9 @@ def speeds(
         "delta_v_forward_b": delta_v_forward_b,
         "delta_v_left_b": delta_v_left_b,
     }
-    given = _given(
-        {name: value for name, value in components.items() if value is not None},
+    components = {name: value for name, value in components.items() if value is not None}
+    others = _known_beside(
+        components,
         {
             "speed_a": speed_a,
             "speed_b": speed_b,
@@ -179,11 +180,10 @@ def speeds(
         },
     )
     reader = ArgumentReader()
-    measured = [name for name in given if name in components]
-    known = read_amounts(reader, {name: value for name, value in given.items() if name not in measured})
-    known |= {name: reader.number(given[name], "m/s", name) for name in measured}
+    known = read_amounts(reader, others)
+    known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
     courses = {
-        label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), measured)
+        label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
     }
     inputs = read_inputs(
@@ -206,10 +206,10 @@ def speeds(
         numbers |= {f"course_{label}[{i}]": part for i, part in enumerate(angle.beside(beside).direction)}
     cases = Cases.of(numbers)
     with np.errstate(all="ignore"):
-        _refuse_combinations(inputs, known, callable(restitution))
+        _refuse_combinations(inputs, known, bool(components), callable(restitution))
         function = RestitutionOf(restitution, cases, -1.0 if incomplete else 0.0) if callable(restitution) else None
-        kind = ComponentScene if measured else Scene
-        known_of = numbers, inputs.rule, inputs.law or BRACH, counted(given), cases.shape or ()
+        kind = ComponentScene if components else Scene
+        known_of = numbers, inputs.rule, inputs.law or BRACH, counted(known), cases.shape or ()
 
         def roots_of(scene: Scene) -> tuple[Scene, list[tuple[Root, Any]]]:
             roots = scene.roots() if function is None else _with_function(scene, function)
@@ -223,8 +223,8 @@ def speeds(
         return _answers(cases, scene, found, inputs, known, function, bool(forward_only))
 
 
-def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
-    """What was given: two known quantities, or components and speeds, at least two in all."""
+def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+    """The known quantities that were given: two of them, or speeds beside components, at least two in all."""
     others = {name: value for name, value in known.items() if value is not None} if components else exactly(known, 2, "speeds")
     if {"speed_a", "speed_b"} <= others.keys():
         raise InputError(
@@ -243,10 +243,10 @@ def _given(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
             code="too_few_knowns",
             argument=next(iter(components)),
         )
-    return others | components
+    return others
 
 
-def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, measured: Sequence[str]) -> Angle:
+def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: Any, components: Iterable[str]) -> Angle:
     """The course of a vehicle, not needed at rest; refuses a vehicle that has a pivot, or lacks the heading it needs."""
     if given is None and np.any(np.not_equal(speed, 0.0)):
         reader.refuse(
@@ -263,12 +263,12 @@ def _course(reader: ArgumentReader, label: str, body: Any, given: Any, speed: An
                 f"{label} has a pivot, so its velocity has no course of its own; use planar", code="pinned", argument="pivot"
             )
         )
-    if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in measured):
+    if isinstance(body, Vehicle) and body.heading is None and any(name[-1] == label for name in components):
         reader.refuse(missing(body, "heading", "a component of its delta-V", label))
     return Angle(0.0, False) if given is None else course(reader, given, f"course_{label}")
 
 
-def _refuse_combinations(inputs: Inputs, known: dict[str, Any], function: bool) -> None:
+def _refuse_combinations(inputs: Inputs, known: dict[str, Any], components: bool, function: bool) -> None:
     """Refuse what gives the same information twice, and what cannot be solved together."""
     if LAWS[inputs.law or BRACH].energetic:
         raise InputError(
@@ -295,13 +295,12 @@ def _refuse_combinations(inputs: Inputs, known: dict[str, Any], function: bool) 
             argument="ees_a",
         )
     shares = shares_critical(inputs.rule, inputs.rule_value)
-    argument = "restitution" if function else "critical_fraction"
-    if (function or shares) and any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known):
+    if (function or shares) and components:
         raise InputError(
             "components of delta-V take a number for the restitution, and no critical_fraction between 0 and 1; give "
             "friction=, friction=inf or impulse_ratio=",
             code="bad_combination",
-            argument=argument,
+            argument="restitution" if function else "critical_fraction",
         )
     if function and shares:
         raise InputError(

@@ -85,10 +85,6 @@ class Seen(NamedTuple):
     coupling: Any
     weight: Any = 1.0
 
-    @property
-    def impulse(self) -> Any:
-        return self.squared_impulse**0.5
-
 
 def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Seen:
     """The kernel of free bodies at these speeds; with ``sticks`` the impulse and the loss are those of a sticking contact."""
@@ -145,7 +141,7 @@ class Scene:
         rule: str,
         law: str,
         names: tuple[str, ...],
-        shape: tuple[int, ...] = (),
+        shape: tuple[int, ...],
         plain: bool = False,
     ) -> None:
         self.rule, self.law, self.names, self.shape, self.plain = rule, law, names, shape, plain
@@ -538,7 +534,7 @@ def _observation_rounding(kind: str, seen: Seen) -> Any:
     An energy that is the difference of those before and after is known to the rounding of the impulse times the speeds.
     """
     if kind == "energy_loss":
-        return _KERNEL_ROUNDING * seen.impulse * seen.whole
+        return _KERNEL_ROUNDING * seen.squared_impulse**0.5 * seen.whole
     return 2.0 * _KERNEL_ROUNDING * getattr(seen, kind) * (seen.whole / abs(seen.closing))
 
 

@@ -21,7 +21,7 @@ from ..reference import RECORDER_ACCURACY
 from ..warning import warn_of_cases
 from .common import NEARLY_COLLINEAR
 from .restitution_roots import RestitutionOf
-from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, pushed
+from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, pushed
 
 ACCURACY = RECORDER_ACCURACY.high
 # Beyond so many times the stated accuracy the known values contradict each other.
@@ -75,16 +75,15 @@ class ComponentScene(Scene):
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
         zero, one = np.zeros(()), np.ones(())
-        rest = self._seen_momenta(regime, zero, zero)
-        effects = [
-            [at - still for at, still in zip(self._seen_momenta(regime, *pair), rest, strict=True)]
-            for pair in ((one, zero), (zero, one))
-        ]
+        rest, *moving = (
+            self._seen_momenta(self.observe(regime, *pair, self.e)) for pair in ((zero, zero), (one, zero), (zero, one))
+        )
+        effects = [[at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
         speeds = [self.targets.get(f"speed_{label}", zero) + 0.0 * rest[0] for label in "ab"]
         for _ in range(_REFINEMENTS):
-            left = self._left(regime, speeds[0], speeds[1])
+            left = self._left(self.observe(regime, speeds[0], speeds[1], self.e))
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = sum(part * off for part, off in zip(row, left, strict=True))
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
@@ -123,18 +122,15 @@ class ComponentScene(Scene):
     def _root(self, regime: Any, speeds: Sequence[Any], moved: Any) -> tuple[Root, Any]:
         """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse."""
         seen = self.observe(regime, speeds[0], speeds[1], self.e)
-        impulse = seen.normal, seen.tangential
-        left = self._left(regime, speeds[0], speeds[1])
+        impulse, left = (seen.normal, seen.tangential), self._left(seen)
         misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(*impulse)
         return Root(speeds[0], speeds[1], self.e, moved / abs(seen.closing), *impulse), misfit
 
-    def _seen_momenta(self, regime: Any, speed_a: Any, speed_b: Any) -> list[Any]:
-        seen = self.observe(regime, speed_a, speed_b, self.e)
+    def _seen_momenta(self, seen: Seen) -> list[Any]:
         return [n * seen.normal + t * seen.tangential for n, t in self._axes]
 
-    def _left(self, regime: Any, speed_a: Any, speed_b: Any) -> list[Any]:
-        seen = self._seen_momenta(regime, speed_a, speed_b)
-        return [target - one for target, one in zip(self._momenta, seen, strict=True)]
+    def _left(self, seen: Seen) -> list[Any]:
+        return [target - one for target, one in zip(self._momenta, self._seen_momenta(seen), strict=True)]
 
     def _of(self, label: str, left: Sequence[Any]) -> Any:
         """The length of what remains of the components of one vehicle."""
