@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -237,15 +238,13 @@ def path(
     *points, values, frictions, locks, grades, (end,), (length,) = lists[: len(lists) - len(errors)]
     kind = next((value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None)
 
-    def answer(points: Sequence[Any], turned: Sequence[Any], kind: Any) -> tuple[RunOut, list[Any]]:
-        return _run_out(points, turned, frictions, locks, grades, end, length, kind)
-
+    run_out = partial(_run_out, frictions=frictions, locks=locks, grades=grades, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [in_radians(angle._replace(value=value)) for angle, value in zip(headed, values, strict=True)]
-        run, gaps = answer(points, turned, kind)
+        run, gaps = run_out(points, turned, kind=kind)
         if errors:
             (place,), (turn,) = lists[-2:]
-            run = replace(run, **_errors(answer, points, turned, place, turn, shape or (), kind))
+            run = replace(run, **_errors(run_out, points, turned, place, turn, shape or (), kind))
         answered = run.time + run.distance + run.yaw_rate
         if shape is not None:
             checks = [("coincident_points", np.equal(x0, x1) & np.equal(y0, y1)) for (x0, y0), (x1, y1) in pairwise(points)]
@@ -302,7 +301,7 @@ def _run_out(
 
 
 def _errors(
-    answer: Any, points: Sequence[Any], turned: Sequence[Any], place: Any, heading: Any, shape: tuple[int, ...], kind: Any
+    run_out: Any, points: Sequence[Any], turned: Sequence[Any], place: Any, heading: Any, shape: tuple[int, ...], kind: Any
 ) -> dict[str, Any]:
     """Standard errors of speed, course and yaw rate, by computing again with each reading off by its error, either way."""
     squares = dict.fromkeys(("speed", "course", "yaw_rate"), np.zeros(shape))
@@ -315,7 +314,7 @@ def _errors(
             for first, error in enumerate((place, place, heading))
         )
         places = [(px + dx, py + dy) for (px, py), dx, dy in zip(points, x, y, strict=True)]
-        run, _ = answer(places, [angle + change for angle, change in zip(turned, turn, strict=True)], np.float64)
+        run, _ = run_out(places, [angle + change for angle, change in zip(turned, turn, strict=True)], kind=np.float64)
         for name, square in squares.items():
             found = getattr(run, name)
             change = found[0::2] - found[1::2]

@@ -24,26 +24,26 @@ _SPREAD = 0.384
 _PASSES = 3
 
 
-def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, shape: str) -> list[Any] | None:
-    """The entries of a list, or the rows of an array of shape (n,) or (n, 2); None for anything else."""
+def _parts(reader: ArgumentReader, value: Any, unit: str, name: str, row: tuple[int, ...]) -> list[Any] | None:
+    """The entries of a list, or the rows of an array if each has the shape ``row``; None for anything else."""
     if isinstance(value, (list, tuple)):
         return list(value)
     count = len(reader.problems)
     read = reader.number(value, unit, name)
     got = read.shape if isinstance(read, np.ndarray) else ()
-    if len(got) == shape.count("n") + shape.count("2") and got[1:] in ((), (2,)):
+    if got and got[1:] == row:
         rows: list[Any] = read.tolist()
         return rows
     if len(reader.problems) == count:
         what = f"an array of shape {got}" if got else "one number"
-        text = f"{name} is {what}; give a list with one for each point, or an array of shape {shape}"
+        text = f"{name} is {what}; give a list with one for each point, or an array of shape {'(n, 2)' if row else '(n,)'}"
         reader.refuse(ShapeError(text, code="bad_shape", argument=name))
     return None
 
 
 def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | None:
     """The positions, at least two and of a single case no two in a row alike; None if they could not be read."""
-    parts = _parts(reader, points, "m", "points", "(n, 2)")
+    parts = _parts(reader, points, "m", "points", (2,))
     if parts is None:
         return None
     wrong = len(reader.problems)
@@ -84,7 +84,7 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
     """One heading for each point; ``count`` is None if the points could not be read."""
     # Counted on through turns, headings grow beyond the size at which the reader suspects degrees; it looks at the first alone.
     reader.trusted = ("headings",)
-    parts = _parts(reader, headings, "rad", "headings", "(n,)")
+    parts = _parts(reader, headings, "rad", "headings", ())
     if parts is None:
         return []
     reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
