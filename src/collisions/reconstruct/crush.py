@@ -17,7 +17,7 @@ from ..reading import ArgumentReader, amount, largest, warn_if_large
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Value, has_unit, is_quantity, shown
 from ..warning import warn
-from .common import ASK_ALONE, Cases, input_faults
+from .common import ASK_ALONE, Cases, input_faults, read_masses
 
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
 # In metres: no car is crushed so deep, and no damage is so wide.
@@ -228,7 +228,7 @@ def crush_delta_v(
     """
     reader = ArgumentReader()
     numbers = {"energy": amount(reader, energy, "J", "energy")}
-    numbers |= {name: reader.number(value, "kg", name, POSITIVE) for name, value in (("mass_a", mass_a), ("mass_b", mass_b))}
+    numbers |= read_masses(reader, mass_a, mass_b)
     for name, value in (("gamma_a", gamma_a), ("gamma_b", gamma_b)):
         numbers[name] = reader.number(value, "", name, UNIT_INTERVAL)
     reader.close()
@@ -258,7 +258,7 @@ def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[V
         raise error_of(status, text)
     if cases.shape is not None and np.any(status > Status.ENERGY_GAIN):
         warn_of_refusals(status, ASK_ALONE)
-    return [cases.values(np.where(np.equal(status, Status.OK), answer, np.nan)) for answer in found]
+    return [cases.where(np.equal(status, Status.OK), answer) for answer in found]
 
 
 def _warn_if_large(given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]) -> None:

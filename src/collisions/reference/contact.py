@@ -89,9 +89,7 @@ RESTITUTION_FRONTAL_BARRIER = Published(
 
 def _by_overlap(which: str, low: float, high: float, source: str, domain: str, quality: str) -> Published:
     """A row of restitution by the share of the width that overlaps."""
-    return Published(
-        name=f"restitution, rear-end, {which}", low=low, high=high, unit="", source=source, domain=domain, quality=quality
-    )
+    return Published(name=f"restitution, rear-end, {which}", low=low, high=high, source=source, domain=domain, quality=quality)
 
 
 _REAR_END = (
@@ -287,8 +285,7 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
             code="outside_reference",
             argument="closing_speed",
         )
-    answer: Value = settle(RESTITUTION_FIT, e, {"closing_speed": speed}, usable, outside)
-    return answer
+    return settle(RESTITUTION_FIT, e, {"closing_speed": speed}, usable, outside)
 
 
 @hinted

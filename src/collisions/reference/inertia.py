@@ -137,5 +137,4 @@ def yaw_inertia(
             code="bad_dimensions",
             argument=other,
         )
-    answer: Value = settle(fit, found_inertia, numbers, usable, outside)
-    return answer
+    return settle(fit, found_inertia, numbers, usable, outside)

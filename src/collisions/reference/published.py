@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import InputError, OutOfRangeWarning, ShapeError
 from ..reading import ArgumentReader
-from ..units import Input, shown, to_quantity
+from ..units import Input, Value, shown, to_quantity
 from ..warning import warn_of_cases
 
 Outside: TypeAlias = Literal["warn", "refuse"]
@@ -117,7 +117,7 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
         )
 
 
-def settle(fit: Fit, found: Any, given: dict[str, Any], usable: Any, outside: str) -> Any:
+def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: str) -> Value:
     """The value of a fit; NaN for batch cases without one; inputs outside its ranges raise or warn."""
     spans = {name: f"{low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items()}
     ranges = ", ".join(span if len(spans) == 1 else f"{name} {span}" for name, span in spans.items())
