@@ -42,11 +42,6 @@ FUNCTIONS: dict[str, Callable[..., Any]] = DISTRIBUTIONS | {
     "reconstruct.crush_energy": reconstruct.crush_energy,
     "reconstruct.inline_closing_speed": reconstruct.inline_closing_speed,
 }
-OTHERS = {
-    "report": "options of the report",
-    "what_if": "sliders of the page",
-    "answer": "which answer to take where there are several, counted from 1",
-}
 # Arguments that a file has no use for, or that come from the rest of it.
 _NOT_IN_FILES = {"on_failure", "threads", "progress", "model", "inputs", "unknowns", "impact", "uncertainty", "form", "rest"}
 # Annotations of arguments that may be several numbers.
@@ -324,7 +319,7 @@ class _Reader:
         solvers_of, studies = ([name for name in names if name in self.document] for names in (SOLVERS, STUDIES))
         asked = solvers_of if len(solvers_of) == 1 else list(SOLVERS)
         bodies = list(dict.fromkeys(label for name in asked for label in vehicles(SOLVERS[name])))
-        self.known(self.document, "", [*asked, *bodies, *STUDIES, *OTHERS])
+        self.known(self.document, "", [*asked, *bodies, *STUDIES, "report", "what_if", "answer"])
         if len(solvers_of) != 1:
             tables = ", ".join(f"[{name}]" for name in solvers_of or SOLVERS)
             what = "has the tables {}; leave one of them" if solvers_of else "has no table of a solver; write one of {}"

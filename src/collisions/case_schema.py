@@ -7,7 +7,7 @@ from collections.abc import Callable
 from inspect import Parameter
 from typing import Any, get_args
 
-from .case_file import FUNCTIONS, OTHERS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
+from .case_file import FUNCTIONS, SEVERAL, SOLVERS, STUDIES, descriptions, parameters, vehicles
 from .case_words import DISTRIBUTIONS
 from .reporting import report
 from .vehicle import Vehicle
@@ -32,7 +32,11 @@ def case_schema() -> dict[str, Any]:
         "what_if": _object(
             {"ranges": _object(dict.fromkeys(SLIDERS, pair)) | {"description": descriptions(what_if)["ranges"]}}
         ),
-        "answer": {"type": "integer", "minimum": 1, "description": OTHERS["answer"]},
+        "answer": {
+            "type": "integer",
+            "minimum": 1,
+            "description": "which answer to take where there are several, counted from 1",
+        },
     }
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

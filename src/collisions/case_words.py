@@ -15,6 +15,7 @@ DISTRIBUTIONS = {
     name: getattr(uncertainty, name)
     for name in ("Normal", "LogNormal", "Uniform", "Triangular", "Samples", "Interval", "Censored")
 }
+_LONGEST = 80  # characters of a value in a message
 _CALL = re.compile(rf"\b({'|'.join(DISTRIBUTIONS)})(\.between)?\(((?:[^()]|\([^()]*\))*)\)")
 # An argument and what it is given, up to the comma behind it.
 _ARGUMENT = re.compile(r"(?:(\w+)=)?('[^']*'|\([^()]*\)|\[[^\]]*\]|[^,]+)(?:, |$)")
@@ -68,21 +69,21 @@ _PYTHON = [
 ]
 
 
-def as_in_file(value: Any, longest: int = 80) -> str:
+def as_in_file(value: Any) -> str:
     """A value as a case file has it, shortened."""
     if isinstance(value, dict):
         text = f"{{ {', '.join(f'{key} = {as_in_file(part)}' for key, part in value.items())} }}"
     elif isinstance(value, (tuple, list)):
         text = f"[{', '.join(map(as_in_file, value))}]"
     elif isinstance(value, str):
-        text = shown(value, longest)
+        text = shown(value, _LONGEST)
     elif isinstance(value, int) and abs(value) >= 2**64:
         text = hex(value)  # Python writes no more than 4300 decimal digits.
     elif isinstance(value, (datetime, date, time)):
         text = value.isoformat()
     else:
         text = json.dumps(value, ensure_ascii=False).replace("Infinity", "inf").replace("NaN", "nan")
-    return text if len(text) <= longest else text[: longest - 3] + "..."
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
 
 def in_file_words(text: str) -> str:

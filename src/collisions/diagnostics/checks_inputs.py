@@ -155,9 +155,8 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
 def suspect_bare_angle(case: Case) -> Iterator[Measured]:
     angles: list[tuple[str, str, float | None]] = []
     if isinstance(case, ImpactCase):
-        inputs = case.answer.inputs
-        angles += [("", "the normal", case.answer.normal_angle + turn) for turn in (-math.tau, 0.0, math.tau)]
-        angles = [] if isinstance((inputs.given or {}).get("normal"), str) else angles
+        if not isinstance((case.answer.inputs.given or {}).get("normal"), str):
+            angles += [("", "the normal", case.answer.normal_angle + turn) for turn in (-math.tau, 0.0, math.tau)]
         for label, who, side in case.sides:
             if "heading" not in (side.before.given or {}):
                 angles.append((label, f"the heading of {who}", side.before.heading))
