@@ -16,7 +16,7 @@ GRAVITY = 9.80665
 # No road tyre holds more than this on any road: beyond, a bare number is in another unit.
 HIGHEST_DRAG = 1.5
 # No contact of vehicles lasts longer: beyond, a bare number is in another unit.
-_LONGEST = 1.0
+LONGEST_CONTACT = 1.0
 USUAL_DURATION = Default(0.1)
 """Of a contact [s], where none is given."""
 
@@ -65,5 +65,5 @@ def read_duration(reader: ArgumentReader, duration: Any) -> Any:
     """The duration of the contact, with a warning if a bare number is longer than any contact."""
     read = one_value(reader, duration, "s", "duration")
     read = at_least_zero(reader, read, duration, "duration", "negative_duration", "it is the time from touching to parting")
-    warn_if_large(duration, read, _LONGEST, "duration", "seconds", "ms")
+    warn_if_large(duration, read, LONGEST_CONTACT, "duration", "seconds", "ms")
     return read

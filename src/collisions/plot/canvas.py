@@ -7,7 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, MissingInputError
-from ..formatting import KIND_OF, SI_UNITS, decimals_of, in_words, places, scale_of, typeset, unit_of, with_decimals
+from ..formatting import KIND_OF, SI_UNITS, decimals_of, in_words, number_with_unit, places, typeset, with_decimals
 from ..impact import Impact
 from ..reading import need_one_case
 from ..summary import Summarized, cells
@@ -21,6 +21,7 @@ INK, GREY, LIGHT = "#1a1a1a", "#6a6a6a", "#d0d0d0"
 SIDES = ("a", "b")
 COLOURS = ("#1f5fa8", "#b3541e")
 FORCE = "#a01040"
+BARS, GRID = "#c9d6e6", "#e2e2e2"
 THIN, MINUS = "\u2009", "\u2212"  # between thousands, and before a number
 _WIDTH = 26  # characters of a name on one line
 _MOST_DECIMALS = 6
@@ -28,37 +29,36 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 
 class Units:
-    """The units a picture is labelled in, by kind of quantity or by SI unit; units of no known kind stay as they are."""
+    """The units a picture is labelled in, by kind of quantity or by SI unit; others, and no unit, stay as they are."""
 
     def __init__(self, system: Any, of: Summarized | None = None) -> None:
-        self._system: str = cells(system, of._texts() if isinstance(of, Summarized) else ()).name
+        self._system = cells(system, of._texts() if isinstance(of, Summarized) else ())
 
-    def factor(self, unit: str) -> float:
+    def factor(self, unit: str | None) -> float:
         """The factor from this SI unit to the unit shown."""
         kind = _kind(unit)
-        return 1.0 if kind is None else scale_of(kind, self._system)
+        return 1.0 if kind is None else self._system.scale(kind)
 
-    def name(self, unit: str) -> str:
+    def name(self, unit: str | None) -> str:
         """The name of the unit shown for this SI unit."""
         kind = _kind(unit)
-        printed = unit if kind is None else unit_of(kind, self._system)
-        return typeset(printed)
+        return typeset((unit or "") if kind is None else self._system.label(kind))
 
-    def label(self, what: str, unit: str) -> str:
+    def label(self, what: str, unit: str | None) -> str:
         """The label of an axis: its quantity and unit."""
-        return f"{what} [{self.name(unit)}]"
+        return f"{what} [{self.name(unit)}]" if unit else what
 
-    def text(self, value: float, unit: str) -> str:
+    def text(self, value: float, unit: str | None) -> str:
         """A number in this SI unit with the unit it is shown in."""
-        kind, name = _kind(unit), self.name(unit)
-        decimals = None if kind is None else decimals_of(kind, self._system)
+        kind = _kind(unit)
+        decimals = None if kind is None else decimals_of(kind, self._system.name)
         text = number(value * self.factor(unit), _MOST_DECIMALS if decimals is None else decimals)
-        if not math.isfinite(value):
-            return text
-        return f"{text}{'' if name[:1] in ('°', '') else ' '}{name}"
+        return number_with_unit(text, self.name(unit)) if math.isfinite(value) else text
 
 
-def _kind(unit: str) -> str | None:
+def _kind(unit: str | None) -> str | None:
+    if not unit:
+        return None
     return unit if unit in SI_UNITS else KIND_OF.get(unit)
 
 
@@ -76,20 +76,18 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     return text.replace("-", MINUS)
 
 
-def answered(impact: Any, function: str) -> Impact:
-    """The impact; refused unless it is a single solved one with numbers that can be drawn."""
+def check_impact(impact: Impact, function: str) -> None:
+    """Raise unless it is a single solved impact with numbers that can be drawn."""
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
-    answer: Impact = impact
-    for side in (answer.a, answer.b):
+    for side in (impact.a, impact.b):
         check_size("mass", side.before.mass if math.isfinite(side.before.mass) else 0.0)
         for state in (side.before, side.after):
             for name in ("vx", "vy", "yaw_rate", "x", "y"):
                 check_size(name, getattr(state, name) or 0.0)
-    check_size("energy_loss", answer.energy_loss)
+    check_size("energy_loss", impact.energy_loss)
     for name in ("closing_speed", "normal_impulse"):
-        check_size(name, getattr(answer, name), least=SMALLEST)
-    return answer
+        check_size(name, getattr(impact, name), least=SMALLEST)
 
 
 def only_of_an_impulse(impact: Impact, function: str) -> None:

@@ -280,10 +280,10 @@ class Arrows:
 
     def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
         """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
-        length = max(math.hypot(*vector) for _, vector in arrows)
+        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
+        length = math.hypot(vx, vy)
         if length == 0.0:
             return arrows
-        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
         aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
         found, steps = arrows, 0
         while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):

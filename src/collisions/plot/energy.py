@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..errors import InputError, MissingInputError
+from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
-from ..vehicle import Vehicle, missing
-from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, number, tidy, who
+from ..vehicle import Vehicle
+from .canvas import COLOURS, FORCE, GREY, INK, Units, begin, check_impact, number, tidy, who
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +43,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     InputError
         An unknown option, an infinite mass or inertia that moves, or anything but one answered impact.
     MissingInputError
-        A turning vehicle without yaw inertia, or matplotlib is missing.
+        If matplotlib is missing.
 
     Examples
     --------
@@ -57,15 +57,16 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     'energy [kJ]'
     """
     labels = Units(units, impact)
-    impact = answered(impact, "energy")
+    check_impact(impact, "energy")
     a, b = impact.a, impact.b
     names = who(0, a.before), who(1, b.before)
+    tyres = a.tyre_loss + b.tyre_loss
     rows = [
         ("a.before", f"{names[0]} before", _kinetic(a.before, "a"), COLOURS[0], ""),
         ("b.before", f"{names[1]} before", _kinetic(b.before, "b"), COLOURS[1], ""),
         ("lost.normal", "lost along\nthe normal", -impact.energy_loss_normal, FORCE, "xxx"),
         ("lost.tangential", "lost along\nthe tangent", -impact.energy_loss_tangential, FORCE, "..."),
-        *_tyres(impact),
+        *([("lost.tyres", "lost by\nthe tyres", -tyres, FORCE, "|||")] if tyres else []),
         ("a.after", f"{names[0]} after", -_kinetic(a.after, "a"), COLOURS[0], "///"),
         ("b.after", f"{names[1]} after", -_kinetic(b.after, "b"), COLOURS[1], "///"),
     ]
@@ -102,22 +103,13 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     return axes
 
 
-def _tyres(impact: Impact) -> list[tuple[str, str, float, str, str]]:
-    """The row of the energy that tyres took, for an impact that has them."""
-    taken = impact.a.tyre_loss + impact.b.tyre_loss
-    return [("lost.tyres", "lost by\nthe tyres", -float(taken), FORCE, "|||")] if taken else []
-
-
 def _tint(colour: str) -> str:
     """A quarter of a colour on white: in SVG the hatching of a translucent face is lost in its colour."""
     return "#" + "".join(f"{255 - (255 - int(colour[at : at + 2], 16)) // 4:02x}" for at in (1, 3, 5))
 
 
 def _kinetic(state: Vehicle, letter: str) -> float:
-    try:
-        found = float(state.kinetic_energy)
-    except MissingInputError as error:
-        raise missing(state, "yaw_inertia", "plot.energy of a turning body", letter) from error
+    found = float(state.kinetic_energy)
     if math.isinf(found):
         raise InputError(
             f"{letter} has an infinite mass or yaw inertia and moves, so its kinetic energy is infinite in this frame; solve "

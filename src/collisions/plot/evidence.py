@@ -13,7 +13,7 @@ from ..hints import hinted
 from ..reconstruct import Fit, Posterior
 from ..uncertainty import Normal
 from ..units import shown
-from .canvas import FORCE, GREY, INK, LIGHT, SMALLEST, Units, begin, check_size, in_lines, tidy
+from .canvas import BARS, FORCE, GREY, INK, LIGHT, SMALLEST, Units, begin, check_size, in_lines, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +23,7 @@ _SHARES = (0.5, 0.95)  # of the samples within the two lines
 _BINS = 28
 _KERNEL = (1.0, 2.0, 1.0)
 _MOST = 10
+_NAME = 18  # characters of a name on one line
 
 
 @hinted
@@ -91,10 +92,10 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
     for row, output in enumerate(columns):
         for column, other in enumerate(columns[: row + 1]):
             axes = figure.add_subplot(grid[row, column])
-            x, y = (one.values * (labels.factor(one.unit) if one.unit else 1.0) for one in (other, output))
+            x, y = (one.values * labels.factor(one.unit) for one in (other, output))
             if column == row:
                 axes.set_gid(output.name)
-                axes.hist(x, _BINS, fc="#c9d6e6", ec=INK, lw=0.6, histtype="stepfilled")
+                axes.hist(x, _BINS, fc=BARS, ec=INK, lw=0.6, histtype="stepfilled")
                 axes.set_yticks([])
             else:
                 axes.set_gid(f"{other.name} and {output.name}")
@@ -103,9 +104,9 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
             tidy(axes)
             axes.tick_params(labelbottom=row == len(columns) - 1, labelleft=column == 0 < row, labelsize=8)
             if row == len(columns) - 1:
-                axes.set_xlabel(_label(labels, other), fontsize=9, parse_math=False)
+                axes.set_xlabel(labels.label(in_lines(other.name, _NAME), other.unit), fontsize=9, parse_math=False)
             if column == 0 < row:
-                axes.set_ylabel(_label(labels, output), fontsize=9, parse_math=False)
+                axes.set_ylabel(labels.label(in_lines(output.name, _NAME), output.unit), fontsize=9, parse_math=False)
     figure.align_labels()
     return figure
 
@@ -195,9 +196,3 @@ def _pair(axes: Axes, x: Any, y: Any) -> None:
     axes.pcolormesh(xs, ys, smooth.T, cmap="Greys", rasterized=True)
     middles = (0.5 * (ends[1:] + ends[:-1]) for ends in (xs, ys))
     axes.contour(*middles, smooth.T, levels, colors=[FORCE], linewidths=1.1).set_gid("shares")
-
-
-def _label(labels: Units, output: Any) -> str:
-    """Name and unit of an axis."""
-    name = in_lines(output.name, 18)
-    return labels.label(name, output.unit) if output.unit else name

@@ -7,21 +7,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import pulse
-from ..drag import one_value
+from ..drag import LONGEST_CONTACT, one_value
 from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
 from ..reading import ArgumentReader, warn_if_large
 from ..units import Input, shown
-from .canvas import FORCE, GREY, INK, SMALLEST, Units, answered, begin, check_size, legend_below, only_of_an_impulse, tidy
+from .canvas import FORCE, GREY, INK, SMALLEST, Units, begin, check_impact, check_size, legend_below, only_of_an_impulse, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _POINTS = 400
-# No contact of vehicles lasts longer: beyond, a bare number is in another unit.
-_LONGEST = 1.0
 
 
 @hinted
@@ -69,7 +67,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     'normal force [kN]'
     """
     labels = Units(units, impact)
-    impact = answered(impact, "force_time")
+    check_impact(impact, "force_time")
     only_of_an_impulse(impact, "force_time")
     reader = ArgumentReader()
     time = one_value(reader, duration, "s", "duration")
@@ -84,7 +82,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
             code="not_positive",
             argument="duration",
         )
-    warn_if_large(duration, time, _LONGEST, "duration", "seconds", "ms")
+    warn_if_large(duration, time, LONGEST_CONTACT, "duration", "seconds", "ms")
     check_size("duration", time, SMALLEST)
     axes = begin(axes)
 

@@ -15,7 +15,7 @@ from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..model_choice import until_compressed
 from ..warning import quietly
-from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Units, answered, begin, legend_below, only_of_an_impulse, tidy
+from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Units, begin, check_impact, legend_below, only_of_an_impulse, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,12 +77,13 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     'tangential impulse Pt on B [kN·s]'
     """
     labels = Units(units, impact)
-    impact = answered(impact, "impulse_plane")
+    check_impact(impact, "impulse_plane")
     only_of_an_impulse(impact, "impulse_plane")
     axes = begin(axes, (7.5, 6.0))
     factor = labels.factor("N*s")
     normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor
-    no_slip = answer_of(impact).no_slip_normal * factor, answer_of(impact).no_slip_tangential * factor
+    raw = answer_of(impact)
+    no_slip = raw.no_slip_normal * factor, raw.no_slip_tangential * factor
     plain = impact.model == "linear_central"
     energetic = LAWS[impact.law or BRACH].energetic
     shows_no_slip = (
@@ -95,10 +96,10 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     low, high = low - room, high + room
 
     e = impact.restitution
-    k_nn, k_nt = 1.0 / impact.effective_mass, answer_of(impact).coupling
+    k_nn, k_nt = 1.0 / impact.effective_mass, raw.coupling
     closing = impact.closing_speed * factor
     names = ["normal_impulse", "tangential_impulse"]
-    compressed = [part * factor for part in until_compressed(impact.inputs, answer_of(impact), impact.choice, names)]
+    compressed = [part * factor for part in until_compressed(impact.inputs, raw, impact.choice, names)]
     ends = closing, closing + impact.separation_speed * factor
     if impact.inputs.outside_a is not None:
         # The contact began at another closing speed, so the lines go where the actual impulses ended.

@@ -9,8 +9,8 @@ from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
-from ..side import Side
-from .canvas import COLOURS, FORCE, GREY, INK, SIDES, Units, answered, begin, in_lines, legend_below, tidy, who
+from ..vehicle import Vehicle
+from .canvas import COLOURS, FORCE, GREY, GRID, INK, SIDES, Units, begin, check_impact, in_lines, legend_below, tidy, who
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
 
 if TYPE_CHECKING:
@@ -66,20 +66,20 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     'momentum along x [kN·s]'
     """
     labels = Units(units, impact)
-    impact = answered(impact, "momentum")
-    takes_part = [math.isfinite(side.before.mass) for side in (impact.a, impact.b)]
+    check_impact(impact, "momentum")
+    sides = impact.a, impact.b
+    takes_part = [math.isfinite(side.before.mass) for side in sides]
     if not any(takes_part):
         raise InputError(
             "both vehicles have an infinite mass, so there is no momentum to draw", code="infinite_mass", argument="impact"
         )
     axes = begin(axes, (6.5, 6.2))
     factor = labels.factor("kg*m/s")
-    chains = {when: [_momentum(side, when, factor) for side in (impact.a, impact.b)] for when in ("before", "after")}
+    chains = {when: [_momentum(getattr(side, when), factor) for side in sides] for when in ("before", "after")}
     totals = {when: _sum(chain) for when, chain in chains.items()}
     outside = totals["after"][0] - totals["before"][0], totals["after"][1] - totals["before"][1]
     longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
-    braked = any(side.tyre_loss for side in (impact.a, impact.b))
-    open_ended = braked or not all(takes_part) or any(side.before.pivot is not None for side in (impact.a, impact.b))
+    open_ended = not all(takes_part) or any(side.tyre_loss or side.before.pivot is not None for side in sides)
 
     drawing = Drawing(axes)
     across = _common_normal([*chains["before"], *chains["after"]], longest)
@@ -110,7 +110,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     for when, style, prime in (("before", (0, (4, 1.5)), ""), ("after", "-", "\u2032")):
         tail: Place = (0.0, 0.0) if when == "before" else aside
         for index, vector in enumerate(chains[when]):
-            tag, state = "AB"[index] + prime, getattr((impact.a, impact.b)[index], when)
+            tag, state = "AB"[index] + prime, getattr(sides[index], when)
             draw(tail, vector, f"{when}.{SIDES[index]}", tag, when, COLOURS[index], style)
             tail = beside(tail, vector)
             if takes_part[index] and math.hypot(*vector) <= _NOTHING * longest:
@@ -140,7 +140,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     elif across is not None or apart:
         title.append("(momenta on one line are drawn side by side)")
     axes.set_title("\n".join(title), fontsize=10.5, parse_math=False)
-    axes.grid(color="#e2e2e2", lw=0.6)
+    axes.grid(color=GRID, lw=0.6)
     axes.set_axisbelow(True)
     tidy(axes)
     axes.locator_params(axis="x", nbins=6)
@@ -149,9 +149,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     return axes
 
 
-def _momentum(side: Side, when: str, factor: float) -> Place:
+def _momentum(state: Vehicle, factor: float) -> Place:
     """The momentum of a body; 0 for an infinite mass, of which only the momentum it gives is drawn."""
-    state = side.before if when == "before" else side.after
     if math.isinf(state.mass):
         return 0.0, 0.0
     x, y = state.momentum

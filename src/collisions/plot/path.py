@@ -14,7 +14,7 @@ from ..travel import SimulatedPath
 from ..units import shown
 from ..vehicle import Vehicle
 from .canvas import COLOURS, INK, Units, begin, tidy, who
-from .drawing import beside
+from .drawing import Place, beside
 from .scene import Picture, corners_of, size_of
 
 if TYPE_CHECKING:
@@ -83,21 +83,19 @@ def path(
         for letter, (_, outline) in given.items()
     }
     axes = begin(axes, (7.5, 6.5))
-    picture = Picture(axes, labels)
+    picture, metre = Picture(axes, labels), labels.factor("m")
     for index, (letter, way) in enumerate(ways.items()):
         colour, name = COLOURS[index], "AB"[index]
-        line = [picture.scaled(place) for place in zip(way.x.tolist(), way.y.tolist(), strict=True)]
+        line = _places(way.x * metre, way.y * metre)
         # A vehicle takes up some room, wherever it goes.
-        room = _ROOM * labels.factor("m")
-        picture.drawing.include(*line, *(beside(line[-1], (side, side), room) for side in (-1.0, 1.0)))
+        picture.drawing.include(*line, *(beside(line[-1], (side, side), _ROOM * metre) for side in (-1.0, 1.0)))
         axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.path")
-        for x, y in way.marks:
+        for mark in way.marks:
+            x, y = (part * metre for part in mark)
             slid = np.isfinite(x)
             if slid.any():
-                axes.plot(*picture.scaled((x, y)), color=INK, lw=1.6, alpha=0.45, zorder=1, gid=f"{letter}.mark")
-                picture.drawing.include(
-                    *(picture.scaled(place) for place in zip(x[slid].tolist(), y[slid].tolist(), strict=True))
-                )
+                axes.plot(x, y, color=INK, lw=1.6, alpha=0.45, zorder=1, gid=f"{letter}.mark")
+                picture.drawing.include(*_places(x[slid], y[slid]))
         *passed, at_rest = ([picture.scaled(corner) for corner in outline] for outline in corners[letter])
         for outline in filter(None, passed):
             picture.drawing.include(*outline)
@@ -127,8 +125,13 @@ def _one(way: Any, name: str) -> SimulatedPath:
         raise InputError(
             f"{name} has many cases, and a picture is of one; simulate that one alone", code="bad_shape", argument=name
         )
-    size_of([(float(way.x[i]), float(way.y[i])) for i in range(len(way.x))], Units("si"), sketched=True)
+    size_of(_places(way.x, way.y), Units("si"), sketched=True)
     return way
+
+
+def _places(x: Any, y: Any) -> list[Place]:
+    """The places with these coordinates."""
+    return list(zip(x.tolist(), y.tolist(), strict=True))
 
 
 def _stops(way: SimulatedPath) -> list[Vehicle]:

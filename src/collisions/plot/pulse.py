@@ -8,7 +8,7 @@ from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
-from .canvas import COLOURS, FORCE, GREY, INK, Units, answered, begin, check_size, legend_below, tidy, who
+from .canvas import COLOURS, FORCE, GREY, GRID, INK, Units, begin, check_impact, check_size, legend_below, tidy, who
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,7 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None 
     ['force [kN]', 'crush [m]', 'delta-V [km/h]']
     """
     labels = Units(units, impact)
-    impact = answered(impact, "pulse")
+    check_impact(impact, "pulse")
     found = impact.pulse
     if found is None:
         raise InputError(
@@ -66,8 +66,8 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None 
     time = found.time * labels.factor("duration")
     names = who(0, impact.a.before), who(1, impact.b.before)
     panels = (
-        ("force", "N", (("force", found.force, FORCE, "-", ""),)),
-        ("crush", "m", (("crush", found.crush, INK, "-", ""),)),
+        ("force", "N", (("force", found.force, FORCE, "-", None),)),
+        ("crush", "m", (("crush", found.crush, INK, "-", None),)),
         (
             "delta-V",
             "m/s",
@@ -81,14 +81,14 @@ def pulse(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None 
     axes.set_axis_off()
     for row, (what, unit, lines) in enumerate(panels):
         panel = axes.inset_axes((0.0, 0.70 - 0.35 * row, 1.0, 0.30))
+        factor = labels.factor(unit)
         for gid, values, colour, style, label in lines:
-            panel.plot(time, values * labels.factor(unit), color=colour, ls=style, lw=1.8, gid=gid, label=label or None)
+            panel.plot(time, values * factor, color=colour, ls=style, lw=1.8, gid=gid, label=label)
         panel.axvline(engaged, color=GREY, ls=":", lw=1.2, gid="maximum engagement")
         panel.set(xlim=(0.0, 1.02 * float(time[-1])), ylabel=labels.label(what, unit))
-        panel.set_ylim(
-            min(0.0, panel.get_ylim()[0]), 1.12 * max(float((values * labels.factor(unit)).max()) for _, values, *_ in lines)
-        )
-        panel.grid(color="#e2e2e2", lw=0.6)
+        highest = max(float((values * factor).max()) for _, values, *_ in lines)
+        panel.set_ylim(min(0.0, panel.get_ylim()[0]), 1.12 * highest)
+        panel.grid(color=GRID, lw=0.6)
         panel.set_axisbelow(True)
         panel.locator_params(axis="y", nbins=5)
         tidy(panel)

@@ -15,7 +15,7 @@ from ..outlines import placed, read_outline
 from ..reading import ArgumentReader
 from ..units import shown
 from ..vehicle import Vehicle, missing
-from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, answered, begin, tidy, who
+from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, begin, check_impact, tidy, who
 from .drawing import APART, Arrows, Drawing, Place, beside
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def scene(
         raise InputError(
             f"moment must be 'before', 'after' or 'both', got {shown(moment)}", code="bad_option", argument="moment"
         )
-    impact = answered(impact, "scene")
+    check_impact(impact, "scene")
     sides = impact.a, impact.b
     corners = [
         corners_of(side.before, outline, f"outline_{letter}", letter)

@@ -12,7 +12,7 @@ from ..hints import hinted
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
 from ..units import shown
-from .canvas import FORCE, GREY, INK, LIGHT, MINUS, Units, begin, check_size, drawable, in_lines, legend_below, number, tidy
+from .canvas import BARS, FORCE, GREY, INK, LIGHT, MINUS, Units, begin, check_size, drawable, in_lines, legend_below, tidy
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,28 +83,23 @@ def distribution(
     check_size(output.name, float(np.abs(histogram.edges).max()))
     axes = begin(axes, (6.5, 4.6))
     unit = output.unit
-    factor = labels.factor(unit) if unit else 1.0
-
-    def text_of(value: Any) -> str:
-        return labels.text(value, unit) if unit else number(value)
-
+    factor = labels.factor(unit)
     axes.axvspan(low * factor, high * factor, color=LIGHT, alpha=0.5, lw=0, zorder=0)
     axes.stairs(
-        100.0 * histogram.shares, histogram.edges * factor, fill=True, fc="#c9d6e6", ec=INK, lw=0.9, zorder=2, gid="histogram"
+        100.0 * histogram.shares, histogram.edges * factor, fill=True, fc=BARS, ec=INK, lw=0.9, zorder=2, gid="histogram"
     )
     median = output.quantile(0.5)
-    ends = text_of(low), text_of(high)
-    named = f" {labels.name(unit)}" if unit else ""
-    span = f"{100.0 * coverage:.4g} % interval, {ends[0].removesuffix(named)} to {ends[1]}"
+    start, end = (labels.text(value, unit) for value in (low, high))
+    span = f"{100.0 * coverage:.4g} % interval, {start.removesuffix(f' {labels.name(unit)}')} to {end}"
     for gid, value, style, colour, text in (
-        ("mean", output.mean, "-", FORCE, f"mean {text_of(output.mean)}"),
-        ("median", median, (0, (1, 1.2)), INK, f"median {text_of(median)}"),
+        ("mean", output.mean, "-", FORCE, f"mean {labels.text(output.mean, unit)}"),
+        ("median", median, (0, (1, 1.2)), INK, f"median {labels.text(median, unit)}"),
         ("low", low, (0, (6, 3)), INK, span),
         ("high", high, (0, (6, 3)), INK, None),
     ):
         axes.axvline(value * factor, color=colour, lw=1.7, ls=style, zorder=4, gid=gid, label=text)
     axes.set_ylim(0.0, 1.08 * 100.0 * float(histogram.shares.max()))
-    axes.set_xlabel(drawable(labels.label(output.name, unit) if unit else output.name), parse_math=False)
+    axes.set_xlabel(drawable(labels.label(output.name, unit)), parse_math=False)
     axes.set_ylabel("share of the cases [%]")
     axes.set_title(f"given {output.given}", fontsize=10.5, color=GREY)
     tidy(axes)
@@ -172,7 +167,7 @@ def contributions(
     known = np.isfinite(percent[:, 2:])
     for row, name in enumerate(names):
         axes.barh(
-            row, percent[row, 0], height=0.6, fc="#c9d6e6", ec=INK, hatch="///", lw=1.0, gid=f"share of {name}", zorder=2,
+            row, percent[row, 0], height=0.6, fc=BARS, ec=INK, hatch="///", lw=1.0, gid=f"share of {name}", zorder=2,
             label=None if row else "by itself",
         )  # fmt: skip
     axes.plot(
@@ -188,12 +183,12 @@ def contributions(
     # Each number next to its own mark: that of the bar above, that of the diamond below.
     ends = percent[:, :2] + np.nan_to_num(percent[:, 2:])
     for row, share in enumerate(percent[:, :2]):
-        for column, (before, aside) in enumerate((("", -_ASIDE), ("in all ", _ASIDE))):
+        for column, (what, before, aside) in enumerate((("own", "", -_ASIDE), ("total", "in all ", _ASIDE))):
             text = f"{before}{with_decimals(share[column], 1)} %".replace("-", MINUS)
             axes.annotate(
                 text, (max(ends[row, column], 0.0), row + aside), (9, 0),
                 textcoords="offset points", va="center", fontsize=9, annotation_clip=False,
-                gid=f"{('own', 'total')[column]} of {names[row]}",
+                gid=f"{what} of {names[row]}",
             )  # fmt: skip
     axes.set_yticks(rows, [in_lines(name, most=2) for name in names], parse_math=False)
     axes.set_ylim(len(names) - 0.4, -0.6)
