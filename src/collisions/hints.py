@@ -50,16 +50,16 @@ def no_argument(
     from difflib import get_close_matches
 
     known, given = list(names), next(iter(unknown))
-    stem, side = _parted(given)
+    stem, side = parted(given)
     near = [name for name in known if given in _CALLED.get(name, "").split()]
     # Without the letter of a vehicle: v_a is speed_a.
-    near += [name for name in known if _parted(name)[1] == side and stem in _CALLED.get(_parted(name)[0], "").split()]
+    near += [name for name in known if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()]
     near += get_close_matches(given, known, 1, 0.75)  # friction is not restitution
     hint = hints.get(given) or (f"write {near[0]}=" if near else f"it has {', '.join(known)}")
     return TypeError(f"{caller} has no argument {given!r}; {hint}")
 
 
-def _parted(name: str) -> tuple[str, str]:
+def parted(name: str) -> tuple[str, str]:
     """A name without the letter of a vehicle at its end, and that letter."""
     stem, _, side = name.rpartition("_")
     return (stem, side) if side in ("a", "b") else (name, "")

@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from .directions import angle_of, direction, from_degrees
 from .document import Document
 from .errors import InputError, Status
-from .formatting import SI_UNITS, UnitSystem, decimals_of, number_with_unit, scale_of, typeset, unit_of
-from .hints import hinted
+from .formatting import SI_UNITS, UnitSystem, decimals_of, typeset
+from .hints import hinted, parted
 from .impact import Impact, build
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
@@ -26,7 +26,7 @@ from .outlines import read_outline
 from .plot.canvas import who
 from .reading import ArgumentReader, need_one_case
 from .reporting.render import plain
-from .summary import cells
+from .summary import Cells, cells, said
 from .units import Input, Texts, has_unit, shown
 from .vehicle import NAMES, Vehicle, moved
 
@@ -46,11 +46,11 @@ _DOMAINS = {
 }  # fmt: skip
 _WORDS = {"vx": "velocity along x", "vy": "velocity along y"}
 # What the page shows and draws, by its path in an Impact and in a Side; the kinds of what it shows stand in the page.
-_OF_BOTH = ("closing_speed", "energy_loss")
 _OF_EACH = (
     "before.speed", "after.speed", "delta_v", "pdof", "delta_yaw_rate", "before.x", "before.y", "before.heading", "before.vx",
     "before.vy", "after.vx", "after.vy", "impulse_x", "impulse_y",
 )  # fmt: skip
+_PATHS = ("closing_speed", "energy_loss", *(f"{label}.{name}" for label in "ab" for name in _OF_EACH))
 _TO_DEGREES = 180.0 / math.pi
 
 
@@ -115,7 +115,7 @@ def what_if(
     ('<!DOCTYPE html>', 2)
     """
     need_one_case(impact, (Impact,), "what_if")
-    system = cells(units, impact._texts()).name
+    system = cells(units, impact._texts())
     if BY_NAME.get(impact.model) not in MODELS:
         raise InputError(
             f"what_if has no page for {impact.model}; solve the case by eccentric", code="bad_option", argument="impact"
@@ -144,8 +144,7 @@ def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
     model = model_of(inputs)
     raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, impact.choice is not None))
     answer = build(inputs, raw)
-    paths = [*_OF_BOTH, *(f"{label}.{name}" for label in "ab" for name in _OF_EACH)]
-    found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {path: attrgetter(path)(answer) for path in paths}
+    found = {"status": raw.status, "nx": normal[0], "ny": normal[1]} | {path: attrgetter(path)(answer) for path in _PATHS}
     found |= {} if point is None else {"px": point[0], "py": point[1]}
     return {name: value for name, value in found.items() if value is not None}
 
@@ -189,7 +188,7 @@ def starts(impact: Impact) -> dict[str, Any]:
 
 
 def _kind(name: str) -> str:
-    return _CONTACT[name] if name in _CONTACT else _BODY[name[:-2]]
+    return (_CONTACT | _BODY)[parted(name)[0]]
 
 
 def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
@@ -220,8 +219,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
         if kind == "angle":
             start += 360.0 * round((middle - start) / 360.0)
         if not (low < high and low <= start <= high):
-            system = cells(None, impact._texts())
-            now = f"{start:.10g}°" if kind == "angle" else f"{system.converted(start, kind):.10g}{system.unit(kind)}"
+            now = f"{start:.10g}°" if kind == "angle" else said(start, kind, impact._texts(), 10)
             bare = "" if kind == "number" or has_unit(ends[0]) else f", in {'rad' if kind == 'angle' else SI_UNITS[kind]}"
             text = f"{name} must be a pair (low, high) in rising order around {now}, got {shown(ends)}{bare}"
             refuse(text, name, "bad_range")
@@ -247,33 +245,28 @@ def _end(reader: ArgumentReader, name: str, given: Any, impact: Impact) -> Any:
         value, in_degrees = reader.angle(given, name)
         return value if in_degrees or not isinstance(value, float) else _TO_DEGREES * value
     domains = _DOMAINS | {"restitution": restitution_domain(impact.inputs.incomplete)}
-    domain = domains.get(name if name in _CONTACT else name[:-2], FINITE)
-    return reader.number(given, SI_UNITS[kind], name, domain)
+    return reader.number(given, SI_UNITS[kind], name, domains.get(parted(name)[0], FINITE))
 
 
-def _written(impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: str) -> str:
+def _written(impact: Impact, sliders: list[Slider], outlines: Mapping[str, Any], printed: str, system: Cells) -> str:
     """The page: its sliders as HTML, what else the script needs as JSON, and the printed kernel."""
     from . import __version__
 
     bodies = {"a": impact.inputs.a, "b": impact.inputs.b}
     names = {label: plain(who(at, body)) for at, (label, body) in enumerate(bodies.items())}
     units = {
-        kind: {
-            "unit": typeset(unit_of(kind, system)),
-            "scale": scale_of(kind, system),
-            "decimals": decimals_of(kind, system),
-        }
+        kind: {"unit": typeset(system.label(kind)), "scale": system.scale(kind), "decimals": decimals_of(kind, system.name)}
         for kind in SI_UNITS
     }
     inputs = []
     for name, kind, *numbers in sliders:
-        own, label = (name, "") if name in _CONTACT else (name[:-2], name[-1])
+        own, label = parted(name)
         words = escape(_WORDS.get(own, own.replace("_", " ")) + (f" of {names[label]}" if label else ""))
-        scale = scale_of(kind, system) / (_TO_DEGREES if kind == "angle" else 1.0)
+        scale = system.scale(kind) / (_TO_DEGREES if kind == "angle" else 1.0)
         low, high, start = (repr(number * scale) for number in numbers)
         ends = f"{float(low):.6g} to {float(high):.6g}"
         inputs.append(
-            f'<p><label for="{name}">{words} <small>{number_with_unit(ends, unit_of(kind, system))}</small></label>'
+            f'<p><label for="{name}">{words} <small>{ends}{system.unit(kind)}</small></label>'
             f'<output for="{name}" id="{name}-value" aria-hidden="true"></output><input type="range" id="{name}" '
             f'min="{low}" max="{high}" value="{start}" step="any" data-kind="{kind}" data-start="{numbers[2]!r}" '
             f'data-factor="{1.0 / scale!r}"></p>'

@@ -34,8 +34,9 @@ from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
 from ..units import Input, Pair, shown
 from . import sections
-from .record import EVIDENCE, plain_options, record
+from .record import plain_options, record
 from .render import Html, Markdown, plain, visible
+from .sections import EVIDENCE
 from .uncertainty import Spread, single
 
 Form: TypeAlias = Literal["html", "markdown"]
@@ -151,7 +152,6 @@ def report(
     given["units"] = system
     options = plain_options(given)
     paragraphs, by_input, outlines = _checked(impact, options, uncertainty)
-    evidence = {name: options[name] for name in EVIDENCE}
     looked_at = {name: given[name] for name in ("outline_a", "outline_b", "duration", "drag", "limits", "units", *EVIDENCE)}
     spread = Spread(impact, uncertainty)
     sheet = (Html if form == "html" else Markdown)(system, spread.deviations, spread.ranges)
@@ -161,13 +161,13 @@ def report(
         findings = None if isinstance(impact, (Fit, Posterior)) else diagnose(impact, **looked_at)
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
-        sections.inputs(sheet, impact, evidence, by_input)
+        sections.inputs(sheet, impact, options, by_input)
         found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
         sections.assumptions(sheet, impact, found, outlines, options["limits"], by_input)
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
         sections.gain(sheet, impact, impact.translational_energy_loss)
-        sections.momentum(sheet, impact, evidence, by_input)
+        sections.momentum(sheet, impact, options, by_input)
     elif isinstance(impact, Fit):
         fit(sheet, impact)
     else:
@@ -294,8 +294,7 @@ def _readable(impact: Impact) -> Impact:
     if not any(_SURROGATE.search(vehicle.name) for vehicle in vehicles):
         return impact
     a, b = (vehicle.replace(name=plain(vehicle.name)) for vehicle in vehicles)
-    whole: Impact = with_vehicles(impact, a, b)
-    return whole
+    return with_vehicles(impact, a, b)
 
 
 def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation | None, options: Mapping[str, Any]) -> None:
@@ -311,12 +310,12 @@ def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation 
         _draw(sheet, "scene", "The scene from above at the moment of impact.", plot.scene, impact, units=units, **outlines)
         if impact.model != "linear_central":
             _draw(sheet, "momentum", "Momentum before and after, head to tail.", plot.momentum, impact, units=units)
-        if impact.pulse is not None:
-            caption = "Force, crush and delta-V over the time of the contact."
-            _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
-        elif impact.model != "linear_central":
-            caption = "Normal and tangential impulse, with the lines that decide them."
-            _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
+            if impact.pulse is not None:
+                caption = "Force, crush and delta-V over the time of the contact."
+                _draw(sheet, "pulse", caption, plot.pulse, impact, units=units)
+            else:
+                caption = "Normal and tangential impulse, with the lines that decide them."
+                _draw(sheet, "impulse-plane", caption, plot.impulse_plane, impact, units=units)
         _draw(sheet, "energy", "Where the kinetic energy went.", plot.energy, impact, units=units)
     if isinstance(impact, Posterior):
         _draw(sheet, "residuals", "Each observation less its computed value, in stated errors.", plot.residuals, impact)
@@ -336,7 +335,7 @@ def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation 
         sheet.say("None: the variance is all of one input, and no cases were drawn.")
 
 
-def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown: Any, words: str = "", **options: Any) -> None:
+def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], result: Any, words: str = "", **options: Any) -> None:
     """One figure, drawn with default matplotlib settings, with words for its name; a sentence if the numbers allow none."""
     from matplotlib import rc_context, rcdefaults, rcParams
     from matplotlib.figure import Figure
@@ -349,13 +348,13 @@ def _draw(sheet: Html, name: str, caption: str, draw: Callable[..., Any], shown:
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         figure = Figure(figsize=_SIZES.get(name, _SIZE), layout="constrained")
         try:
-            draw(shown, axes=figure.add_subplot(), **options)
+            draw(result, axes=figure.add_subplot(), **options)
         except InputError as error:
             sheet.say(f"{caption} Not drawn: {error}.")
             return
         for text in figure.findobj(Text):
             found = text.get_text()
-            text.set_text(visible(found.replace(shown.name, words) if words else found))
+            text.set_text(visible(found.replace(result.name, words) if words else found))
         target = io.StringIO()
         figure.savefig(target, format="svg", metadata=_UNDATED, bbox_inches="tight", pad_inches=0.05)
     sheet.picture(caption, _standalone(target.getvalue(), name, caption))

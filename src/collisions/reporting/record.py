@@ -14,6 +14,7 @@ from typing import Any
 
 from ..diagnostics import LIMITS
 from ..errors import CollisionsError, CollisionsWarning, InputError
+from ..formatting import SI_UNITS
 from ..impact import Impact, with_vehicles
 from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
@@ -26,7 +27,7 @@ from ..uncertainty import Propagation
 from ..units import Texts, shown
 from ..vehicle import DOMAINS, Vehicle, with_given
 from .render import FENCE, RECORD
-from .sections import contradicted
+from .sections import EVIDENCE, contradicted
 
 _FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a number.
@@ -35,13 +36,8 @@ _UNITS: dict[str, str | None] = {
     "duration": "s",
     "drag": "",
     "share_a": "",
-    "crush_energy": "J",
-    "damage_pdof_a": "rad",
-    "damage_pdof_b": "rad",
-    "damage_delta_v_a": "m/s",
-    "damage_delta_v_b": "m/s",
+    **{name: SI_UNITS[kind] for name, (_, _, kind) in EVIDENCE.items()},
 }
-EVIDENCE = tuple(name for name in _UNITS if name.startswith(("crush", "damage")))
 # Arguments of a vehicle that may be texts.
 _NUMBERS = (*DOMAINS, "pivot[0]", "pivot[1]", "speed", "course")
 # The velocity of a pinned vehicle may differ by 1e-9 from the text that it was given as.
@@ -182,8 +178,7 @@ def replay(text: str) -> Impact | MomentumSolution:
     if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:
         raise _bad("it does not say how else a and b were given")
     a, b = (_with_texts(vehicle, texts[label], label) for label, vehicle in (("a", impact.inputs.a), ("b", impact.inputs.b)))
-    whole: Impact = with_vehicles(impact, a, b)
-    return whole
+    return with_vehicles(impact, a, b)
 
 
 def _momentum(whole: Any) -> MomentumSolution:

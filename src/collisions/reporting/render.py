@@ -71,6 +71,7 @@ class Sheet(Page):
 
     def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
         super().__init__(Printed(units), False, deviations, ranges)
+        # Apart from ``parts``, to which equations are written: a report has those in its derivation alone.
         self.blocks: list[str] = []
 
     def name(self, text: str) -> str:

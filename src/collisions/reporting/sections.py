@@ -36,7 +36,8 @@ from .render import Sheet, given_as, plain
 _COMES_OUT, _TOGETHER = 1e-6, 0.02
 # Components of delta-V are measured: if more are given than are needed, they are met only as well as they agree.
 _RECORDED = 0.3
-_EVIDENCE = {
+# What the damage shows, by the option that says it: what it is of, in words, and its kind.
+EVIDENCE = {
     "crush_energy": ("damage", "crush energy, both vehicles", "energy"),
     "damage_pdof_a": ("A", "PDOF that the damage shows", "angle"),
     "damage_pdof_b": ("B", "PDOF that the damage shows", "angle"),
@@ -77,7 +78,7 @@ def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
         )
 
 
-def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
+def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapping[str, str]) -> None:
     """Write the inputs with the texts they were given as, and the choice of the model or how the state was found."""
     backwards = impact.reconstruction is not None
     sheet.heading("What was given and found" if backwards else "Inputs")
@@ -97,7 +98,7 @@ def inputs(sheet: Sheet, impact: Impact, evidence: Mapping[str, Any], notes: Map
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
-    rows += _damage(sheet, evidence)
+    rows += _damage(sheet, options)
     sheet.table(rows)
     known = [] if impact.reconstruction is None else _known(sheet, impact, notes)
     if any("given as" in text for *_, text in (*rows, *known)):
@@ -237,7 +238,7 @@ def contradicted(impact: Impact) -> Iterator[str]:
             yield f"{name} was given as {text!r}, but the {known.what} is {number!r} {SI_UNITS[kind]}"
 
 
-def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, Any], notes: Mapping[str, str]) -> None:
+def momentum(sheet: Sheet, solution: MomentumSolution, options: Mapping[str, Any], notes: Mapping[str, str]) -> None:
     """Inputs, assumptions and results of planar momentum, and how far each input moves them."""
     given: dict[str, Any] = {}
     for name, value in (solution.given or {}).items():
@@ -248,7 +249,7 @@ def momentum(sheet: Sheet, solution: MomentumSolution, evidence: Mapping[str, An
         text, note = given.get(name), notes.get(name.partition("[")[0])
         value = sheet.as_given(number, kind, text if isinstance(text, str) else None)
         rows.append((of, what, _with(value, note)))
-    sheet.table([*rows, *_damage(sheet, evidence)])
+    sheet.table([*rows, *_damage(sheet, options)])
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in given else ""
     sheet.say(
@@ -276,13 +277,14 @@ def _in_words(name: str) -> str:
     return f"{kind} of {label.upper()}{'' if kind == 'mass' else ' after' if rest else ' before'}"
 
 
-def _damage(sheet: Sheet, evidence: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+def _damage(sheet: Sheet, options: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
     """Table rows with the PDOF and delta-V that the damage shows."""
-    for name, (of, what, kind) in _EVIDENCE.items():
-        if evidence[name] is not None:
-            pair = isinstance(evidence[name], (tuple, list))
+    for name, (of, what, kind) in EVIDENCE.items():
+        given = options[name]
+        if given is not None:
+            pair = isinstance(given, (tuple, list))
             texts = []
-            for part in evidence[name] if pair else (evidence[name],):
+            for part in given if pair else (given,):
                 read = ArgumentReader(trusted=(name,)).number(part, SI_UNITS[kind], name)
                 texts.append(sheet.as_given(read, kind, part if isinstance(part, str) else None))
             shown = f"forward: {texts[0]}; left: {texts[1]}" if pair else texts[0]
@@ -474,7 +476,8 @@ def sources(sheet: Sheet, impact: Impact | MomentumSolution, found: Sequence[Fin
     lines = ['"Application of Impulse Momentum Theory to Vehicle Collisions"; a number such as (5) is an equation of it.']
     if isinstance(impact, Impact):
         values = [("restitution", value) for value in _RANGE]
-        values += [("friction", reference.INTER_VEHICLE_FRICTION)] * any(True for _ in _published(impact, impact.inputs.rule))
+        if any(_published(impact, impact.inputs.rule)):
+            values.append(("friction", reference.INTER_VEHICLE_FRICTION))
         values += [("drag", value) for value in _DRAG if impact.pulse is None or impact.inputs.drag is not None]
         lines += [f"For comparison with the {what}: {value.name}; {value.source}. {value.quality}" for what, value in values]
     for finding in found:
