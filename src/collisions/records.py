@@ -29,7 +29,7 @@ from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
 FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
-_OPTIONS = ("geometry", "steps")
+_OPTIONS = ("geometry", "steps", "incomplete")
 # The arguments that not every solver takes, and what stands for one that it does not take.
 _OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes if name not in RULES)
 _LEFT_OUT = {"incomplete": False}
@@ -53,7 +53,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
     text = texts.pop("normal", None)
     as_text = isinstance(text, str) and same(direction(ArgumentReader(), text, "normal"), inputs.normal)
     return {
-        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS, "incomplete")},
+        **{name: getattr(inputs, name) for name in (*_LABELS, *_OPTIONS)},
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
@@ -127,7 +127,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             reader = ArgumentReader()
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
-        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS, "incomplete")}
+        numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])
