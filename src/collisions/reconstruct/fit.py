@@ -14,6 +14,7 @@ from ..errors import AmbiguousSolutionError, NoSolutionError
 from ..hints import hinted
 from ..quantities import lock
 from ..settings import in_si
+from ..uncertainty.angles import folded
 from .fit_problem import FitInputs, read_fit_inputs
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
 from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
@@ -230,7 +231,7 @@ class _Candidate:
         """Whether a point is more than a standard error away in what the evidence determines here."""
         way = point - self.point
         turning = np.array([unknown.unit == "rad" for unknown in self.inputs.unknowns.values()])
-        known, way = np.isfinite(self.errors), np.where(turning, (way + np.pi) % (2.0 * np.pi) - np.pi, way)
+        known, way = np.isfinite(self.errors), np.where(turning, folded(way, math.pi), way)
         size = self.errors[known]
         precision = np.linalg.pinv(self.determination.covariance[np.ix_(known, known)] / np.outer(size, size), hermitian=True)
         return bool((way[known] / size) @ precision @ (way[known] / size) > 1.0)

@@ -221,11 +221,15 @@ class Scene:
         numbers: list[Any] = [float(speed_a), float(speed_b), float(e), float(bound), *self.fixed]
         return _observed_of_floats(*settings)(numbers) or _observed(*numbers, *settings)
 
+    def at_unit_speeds(self, regime: Any) -> list[Seen]:
+        """What is seen of vehicles that do not move, and of each moving by itself at a speed of 1."""
+        zero, one = np.zeros(()), np.ones(())
+        return [self.observe(regime, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
+
     @cached_property
     def _linear(self) -> tuple[Seen, tuple[Any, Any], tuple[Any, Any]]:
         """What is seen of vehicles that do not move, and the closing speed and the slip per unit of each speed."""
-        zero, one = np.zeros(()), np.ones(())
-        rest, by_a, by_b = (self.observe(STICK, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one)))
+        rest, by_a, by_b = self.at_unit_speeds(STICK)
         return rest, (by_a.closing - rest.closing, by_b.closing - rest.closing), (by_a.slip - rest.slip, by_b.slip - rest.slip)
 
     def speeds_at(self, closing: Any, slip: Any) -> tuple[Any, Any]:

@@ -74,14 +74,11 @@ class ComponentScene(Scene):
 
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
         """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
-        zero, one = np.zeros(()), np.ones(())
-        rest, *moving = (
-            self._seen_momenta(self.observe(regime, *pair, self.e)) for pair in ((zero, zero), (one, zero), (zero, one))
-        )
+        rest, *moving = map(self._seen_momenta, self.at_unit_speeds(regime))
         effects = [[at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
-        speeds = [self.targets.get(f"speed_{label}", zero) + 0.0 * rest[0] for label in "ab"]
+        speeds = [self.targets.get(f"speed_{label}", 0.0) + 0.0 * rest[0] for label in "ab"]
         for _ in range(_REFINEMENTS):
             left = self._left(self.observe(regime, speeds[0], speeds[1], self.e))
             for at, row in zip(self.unknown, inverse, strict=True):
