@@ -2,15 +2,15 @@
 
     python design/lazy_imports.py
 
-Every script pays the import, and most need only the solvers and plain numbers. Each line is processor time of a fresh
-interpreter, the best of three. ``benchmarks/speed.py`` measures the import against its budget; here is what each part would
-add.
+Every script pays the import, and most need only the solvers and plain numbers, some only vehicles and units. Each line is
+processor time of a fresh interpreter, the best of three. ``benchmarks/speed.py`` measures the import against its budget; here
+is what each part would add.
 
-What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a fifth to importing numpy, a half with
-``uncertainty``, one and a half with ``report``; pint alone costs two more, and a first unit, for which pint builds its
-registry, four. Decided: pint when a unit first appears; the upper half of the package, ``kernels/batch.py``, ``records.py``,
-the thread pool, the choice of a model, the contact in time and the printer of kernels when they are first used. What is left
-is for the most part Python making the classes that every call needs.
+What it showed (2 cores, Python 3.11, numpy 2, pint 0.25): the package adds a tenth to importing numpy, the solvers less than
+another, ``uncertainty`` a half, ``report`` one and a half to two; pint alone costs two more, and a first unit, for which pint
+builds its registry, three to four. Decided: pint when a unit first appears; the solvers, the upper half of the package,
+``kernels/batch.py``, ``records.py``, the thread pool, the choice of a model, the contact in time and the printer of kernels
+when they are first used. What is left is for the most part Python making the classes that every call needs.
 """
 
 import subprocess
