@@ -75,6 +75,8 @@ class Side(Frozen, Summarized):
         """The vehicle just after separation, ready to be the start of the next impact."""
         # Not self.before: of one case, of which most callers read little else, it would be a tenth of the time.
         before, (dvx, dvy, dw) = (self._inputs.b if self._index else self._inputs.a), self._change()
+        if type(dvx) is float:
+            return moved(before, before.vx + dvx, before.vy + dvy, before.yaw_rate + dw, self._units())
         motion = _changed(before.vx, dvx), _changed(before.vy, dvy), _changed(before.yaw_rate, dw)
         return moved(before, *motion, self._units())
 

@@ -65,11 +65,11 @@ def linear_central(
         total = total + slip
     elif not all_zero(ny, vy_a, vy_b, spin_a, spin_b):
         spins = (spin_a != 0.0) | (spin_b != 0.0)
-        # Most cases have none and need no limit: compiled for floats, the first condition ends the look at it.
-        across_a, across_b = nx * vy_a - ny * vx_a, nx * vy_b - ny * vx_b
+        # Most impacts are along x: compiled for floats, the first condition ends the look at what is across.
+        sideways = (ny != 0.0) | (vy_a != 0.0) | (vy_b != 0.0)
         # What rounding leaves of motions along the normal is below 8 eps of the speeds, also after an impact has cancelled one.
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
-        across = ((across_a != 0.0) | (across_b != 0.0)) & (larger(abs(across_a), abs(across_b)) > most)
+        across = sideways & (larger(abs(nx * vy_a - ny * vx_a), abs(nx * vy_b - ny * vx_b)) > most)
     fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
     status = (
         Status.OK
