@@ -96,7 +96,7 @@ _MODULES = ("plot", "reconstruct", "reference", "travel", "uncertainty")
 
 
 def __getattr__(name: str) -> Any:
-    """Imports at its first use what not every caller needs; what the solvers bring along takes as long as the rest of this."""
+    """Imports a module at the first use of its name, as not every caller needs all of them."""
     if name in _MODULES or name in _LATER.values():
         return import_module(f".{name}", __name__)
     if name not in _LATER:
