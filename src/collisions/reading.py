@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
-from .kernels.elementwise import FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, POSITIVE_FINITE, RESTITUTION, UNIT_INTERVAL, Domain
+from .kernels.elementwise import AT_LEAST_ZERO, FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import Default, units_required
 from .units import (
     Texts,
@@ -346,40 +346,31 @@ def _not_a_number(value: Any, argument: str, unit: str) -> InputError:
 
 def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputError | None:
     """InputError for a scalar outside its domain, else None."""
-    if math.isnan(value) and domain in (POSITIVE, FINITE, POSITIVE_FINITE):
-        return InputError(f"{argument} is NaN; give a number", code="not_finite", argument=argument)
-    if domain is POSITIVE and not value > 0.0:
-        return InputError(f"{argument} must be > 0 (inf allowed), got {shown(given)}", code="not_positive", argument=argument)
-    if domain is POSITIVE_FINITE and not value > 0.0:
-        return InputError(f"{argument} must be > 0, got {shown(given)}", code="not_positive", argument=argument)
-    if (domain is UNIT_INTERVAL or domain is RESTITUTION) and not 0.0 <= value <= 1.0:
-        code = domain.faults[0][1].label
-        text = f"{argument} must be from 0 to 1, got {shown(given)}"
-        if 1.1 <= value <= 100.0:
-            text += f"; if percent were meant, write '{value:g} %'"
-        elif domain is RESTITUTION and -1.0 < value < 0.0:
-            text += "; of bodies that pass or tear before a common velocity, the impulse solvers take it with incomplete=True"
-        return InputError(text, code=code, argument=argument)
-    if domain is INCOMPLETE and not -1.0 < value <= 1.0:
-        text = f"{argument} must be above -1 and at most 1, got {shown(given)}: at -1 the bodies would pass untouched"
-        return InputError(text, code=domain.faults[0][1].label, argument=argument)
-    if domain is NOT_NEGATIVE and not value >= 0.0:
-        return InputError(
-            f"{argument} must be >= 0 (inf allowed), got {shown(given)}: its direction is worked out, give the magnitude",
-            code="bad_friction",
-            argument=argument,
-        )
-    if domain in (FINITE, POSITIVE_FINITE) and math.isinf(value):
-        return InputError(
-            f"{argument} must be finite, got {shown(given)}; only mass, yaw_inertia and friction may be inf",
-            code="not_finite",
-            argument=argument,
-        )
     for fault, status in domain.faults:
         if fault(value):
-            text = f"{argument} must be {domain.name}, got {shown(given)}: {status.sentence}"
-            return InputError(text, code=status.label, argument=argument)
+            return _out_of_domain(value, domain, status, argument, given)
     return None
+
+
+def _out_of_domain(value: float, domain: Domain, status: Status, argument: str, given: Any) -> InputError:
+    must, hint = domain.name, f": {status.sentence}"
+    if status is Status.NOT_FINITE and domain is not AT_LEAST_ZERO:
+        if math.isnan(value):
+            return InputError(f"{argument} is NaN; give a number", code=status.label, argument=argument)
+        must, hint = "finite", "; only mass, yaw_inertia and friction may be inf"
+    elif status is Status.NOT_POSITIVE:
+        must, hint = "> 0 (inf allowed)" if domain is POSITIVE else "> 0", ""
+    elif domain is NOT_NEGATIVE:
+        must, hint = ">= 0 (inf allowed)", ": its direction is worked out, give the magnitude"
+    elif domain is INCOMPLETE:
+        must, hint = "above -1 and at most 1", ": at -1 the bodies would pass untouched"
+    elif domain in (UNIT_INTERVAL, RESTITUTION):
+        must, hint = "from 0 to 1", ""
+        if 1.1 <= value <= 100.0:
+            hint = f"; if percent were meant, write '{value:g} %'"
+        elif domain is RESTITUTION and -1.0 < value < 0.0:
+            hint = "; of bodies that pass or tear before a common velocity, the impulse solvers take it with incomplete=True"
+    return InputError(f"{argument} must be {must}, got {shown(given)}{hint}", code=status.label, argument=argument)
 
 
 def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:

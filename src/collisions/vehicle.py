@@ -104,22 +104,22 @@ class Vehicle(_AsGiven):
             raise TypeError(f"Vehicle takes its arguments by name, as in mass={shown(unnamed[0])}: {', '.join(NAMES)}")
         if unknown:
             raise no_argument("Vehicle", NAMES, unknown, _HINTS)
-        given = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name)
-        plain = (
+        if (
             type(mass) is type(vx) is type(vy) is type(yaw_rate) is float
             and mass > 0.0
             and _isfinite(vx + vy)
             and -20.0 < yaw_rate < 20.0
             and (yaw_inertia is None or (type(yaw_inertia) is float and yaw_inertia > 0.0))
-            and (x is None or (type(x) is float and _isfinite(x)))
-            and (y is None or (type(y) is float and _isfinite(y)))
+            and (x is y is None or (type(x) is type(y) is float and _isfinite(x + y)))
             and (heading is None or (type(heading) is float and -6.0 < heading < 6.0))
             and pivot is None
             and type(name) is str
             and not units_required.get()
-        )
-        # Valid plain floats need no reader.
-        _fill(self, (*given, None) if plain else _read_fields(*given))
+        ):
+            # Valid plain floats need no reader.
+            _fill(self, mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, None, name, None)
+        else:
+            _fill(self, *_read_fields(mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name))
 
     @classmethod
     def barrier(cls, **rest: Any) -> Vehicle:
@@ -385,9 +385,21 @@ _set_mass, _set_vx, _set_vy, _set_yaw_rate, _set_yaw_inertia, _set_x, _set_y, _s
 _set_pivot, _set_name, _set_given = _set_rest
 
 
-def _fill(vehicle: Vehicle, values: tuple[Any, ...]) -> None:
+def _fill(
+    vehicle: Vehicle,
+    mass: Any,
+    vx: Any,
+    vy: Any,
+    yaw_rate: Any,
+    yaw_inertia: Any,
+    x: Any,
+    y: Any,
+    heading: Any,
+    pivot: Any,
+    name: Any,
+    given: Any,
+) -> None:
     """Set every field; written out, as this is most of what a Vehicle costs."""
-    mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading, pivot, name, given = values
     _set_mass(vehicle, mass)
     _set_vx(vehicle, vx)
     _set_vy(vehicle, vy)
@@ -408,7 +420,7 @@ def vehicle_of(
     vehicle: Vehicle = object.__new__(Vehicle)
     trusted = numbers.keys() - (changes or {}).keys()
     trusted |= {"pivot[0]", "pivot[1]"} if "pivot" in trusted else set()
-    _fill(vehicle, _read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
+    _fill(vehicle, *_read_fields(**{**numbers, **(changes or {})}, trusted=trusted))
     if given is not None:
         _set_given(vehicle, Texts(given))
     return vehicle
@@ -424,15 +436,15 @@ def moved(vehicle: Vehicle, vx: Any, vy: Any, yaw_rate: Any, given: Mapping[str,
     else:
         texts = None if given is None else Texts(given)
     other: Vehicle = object.__new__(Vehicle)
-    place = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
-    _fill(other, (vehicle.mass, vx, vy, yaw_rate, vehicle.yaw_inertia, *place, vehicle.name, texts))
+    x, y, heading, pivot = vehicle.x, vehicle.y, vehicle.heading, vehicle.pivot
+    _fill(other, vehicle.mass, vx, vy, yaw_rate, vehicle.yaw_inertia, x, y, heading, pivot, vehicle.name, texts)
     return other
 
 
 def with_given(vehicle: Vehicle, given: Mapping[str, str]) -> Vehicle:
     """The vehicle with other texts for its numbers."""
     other: Vehicle = object.__new__(Vehicle)
-    _fill(other, (*(getattr(vehicle, name) for name in NAMES), Texts(given)))
+    other.__setstate__({**vehicle.__getstate__(), "given": Texts(given)})
     return other
 
 
@@ -527,27 +539,27 @@ def _read_fields(
 ) -> tuple[Any, ...]:
     """Validate the fields: SI values, and the texts of those given with a unit; one error names all that cannot be used."""
     reader = ArgumentReader(trusted)
+    read: dict[str, Any] = {}
     raw = (mass, vx, vy, yaw_rate, yaw_inertia, x, y, heading)
-    read = []
-    for value, f in zip(raw, fields(Vehicle), strict=False):
+    for (label, domain), value in zip(DOMAINS.items(), raw, strict=True):
         if value is not None:
-            value = reader.number(value, f.metadata["unit"], f.name, f.metadata["domain"])
-        elif f.name == "mass":
+            value = reader.number(value, UNITS[label], label, domain)
+        elif label == "mass":
             reader.refuse(
                 MissingInputError("mass is missing; give it in kg, or inf for a barrier", code="missing_mass", argument="mass")
             )
-        elif f.name in ("vx", "vy", "yaw_rate"):
-            reader.refuse(InputError(f"{f.name} is None; leave it out for 0", code="not_a_number", argument=f.name))
-        read.append(value)
+        elif label in ("vx", "vy", "yaw_rate"):
+            reader.refuse(InputError(f"{label} is None; leave it out for 0", code="not_a_number", argument=label))
+        read[label] = value
     if not isinstance(name, str):
         reader.refuse(InputError(f"name must be a text, got {type(name).__name__}", code="not_a_text", argument="name"))
     pin = None if pivot is None else reader.pair(pivot, "m", "pivot")
     reader.close()
-    named = dict(zip(NAMES, read, strict=False))
-    broadcast(named if pin is None else {**named, "pivot[0]": pin[0], "pivot[1]": pin[1]})
+    broadcast(read if pin is None else {**read, "pivot[0]": pin[0], "pivot[1]": pin[1]})
     if pin is not None:
-        read[1], read[2] = _pinned_velocity(pin, *read[:7])
-    return (*read, pin, name, reader.texts)
+        mass, vx, vy, yaw_rate, yaw_inertia, x, y, _ = read.values()
+        read["vx"], read["vy"] = _pinned_velocity(pin, mass, vx, vy, yaw_rate, yaw_inertia, x, y)
+    return (*read.values(), pin, name, reader.texts)
 
 
 def _pinned_velocity(
