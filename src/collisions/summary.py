@@ -78,7 +78,8 @@ class Cells(Numbers):
         directions = re.fullmatch(_DIRECTION, name) and not self.over_time
         ends = _arc(known) if directions else (float(known.min()), float(known.max()))
         low, high = (self.text(end, unit) for end in ends)
-        unit = re.sub(r"^.*\d", "", high)
+        # The 1 of 1/m belongs to the unit.
+        unit = re.sub(r"^.*\d(?!/)", "", high)
         return low if low == high else f"{low.removesuffix(unit)} to {high}"
 
 

@@ -293,12 +293,9 @@ class Fit(Shown):
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
-
-        def with_unit(value: float) -> float | str:
-            return f"{value!r} {one.unit}" if one.unit else value
-
-        low, high = (with_unit(end) if math.isfinite(end) else None for end in (one.low, one.high))
-        return Normal(with_unit(one.value), with_unit(one.standard_error), truncate=(low, high))
+        value, error = (_quantity(number, one.unit) for number in (one.value, one.standard_error))
+        low, high = (_quantity(end, one.unit) if math.isfinite(end) else None for end in (one.low, one.high))
+        return Normal(value, error, truncate=(low, high))
 
     def _check_determined(self, what: str) -> None:
         left = [name for name in self.names if not self[name].determined]
