@@ -6,21 +6,26 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import AmbiguousSolutionError, NoSolutionError
+from ..errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..hints import hinted
 from ..quantities import lock
+from ..reading import ArgumentReader
 from ..settings import in_si
 from ..uncertainty.angles import folded
-from .fit_problem import FitInputs, read_fit_inputs
+from ..uncertainty.distribution import read_alike
+from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
+from ..uncertainty.model import Model, check_names
+from ..units import is_quantity
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
 from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
-from .observations import listed, refused_everywhere
+from .observations import Observation, listed, observed_columns, read_each, read_value, refused_everywhere
 
 _STARTS = 64
+_PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 _FEW = 2  # searches that ended at the best, among more: there may be a better one
 _SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _TOO_CLOSE = 4.0  # of chi-squared, that the errors of the best do not exclude
@@ -111,13 +116,12 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     """
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
-        inputs = read_fit_inputs(model, unknowns, observed)
+        inputs = _read_inputs(model, unknowns, observed)
         problem = inputs.problem()
-        ends = minimise(problem, inputs.starts(_STARTS))
+        ends = minimise(problem, inputs.starts())
         if np.all(np.isinf(ends.chi_squared)):
             advice = "bounds or starts within which the impact happens; reconstruct.posterior finds rare ones too"
-            start = dict(zip(inputs.unknowns, inputs.numbers_of("start").tolist(), strict=True))
-            raise refused_everywhere(inputs.model, _STARTS, start, advice)
+            raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
         # The least misfit, or one that is as good where a search converged.
         best = _examined(inputs, problem, ends, int(np.argmin(ends.chi_squared + _SAME_CHI_SQUARED * ~ends.converged)))
         _check_minimum(best, ends)
@@ -133,11 +137,91 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     return found
 
 
+class _Inputs(NamedTuple):
+    """The inputs of a fit: what is known before of each unknown, and as ``rows`` the observations, then the priors."""
+
+    model: Model
+    rows: list[Observation]
+    units: dict[str, str]
+    start: Any
+    scale: Any
+    low: Any
+    high: Any
+    has_prior: Any
+
+    def named(self, point: Any) -> dict[str, float]:
+        """The numbers of a point by unknown."""
+        return dict(zip(self.units, point.tolist(), strict=True))
+
+    def starts(self) -> Any:
+        """Where to start: all over the bounds, or around the start as far as its scale, or three deviations of the prior."""
+        span = np.where(self.has_prior, _PRIOR_SPAN, 1.0) * self.scale
+        points = spread(_STARTS, np.maximum(self.low, self.start - span), np.minimum(self.high, self.start + span))
+        points[0] = self.start
+        return points
+
+    def computed(self, points: Any) -> Any:
+        """The model's value for each row at these points (k, n), in SI; a refused point is NaN in all observations."""
+        answered = self.model({name: np.array(points[:, j]) for j, name in enumerate(self.units)}, len(points))
+        found = np.stack(observed_columns([row.name for row in self.rows if not row.is_prior], answered), axis=1)
+        found = np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
+        return np.concatenate([found, points[:, self.has_prior]], axis=1)
+
+    def problem(self) -> Problem:
+        """The least-squares problem, in units of standard deviations."""
+        sigma = np.array([row.sigma for row in self.rows])
+        angles = [not row.is_prior and row.is_angle(self.model.units[row.name]) for row in self.rows]
+        return Problem(
+            evaluate=lambda points: self.computed(points) / sigma,
+            target=np.array([row.apart(0.0, False) for row in self.rows]) / sigma,
+            period=np.where(angles, math.tau / sigma, np.nan),
+            low=self.low,
+            high=self.high,
+            scale=self.scale,
+        )
+
+
+def _read_inputs(model: Any, unknowns: Any, observed: Any) -> _Inputs:
+    reader = ArgumentReader()
+    known = dict(read_each(reader, unknowns, "unknowns", "20.0", _unknown))
+    measured = read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_value)
+    reader.close()
+    units, priors, *numbers = zip(*known.values(), strict=True)
+    start, scale, low, high = map(np.array, numbers)
+    rows = [Observation(name, value) for name, value in measured]
+    rows += [Observation(name, prior, is_prior=True) for name, prior in zip(known, priors, strict=True) if prior]
+    has_prior = np.array([prior is not None for prior in priors])
+    inputs = _Inputs(Model(model, {}), rows, dict(zip(known, units, strict=True)), start, scale, low, high, has_prior)
+    check_names(model, known, "unknowns", "bad_model")
+    # Two cases, because a model that takes numbers would answer an array of one.
+    inputs.computed(np.tile(start, (2, 1)))
+    return inputs
+
+
+def _unknown(label: str, given: Any) -> tuple[str, Normal | None, float, float, float, float]:
+    """What is known before of one unknown: its unit, a prior if any, where to start, a scale, and bounds."""
+    if isinstance(given, Normal):
+        low, high = given.support
+        return given.unit, given, min(max(given.given_mean, low), high), given.given_sd, low, high
+    if isinstance(given, (Uniform, Interval)):
+        low, high = given.support if isinstance(given, Uniform) else (given.low, given.high)
+        return given.unit, None, 0.5 * (low + high), high - low, low, high
+    if isinstance(given, Distribution) or not (isinstance(given, (int, float, str, np.number)) or is_quantity(given)):
+        raise InputError(
+            f"{label} is of type {type(given).__name__}; give a Normal (what is known before, with its weight), a Uniform or "
+            f"an Interval (bounds that weigh nothing), or a number to start from; reconstruct.posterior takes every "
+            f"distribution{range_hint(given)}",
+            code="bad_prior",
+        )
+    (start,), unit = read_alike({label: given})
+    return unit, None, start, abs(start) or 1.0, -math.inf, math.inf
+
+
 @dataclass(frozen=True, eq=False)
 class _Candidate:
     """The point where a search ended, with step sizes that suit it."""
 
-    inputs: FitInputs
+    inputs: _Inputs
     problem: Problem
     point: Any
     outputs: Any
@@ -159,7 +243,7 @@ class _Candidate:
     @property
     def only_a_start(self) -> Any:
         """For each unknown, whether its scale is only a guide for where to start."""
-        return np.isinf(self.problem.low) & np.isinf(self.problem.high) & ~self.inputs.numbers_of("prior")
+        return np.isinf(self.problem.low) & np.isinf(self.problem.high) & ~self.inputs.has_prior
 
     @property
     def errors(self) -> Any:
@@ -230,14 +314,14 @@ class _Candidate:
     def is_apart(self, point: Any) -> bool:
         """Whether a point is more than a standard error away in what the evidence determines here."""
         way = point - self.point
-        turning = np.array([unknown.unit == "rad" for unknown in self.inputs.unknowns.values()])
+        turning = np.array([unit == "rad" for unit in self.inputs.units.values()])
         known, way = np.isfinite(self.errors), np.where(turning, folded(way, math.pi), way)
         size = self.errors[known]
         precision = np.linalg.pinv(self.determination.covariance[np.ix_(known, known)] / np.outer(size, size), hermitian=True)
         return bool((way[known] / size) @ precision @ (way[known] / size) > 1.0)
 
 
-def _examined(inputs: FitInputs, problem: Problem, ends: Ends, k: int) -> _Candidate:
+def _examined(inputs: _Inputs, problem: Problem, ends: Ends, k: int) -> _Candidate:
     """The candidate where search k ended, refined with difference steps that suit it rather than the bounds or the start."""
     found = _Candidate(inputs, problem, *(part[k] for part in ends))
     most = np.where(found.only_a_start, math.inf, 10.0 * problem.scale)
@@ -266,7 +350,7 @@ def _check_minimum(best: _Candidate, ends: Ends) -> None:
         why = f"where few of the {_STARTS} searches ended, so that a better answer may lie between them"
     else:
         return
-    at = dict(zip(best.inputs.unknowns, best.point.tolist(), strict=True))
+    at = best.inputs.named(best.point)
     raise NoSolutionError(
         f"the least misfit found is chi-squared {best.chi_squared:.6g} at {listed(at)}, {why}. reconstruct.posterior answers "
         f"there too, with a range; or narrow the bounds to one side of it, or give a prior (a Normal)",
@@ -300,8 +384,7 @@ def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:
 def _answer(found: _Candidate) -> Fit:
     """The ``Fit`` of a candidate."""
     inputs, problem, point, determined = found.inputs, found.problem, found.point, found.determination
-    names, identified = tuple(inputs.unknowns), np.isfinite(found.errors).tolist()
-    units = {name: unknown.unit for name, unknown in inputs.unknowns.items()}
+    names, identified = tuple(inputs.units), np.isfinite(found.errors)
     over_sigma = -problem.misfit(found.outputs)
     computed = inputs.computed(point[np.newaxis])[0]
     residuals = {
@@ -315,10 +398,10 @@ def _answer(found: _Candidate) -> Fit:
     chi_squared = float(over_sigma @ over_sigma)
     shares = [dict(zip(residuals, row, strict=True)) for row in determined.shares.tolist()]
     return Fit(
-        values=Values(dict(zip(names, np.where(identified, point, math.nan).tolist(), strict=True)), units),
+        values=Values(inputs.named(np.where(identified, point, math.nan)), inputs.units),
         names=names,
-        units=units,
-        bounds={name: (unknown.low, unknown.high) for name, unknown in inputs.unknowns.items()},
+        units=inputs.units,
+        bounds=dict(zip(names, zip(inputs.low.tolist(), inputs.high.tolist(), strict=True), strict=True)),
         covariance=lock(np.array(determined.covariance)),
         residuals=residuals,
         contributions={name: row if known else {} for name, row, known in zip(names, shares, identified, strict=True)},
