@@ -19,7 +19,7 @@ from .quantities import lock, same
 from .reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown, texts_of
-from .vehicle import DOMAINS, NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
+from .vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
@@ -146,8 +146,7 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
         elif value is not None:
             found[name] = value
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
-        found |= {f"{label}.{name}": getattr(vehicle, name) for name in DOMAINS}
-        found |= {f"{label}.pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
+        found |= {f"{label}.{name}": value for name, value in numbers_of(vehicle).items()}
     return found
 
 
@@ -207,7 +206,7 @@ def plain_inputs(
     friction = tangential[0]
     if (
         type(a) is type(b) is Vehicle
-        and (a.given is b.given is None or np.ndarray not in map(type, chain(numbers_of(a), numbers_of(b))))
+        and (a.given is b.given is None or np.ndarray not in map(type, chain(numbers_of(a).values(), numbers_of(b).values())))
         and type(restitution) is type(friction) is type(normal) is float
         and 0.0 <= restitution <= 1.0
         and friction >= 0.0
@@ -282,7 +281,7 @@ def read_inputs(
     e = reader.number(restitution, "", "restitution", restitution_domain(incomplete))
     contact = None if point is None else reader.pair(point, "m", "point")
     rule, value = _tangential(reader, tangential)
-    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle))
+    vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle).values())
     pushes: dict[str, Any] = dict(zip(OUTSIDE, (outside_a, outside_b), strict=True))
     if outside_a is not None or outside_b is not None:
         pushes = {name: _NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}

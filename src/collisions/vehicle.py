@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field, fields
 from typing import Any, Never, cast
 
@@ -177,8 +177,8 @@ class Vehicle(_AsGiven):
             vehicle = cls(**{**rest, "vx": vx, "vy": vy})
         if getattr(vx, "dtype", None) == np.float32 and vehicle.pivot is None:
             # Where other fields are float64, so is the velocity.
-            cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle))
-            (magnitude,) = widened((magnitude,), numbers_of(vehicle))
+            cx, cy = direction(ArgumentReader(("course",)), course, "course", numbers_of(vehicle).values())
+            (magnitude,) = widened((magnitude,), numbers_of(vehicle).values())
             with np.errstate(all="ignore"):
                 _set_vx(vehicle, lock(magnitude * cx + 0.0))
                 _set_vy(vehicle, lock(magnitude * cy + 0.0))
@@ -242,7 +242,7 @@ class Vehicle(_AsGiven):
         MissingInputError
             The body turns and its yaw inertia was not given.
         """
-        vx, vy, yaw_rate = widened((self.vx, self.vy, self.yaw_rate), numbers_of(self))
+        vx, vy, yaw_rate = widened((self.vx, self.vy, self.yaw_rate), numbers_of(self).values())
         energy = _product(self.mass, 0.5 * (vx * vx + vy * vy))
         if without_turning(self.yaw_rate):
             return energy
@@ -448,12 +448,10 @@ def with_given(vehicle: Vehicle, given: Mapping[str, str]) -> Vehicle:
     return other
 
 
-def numbers_of(vehicle: Vehicle) -> Iterator[Value]:
-    """Every number of the vehicle, the coordinates of a pivot included."""
-    for name in DOMAINS:
-        if (value := getattr(vehicle, name)) is not None:
-            yield value
-    yield from vehicle.pivot or ()
+def numbers_of(vehicle: Vehicle) -> dict[str, Value]:
+    """Every number of the vehicle by name, the coordinates of a pivot included."""
+    found: dict[str, Value] = {name: value for name in DOMAINS if (value := getattr(vehicle, name)) is not None}
+    return found | {f"pivot[{i}]": part for i, part in enumerate(vehicle.pivot or ())}
 
 
 def without_turning(yaw_rate: Any) -> bool:

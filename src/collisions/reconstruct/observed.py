@@ -21,7 +21,7 @@ from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
 from ..models import body_numbers
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair, Value
-from ..vehicle import DOMAINS, Vehicle, needed, not_a_vehicle, numbers_of, without_turning
+from ..vehicle import Vehicle, needed, not_a_vehicle, numbers_of, without_turning
 from ..warning import warn
 from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
 
@@ -211,7 +211,7 @@ class _Moment(NamedTuple):
 def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> tuple[Cases, _Moment, _Moment, _Faults]:
     """The contact before and after, from the forward kernel, and the faults of the cases."""
     wrong = [not_a_vehicle(label, body) for label, body in bodies.items() if not isinstance(body, Vehicle)]
-    motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body))
+    motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body).values())
     read = read_inputs("solve", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
     contact = read.point
     used = {label: _numbers_at(body, contact, label, purpose) for label, body in bodies.items()}
@@ -219,7 +219,7 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     numbers |= {f"{label}.{name}": value for label, body in used.items() for name, value in body.items()}
     numbers |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     # Fields that no motion needs are 0 above; here they are as given, to be checked as in a single vehicle.
-    given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in _as_given(body).items()}
+    given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in numbers_of(body).items()}
     numbers |= given
     cases = Cases.of(numbers)
     turning = {label: body.pivot is not None and not without_turning(body.yaw_rate) for label, body in bodies.items()}
@@ -247,12 +247,6 @@ def _moment(normal: Any, contact: Any, a: dict[str, Any], b: dict[str, Any], *pi
         lever = abs(px - body["x"]) + abs(py - body["y"])
         speeds = speeds + abs(body["vx"]) + abs(body["vy"]) + abs(body["yaw_rate"]) * lever
     return _Moment(a, b, n, raw.closing_speed, speeds)
-
-
-def _as_given(body: Vehicle) -> dict[str, Any]:
-    """Every number of a vehicle by its name."""
-    pivot = {f"pivot[{i}]": part for i, part in enumerate(body.pivot or ())}
-    return {name: value for name in DOMAINS if (value := getattr(body, name)) is not None} | pivot
 
 
 def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
