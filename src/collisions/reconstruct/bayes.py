@@ -14,16 +14,15 @@ from ..hints import hinted
 from ..kernels.batch import in_order
 from ..progress import reporter
 from ..quantities import lock
-from ..reading import ArgumentReader
 from ..uncertainty.distributions import Distribution, Normal, range_hint
-from ..uncertainty.model import Model, check_names
+from ..uncertainty.model import Model
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
 from ..units import shown
 from .fit_result import residual_of, warn_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
-from .observations import Observation, observed_columns, read_each, read_reading, refused_everywhere
+from .observations import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
 from .posterior_result import Posterior, PosteriorOutput, notes_of
 
 ISLANDS = 8
@@ -119,13 +118,8 @@ def posterior(
         raise InputError(
             f"samples must be a whole number from {_LEAST_SAMPLES}, got {shown(samples)}", code="bad_option", argument="samples"
         )
-    reader = ArgumentReader()
-    priors = dict(read_each(reader, unknowns, "unknowns", "Normal('50 km/h', '10 km/h')", _prior))
-    readings = dict(read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_reading))
-    reader.close()
-    check_names(model, priors, "unknowns", "bad_model")
-    rows = [Observation(name, value) for name, value in readings.items()]
-    problem = _Problem(Model(model, {}), Joint(priors, correlation), rows)
+    called, priors, rows = read_evidence(model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading)
+    problem = _Problem(called, Joint(priors, correlation), rows)
     seed = int(seed) if seed is not None else secrets.randbits(64)
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):

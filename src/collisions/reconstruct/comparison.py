@@ -160,11 +160,7 @@ def _check_same_evidence(posteriors: Mapping[str, Posterior]) -> None:
     """Refuse posteriors whose observations differ from those of the first."""
     (first, reference), *others = posteriors.items()
     for name, one in others:
-        differing = [
-            key
-            for key in sorted(reference.observed.keys() | one.observed.keys())
-            if reference.observed.get(key) != one.observed.get(key)
-        ]
+        differing = sorted({key for key, _ in reference.observed.items() ^ one.observed.items()})
         if differing:
             raise InputError(
                 f"{name!r} and {first!r} were given different observations, of {', '.join(differing)}; only accounts of the "

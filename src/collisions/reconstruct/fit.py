@@ -13,16 +13,15 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..hints import hinted
 from ..quantities import lock
-from ..reading import ArgumentReader
 from ..settings import in_si
 from ..uncertainty.angles import folded
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
-from ..uncertainty.model import Model, check_names
+from ..uncertainty.model import Model
 from ..units import is_quantity
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
 from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
-from .observations import Observation, listed, observed_columns, read_each, read_value, refused_everywhere
+from .observations import Observation, listed, observed_columns, read_evidence, read_value, refused_everywhere
 
 _STARTS = 64
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
@@ -116,9 +115,8 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
     """
     # A point at which numbers overflow counts as refused.
     with np.errstate(all="ignore"):
-        inputs = _read_inputs(model, unknowns, observed)
-        problem = inputs.problem()
-        ends = minimise(problem, inputs.starts())
+        inputs, problem = _read_inputs(model, unknowns, observed)
+        ends = minimise(problem, _starts(inputs, problem))
         if np.all(np.isinf(ends.chi_squared)):
             advice = "bounds or starts within which the impact happens; reconstruct.posterior finds rare ones too"
             raise refused_everywhere(inputs.model, _STARTS, inputs.named(inputs.start), advice)
@@ -138,27 +136,17 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
 
 
 class _Inputs(NamedTuple):
-    """The inputs of a fit: what is known before of each unknown, and as ``rows`` the observations, then the priors."""
+    """The inputs of a fit; ``rows`` are the observations, then the priors, and the rest goes by unknown."""
 
     model: Model
     rows: list[Observation]
     units: dict[str, str]
     start: Any
-    scale: Any
-    low: Any
-    high: Any
     has_prior: Any
 
     def named(self, point: Any) -> dict[str, float]:
         """The numbers of a point by unknown."""
         return dict(zip(self.units, point.tolist(), strict=True))
-
-    def starts(self) -> Any:
-        """Where to start: all over the bounds, or around the start as far as its scale, or three deviations of the prior."""
-        span = np.where(self.has_prior, _PRIOR_SPAN, 1.0) * self.scale
-        points = spread(_STARTS, np.maximum(self.low, self.start - span), np.minimum(self.high, self.start + span))
-        points[0] = self.start
-        return points
 
     def computed(self, points: Any) -> Any:
         """The model's value for each row at these points (k, n), in SI; a refused point is NaN in all observations."""
@@ -167,35 +155,35 @@ class _Inputs(NamedTuple):
         found = np.where(np.all(np.isfinite(found), axis=1, keepdims=True), found, np.nan)
         return np.concatenate([found, points[:, self.has_prior]], axis=1)
 
-    def problem(self) -> Problem:
-        """The least-squares problem, in units of standard deviations."""
-        sigma = np.array([row.sigma for row in self.rows])
-        angles = [not row.is_prior and row.is_angle(self.model.units[row.name]) for row in self.rows]
-        return Problem(
-            evaluate=lambda points: self.computed(points) / sigma,
-            target=np.array([row.apart(0.0, False) for row in self.rows]) / sigma,
-            period=np.where(angles, math.tau / sigma, np.nan),
-            low=self.low,
-            high=self.high,
-            scale=self.scale,
-        )
 
-
-def _read_inputs(model: Any, unknowns: Any, observed: Any) -> _Inputs:
-    reader = ArgumentReader()
-    known = dict(read_each(reader, unknowns, "unknowns", "20.0", _unknown))
-    measured = read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_value)
-    reader.close()
+def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, Problem]:
+    """The inputs, and the least-squares problem that they pose, in units of standard deviations."""
+    model, known, rows = read_evidence(function, unknowns, observed, "20.0", _unknown, read_value)
     units, priors, *numbers = zip(*known.values(), strict=True)
     start, scale, low, high = map(np.array, numbers)
-    rows = [Observation(name, value) for name, value in measured]
     rows += [Observation(name, prior, is_prior=True) for name, prior in zip(known, priors, strict=True) if prior]
     has_prior = np.array([prior is not None for prior in priors])
-    inputs = _Inputs(Model(model, {}), rows, dict(zip(known, units, strict=True)), start, scale, low, high, has_prior)
-    check_names(model, known, "unknowns", "bad_model")
+    inputs = _Inputs(model, rows, dict(zip(known, units, strict=True)), start, has_prior)
     # Two cases, because a model that takes numbers would answer an array of one.
     inputs.computed(np.tile(start, (2, 1)))
-    return inputs
+    sigma = np.array([row.sigma for row in rows])
+    angles = [not row.is_prior and row.is_angle(model.units[row.name]) for row in rows]
+    return inputs, Problem(
+        evaluate=lambda points: inputs.computed(points) / sigma,
+        target=np.array([row.apart(0.0, False) for row in rows]) / sigma,
+        period=np.where(angles, math.tau / sigma, np.nan),
+        low=low,
+        high=high,
+        scale=scale,
+    )
+
+
+def _starts(inputs: _Inputs, problem: Problem) -> Any:
+    """Where to start: all over the bounds, or around the start as far as its scale, or three deviations of the prior."""
+    span = np.where(inputs.has_prior, _PRIOR_SPAN, 1.0) * problem.scale
+    points = spread(_STARTS, np.maximum(problem.low, inputs.start - span), np.minimum(problem.high, inputs.start + span))
+    points[0] = inputs.start
+    return points
 
 
 def _unknown(label: str, given: Any) -> tuple[str, Normal | None, float, float, float, float]:
@@ -401,7 +389,7 @@ def _answer(found: _Candidate) -> Fit:
         values=Values(inputs.named(np.where(identified, point, math.nan)), inputs.units),
         names=names,
         units=inputs.units,
-        bounds=dict(zip(names, zip(inputs.low.tolist(), inputs.high.tolist(), strict=True), strict=True)),
+        bounds=dict(zip(names, zip(problem.low.tolist(), problem.high.tolist(), strict=True), strict=True)),
         covariance=lock(np.array(determined.covariance)),
         residuals=residuals,
         contributions={name: row if known else {} for name, row, known in zip(names, shares, identified, strict=True)},

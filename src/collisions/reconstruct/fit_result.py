@@ -29,7 +29,7 @@ _LARGE_NONLINEARITY = 0.2  # of the half-width of a 95 percent interval
 _WEAK, CONTRADICTION = 0.05, 0.01
 
 
-def _quantity(value: float, unit: str) -> Any:
+def with_unit(value: Any, unit: str | None) -> Any:
     """The number as a Quantity, or as it is if its unit is unknown."""
     return to_quantity(value, unit) if unit else value
 
@@ -44,7 +44,7 @@ class Values(dict[str, float]):
     @property
     def q(self) -> dict[str, Any]:
         """The same as Quantities; a number of unknown unit stays a number."""
-        return {name: _quantity(value, self.units[name]) for name, value in self.items()}
+        return {name: with_unit(value, self.units[name]) for name, value in self.items()}
 
 
 class WithUnit(Shown):
@@ -57,7 +57,7 @@ class WithUnit(Shown):
     def q(self) -> dict[str, Any]:
         """The same with the unit; numbers if it is unknown."""
         shared = {f.name: getattr(self, f.name) for f in fields(self) if f.metadata.get("unit") == OWN}
-        return {name: _quantity(value, self.unit) for name, value in shared.items() if value is not None}
+        return {name: with_unit(value, self.unit) for name, value in shared.items() if value is not None}
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         for f in fields(self):
@@ -293,8 +293,8 @@ class Fit(Shown):
 
     def _as_normal(self, name: str) -> Normal:
         one = self[name]
-        value, error = (_quantity(number, one.unit) for number in (one.value, one.standard_error))
-        low, high = (_quantity(end, one.unit) if math.isfinite(end) else None for end in (one.low, one.high))
+        value, error = (with_unit(number, one.unit) for number in (one.value, one.standard_error))
+        low, high = (with_unit(end, one.unit) if math.isfinite(end) else None for end in (one.low, one.high))
         return Normal(value, error, truncate=(low, high))
 
     def _check_determined(self, what: str) -> None:

@@ -216,8 +216,7 @@ def determination(slopes: Any, is_prior: Any, scale: Any, outputs: Any, steps: A
     gain = np.where(lost[:, np.newaxis], np.nan, axes.T @ (axes @ scaled.T))
     covariance = np.where(lost[:, np.newaxis] | lost, np.nan, axes.T @ axes) * np.outer(scale, scale)
     covariance[lost, lost] = np.inf
-    with np.errstate(invalid="ignore", divide="ignore"):
-        shares = gain**2 / np.sum(gain**2, axis=1, keepdims=True)
+    shares = gain**2 / np.sum(gain**2, axis=1, keepdims=True)
     return Determination(covariance, _reduced(unidentified) * scale, _reduced(prior_only) * scale, shares, len(axes))
 
 

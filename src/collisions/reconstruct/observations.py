@@ -14,7 +14,7 @@ from ..uncertainty.angles import folded
 from ..uncertainty.censored import Censored
 from ..uncertainty.distribution import from_numbers, read_alike, show
 from ..uncertainty.distributions import Interval, Normal
-from ..uncertainty.model import Model
+from ..uncertainty.model import Model, check_names
 from ..uncertainty.normal import log_survival
 
 T = TypeVar("T")
@@ -105,9 +105,25 @@ def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[
     return [answered[name] for name in names]
 
 
-def read_each(
-    reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]
-) -> list[tuple[str, T]]:
+def read_evidence(
+    model: Any,
+    unknowns: Any,
+    observed: Any,
+    example: str,
+    read_unknown: Callable[[str, Any], T],
+    read_observed: Callable[[str, Any], Normal | Censored],
+) -> tuple[Model, dict[str, T], list[Observation]]:
+    """The model, what is known before of each unknown, and the observations; one error names all that cannot be used."""
+    reader = ArgumentReader()
+    known = _read_each(reader, unknowns, "unknowns", example, read_unknown)
+    readings = _read_each(reader, observed, "observed", "Normal('30 km/h', '2 km/h')", read_observed)
+    reader.close()
+    called = Model(model, {})
+    check_names(model, known, "unknowns", "bad_model")
+    return called, known, [Observation(name, value) for name, value in readings.items()]
+
+
+def _read_each(reader: ArgumentReader, given: Any, argument: str, example: str, read: Callable[[str, Any], T]) -> dict[str, T]:
     """Read each entry of a dict, by name; an error names its entry."""
     if not isinstance(given, Mapping) or not given or not all(isinstance(key, str) for key in given):
         got = "an empty one" if isinstance(given, Mapping) and not given else type(given).__name__
@@ -116,11 +132,11 @@ def read_each(
             code="bad_type",
             argument=argument,
         )
-    found = []
+    found: dict[str, T] = {}
     for name, value in given.items():
         label = f"{argument}[{name!r}]"
         try:
-            found.append((name, read(label, value)))
+            found[name] = read(label, value)
         except InputError as problem:
             text = str(problem) if str(problem).startswith(label) else f"{label}: {problem}"
             reader.refuse(type(problem)(text, code=problem.code, **{**problem.fields, "argument": label}))

@@ -202,7 +202,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
     parts: Any = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
     if end.incomplete:
-        approaches = np.less(end.known, 0.0) & (end.separation < -end.rounding)
+        approaches = end.separation < -end.rounding
         parts = np.where(np.less(end.known, 0.0), approaches, parts) if end.kind == "restitution" else True
     status = cases.first_status(
         (

@@ -17,8 +17,8 @@ from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
 from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
-from ..units import shown, to_quantity
-from .fit_result import CONTRADICTION, Note, Residual, agreement
+from ..units import shown
+from .fit_result import CONTRADICTION, Note, Residual, agreement, with_unit
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
@@ -170,10 +170,7 @@ class Posterior(Summarized):
 
     def inputs(self) -> dict[str, Samples]:
         """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or ``posterior`` as new priors."""
-        units = {name: one.unit for name, one in self.unknowns.items()}
-        return Samples.joint(
-            **{name: to_quantity(self.draws[name], unit) if unit else self.draws[name] for name, unit in units.items()}
-        )
+        return Samples.joint(**{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()})
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
