@@ -12,7 +12,7 @@ import numpy as np
 from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
-from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, read_inputs
+from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, body_numbers, read_inputs
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
 from .kernels.status import Passed, Status
 from .quantities import lock
@@ -203,11 +203,8 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         stiffness = (cut(inputs.duration if kind == "duration" else inputs.stiffness),)
     bodies = []
     for body in (inputs.a, inputs.b):
-        place = contact if body.x is None or body.y is None else (body.x, body.y)
-        inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-        heading = (None, None) if body.heading is None else from_radians(cut(body.heading))
-        numbers = (body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place)
-        bodies.append((*map(cut, numbers), *heading))
+        heading = None if body.heading is None else from_radians(cut(body.heading))
+        bodies.append((*map(cut, body_numbers(body, inputs.point)[:7]), heading))
     wheels = (kernel.wheels_of(body.heading, inputs.drag) for body in (inputs.a, inputs.b))
     return {
         "restitution": cut(inputs.restitution),

@@ -150,6 +150,14 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
     return found
 
 
+def body_numbers(body: Vehicle, contact: tuple[Value, Value] | None) -> tuple[Any, ...]:
+    """The numbers of one body; what is not known of its inertia and position is filled in so that it makes no torque."""
+    placed = contact is not None and body.x is not None and body.y is not None
+    place = (body.x, body.y) if placed else contact or (0.0, 0.0)
+    inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+    return body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, *(body.pivot or (0.0, 0.0))
+
+
 def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
     """The inputs of some cases: ``take`` is applied to every array."""
 

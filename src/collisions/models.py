@@ -12,14 +12,13 @@ import numpy as np
 
 from .contact_time import DOMAINS, read_contact_time, read_least_time, solve_case_in_time
 from .errors import InputError
-from .inputs import OUTSIDE, Inputs, read_inputs
+from .inputs import OUTSIDE, Inputs, body_numbers, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
 from .kernels.status import Answer
 from .reading import ArgumentReader, amount
 from .settings import in_si
-from .vehicle import Vehicle
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -52,13 +51,9 @@ class Model:
 
     def numbers(self, inputs: Inputs) -> tuple[Any, ...]:
         """The kernel's arguments; an unknown position or inertia is filled in so that it makes no torque."""
-        contact = inputs.point or (0.0, 0.0)
-        found = [inputs.restitution, *inputs.normal, inputs.rule_value, *contact]
+        found = [inputs.restitution, *inputs.normal, inputs.rule_value, *(inputs.point or (0.0, 0.0))]
         for body in (inputs.a, inputs.b):
-            placed = inputs.point is not None and body.x is not None and body.y is not None
-            inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
-            place = (body.x, body.y) if placed else contact
-            found += [body.mass, inertia, body.vx, body.vy, body.yaw_rate, *place, *(body.pivot or (0.0, 0.0))]
+            found += body_numbers(body, inputs.point)
         if inputs.outside_a is not None and inputs.outside_b is not None:
             found += (math.nan, math.nan, *inputs.outside_a, *inputs.outside_b)
         elif inputs.contact_velocity is not None:
@@ -222,11 +217,3 @@ def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
         text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
         reader.refuse(InputError(text, code=code, argument="tolerance"))
     return limit
-
-
-def body_numbers(vehicle: Vehicle, contact: Any) -> tuple[Any, ...]:
-    """The numbers of one body; one without a position has no lever that matters."""
-    x, y = vehicle.x, vehicle.y
-    if x is None or y is None:
-        x, y = contact
-    return vehicle.mass, vehicle.yaw_inertia, vehicle.vx, vehicle.vy, vehicle.yaw_rate, x, y, *(vehicle.pivot or (0.0, 0.0))

@@ -71,21 +71,17 @@ def linear_central(
         most = 8.0 * eps * (abs(nx * vx_a + ny * vy_a) + abs(nx * vx_b + ny * vy_b))
         across = sideways & (larger(abs(nx * vy_a - ny * vx_a), abs(nx * vy_b - ny * vx_b)) > most)
     fine = (closing > 0.0) & (total - total == 0.0) & ((spins | across) ^ True)
-    status = (
-        Status.OK
-        if fine is True
-        else select(
-            fine,
-            Status.OK,
-            first_status(
-                (spins, Status.SPINNING),
-                (across, Status.TRANSVERSE),
-                (immovable, Status.IMMOVABLE),
-                (closing < 0.0, Status.SEPARATING),
-                (closing == 0.0, Status.GRAZING),
-                (total - total != 0.0, Status.OUT_OF_RANGE),
-            ),
-        )
+    status = select(
+        fine,
+        Status.OK,
+        first_status(
+            (spins, Status.SPINNING),
+            (across, Status.TRANSVERSE),
+            (immovable, Status.IMMOVABLE),
+            (closing < 0.0, Status.SEPARATING),
+            (closing == 0.0, Status.GRAZING),
+            (total - total != 0.0, Status.OUT_OF_RANGE),
+        ),
     )
     return Answer(
         status=status,
@@ -166,15 +162,9 @@ def oblique_central(
     else:
         beyond_sticking = change_t - no_slip_t
         slip_after = sticking_slip * slip + beyond_sticking
-        # At rest after sticking, so that the sum is the slip before, to the bit.
-        slip_sum = (
-            select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after)
-            if LAWS[law].compression_limit
-            else slip + slip_after
-        )
         impulse_work = normal * change_n + impulse_t * change_t if dissipates(rule, law) else None
         loss_n, loss_t, loss, gains = energy_losses(
-            restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, eps
+            law, restitution, closing, slip, slip_after, sticks, beyond_sticking, normal, impulse_t, impulse_work, eps
         )
 
     change_x = nx * change_n - ny * change_t
@@ -189,22 +179,18 @@ def oblique_central(
         total = total + separation
     spins: Any = False if carrying else (spin_a != 0.0) | (spin_b != 0.0)
     fine = (closing > 0.0) & (total - total == 0.0) & ((gains | pulls | spins) ^ True)
-    status = (
-        Status.OK
-        if fine is True
-        else select(
-            fine,
-            Status.OK,
-            first_status(
-                (spins, Status.SPINNING),
-                (immovable, Status.IMMOVABLE),
-                (closing < 0.0, Status.SEPARATING),
-                (closing == 0.0, Status.GRAZING),
-                (pulls, Status.NO_SLIP_PULLS),
-                (total - total != 0.0, Status.OUT_OF_RANGE),
-                (gains, Status.ENERGY_GAIN),
-            ),
-        )
+    status = select(
+        fine,
+        Status.OK,
+        first_status(
+            (spins, Status.SPINNING),
+            (immovable, Status.IMMOVABLE),
+            (closing < 0.0, Status.SEPARATING),
+            (closing == 0.0, Status.GRAZING),
+            (pulls, Status.NO_SLIP_PULLS),
+            (total - total != 0.0, Status.OUT_OF_RANGE),
+            (gains, Status.ENERGY_GAIN),
+        ),
     )
     return Answer(
         status=status,

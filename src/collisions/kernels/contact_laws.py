@@ -229,11 +229,12 @@ def energetic_contact(
 
 
 def energy_losses(
+    law: str,
     restitution: Any,
     closing: Any,
     slip_before: Any,
     slip_after: Any,
-    slip_sum: Any,
+    sticks: Any,
     slip_change: Any,
     normal: Any,
     tangential: Any,
@@ -247,6 +248,10 @@ def energy_losses(
     barriers and pivots and do not depend on the frame. ``impulse_work`` is P.K P, twice an energy, where the law ``dissipates``
     and nothing else acts, else None; ``slip_change`` the difference of the slip after from that of a sticking contact.
     """
+    slip_sum = slip_before + slip_after
+    if LAWS[law].compression_limit:
+        # After sticking a share of the slip is left, so that nothing cancels in the sum.
+        slip_sum = select(sticks, (1.0 + LAWS[law].sticking_slip(restitution)) * slip_before, slip_sum)
     loss_n = 0.5 * (1.0 - restitution) * (closing * normal)
     loss_t = 0.0 - 0.5 * tangential * slip_sum
     if impulse_work is not None:

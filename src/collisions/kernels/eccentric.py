@@ -189,24 +189,18 @@ def eccentric(
         if outside is not None:
             # What the contact took, at the mean of the velocities before and after; the passage began with those shifted.
             mean = separation / safe_divisor(closing != 0.0, closing)
-            of_mean = mean, closing, slip, slip_after, slip + slip_after, 0.0, normal, impulse_t, None
-            _, _, loss, gains = energy_losses(*of_mean, eps)
+            of_mean = mean, closing, slip, slip_after, sticks, 0.0, normal, impulse_t, None
+            _, _, loss, gains = energy_losses(law, *of_mean, eps)
             loss_n = loss - loss_t
     else:
         beyond_sticking = select(sticks, 0.0, (determinant * impulse_t - no_slip_t_determinant) / (k_nn / trace))
         slip_after = sticking_slip * slip + beyond_sticking
-        # At rest after sticking, so that the sum is the slip before, to the bit.
-        slip_sum = (
-            select(sticks, (1.0 + sticking_slip) * slip, slip + slip_after)
-            if LAWS[law].compression_limit
-            else slip + slip_after
-        )
         impulse_work: Any = None
         if dissipates(rule, law) and outside is None:
             work_a, work_b = b_a * torque_a * torque_a, b_b * torque_b * torque_b
             impulse_work = a * (normal * normal + impulse_t * impulse_t) + work_a + work_b
         loss_n, loss_t, loss, gains = energy_losses(
-            restitution, closing, slip, slip_after, slip_sum, beyond_sticking, normal, impulse_t, impulse_work, eps
+            law, restitution, closing, slip, slip_after, sticks, beyond_sticking, normal, impulse_t, impulse_work, eps
         )
 
     impulse_x = nx * normal - ny * impulse_t
@@ -226,23 +220,19 @@ def eccentric(
         total = total + separation
     finite = bounded & (total - total == 0.0)
     fine = closes & finite & (loss >= 0.0) & ((immovable | stuck | pulls | jams) ^ True)
-    status = (
-        Status.OK
-        if fine is True
-        else select(
-            fine,
-            Status.OK,
-            first_status(
-                (immovable, Status.IMMOVABLE),
-                (apart, Status.SEPARATING),
-                (closing == 0.0, Status.GRAZING),
-                (stuck, Status.SINGULAR_CONTACT),
-                (pulls, Status.NO_SLIP_PULLS),
-                (jams, Status.RATIO_JAMS),
-                (finite ^ True, Status.OUT_OF_RANGE),
-                (gains, Status.ENERGY_GAIN),
-            ),
-        )
+    status = select(
+        fine,
+        Status.OK,
+        first_status(
+            (immovable, Status.IMMOVABLE),
+            (apart, Status.SEPARATING),
+            (closing == 0.0, Status.GRAZING),
+            (stuck, Status.SINGULAR_CONTACT),
+            (pulls, Status.NO_SLIP_PULLS),
+            (jams, Status.RATIO_JAMS),
+            (finite ^ True, Status.OUT_OF_RANGE),
+            (gains, Status.ENERGY_GAIN),
+        ),
     )
     # A contact with one degree of freedom has no impulse without slip.
     no_slip_n = select(regular, no_slip_n, nan)

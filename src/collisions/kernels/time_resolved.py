@@ -76,7 +76,8 @@ def time_resolved(
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
     ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force at no crush and stiffness of
-    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, cosine and sine of the heading.
+    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, and cosine and sine of the
+    heading, or None.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -91,7 +92,7 @@ def time_resolved(
     force = deceleration * (duration / closing)
     (a, on_a), (b, on_b) = (
         (
-            _scaled(body, numbers[7:], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
+            _scaled(body, numbers[7], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
         for body, motion, numbers in ((a, on_a, bodies[0]), (b, on_b, bodies[1]))
@@ -114,7 +115,7 @@ def time_resolved(
     zero = 0.0 * (
         closing + contact.step_back + a.per_mass + b.per_mass + contact.friction + on_a.vx + on_b.vx + a.grip + b.grip
     )
-    start = [motion._replace(**{name: value + zero for name, value in motion._asdict().items()}) for motion in (on_a, on_b)]
+    start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
     passing = Passing(*(none if name == "sticks" else none ^ True if name == "active" else zero for name in Passing._fields))
     moving: Moving = start[0], start[1], passing._replace(c=1.0 + zero)
@@ -182,7 +183,7 @@ def time_resolved(
         (yields ^ True, Status.IMMOVABLE),
         (closing_speed < 0.0, Status.SEPARATING),
         (closing_speed == 0.0, Status.GRAZING),
-        (converged ^ True if converged is not True else False, Status.NO_START),
+        (converged ^ True, Status.NO_START),
         (closing_before <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),
         (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
@@ -196,26 +197,25 @@ def time_resolved(
 def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
     closing, duration, length, newton = units
-    before = (*start[0], *start[1], *Passing())
-    count = len(Motion._fields)
-    place = {name: 2 * count + at for at, name in enumerate(Passing._fields)}
-    columns = (0, 1, 2, count, count + 1, count + 2, place["time"], place["crush"], place["deepest"])
-    vx_a, vy_a, spin_a, vx_b, vy_b, spin_b, time, crush, deepest = np.array(
-        [[state[column] for column in columns] for state in (before, *note)]
-    ).T
+    on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note]).T)
+    crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
         force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
     if e == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
-        time * duration,
+        passing.time * duration,
         force * newton,
         crush * length,
-        np.hypot(vx_a - vx_a[0], vy_a - vy_a[0]) * closing,
-        np.hypot(vx_b - vx_b[0], vy_b - vy_b[0]) * closing,
-        spin_a / duration,
-        spin_b / duration,
+        *(np.hypot(body.vx - body.vx[0], body.vy - body.vy[0]) * closing for body in (on_a, on_b)),
+        *(body.spin / duration for body in (on_a, on_b)),
     )
+
+
+def _moving_of(numbers: Any) -> Moving:
+    """What moves, from its numbers in a row."""
+    count = len(Motion._fields)
+    return Motion(*numbers[:count]), Motion(*numbers[count : 2 * count]), Passing(*numbers[2 * count :])
 
 
 def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
@@ -224,13 +224,14 @@ def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
     return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(vx, vy, spin)
 
 
-def _scaled(body: Body, heading: tuple[Any, Any], mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
+def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
     """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its weight, over its mass."""
+    if heading is None:
+        heading, ahead, left = (1.0, 0.0), 0.0, 0.0
     cos, sin = heading
     per_mass, per_inertia = body.per_mass * mass, body.per_inertia * ((mass * length) * length)
     moves = per_mass > 0.0
-    turning = 0.0 if cos is None else (ahead * ahead + left * left) * per_inertia
-    cos, sin = (0.0, 0.0) if cos is None else (cos, sin)
+    turning = (ahead * ahead + left * left) * per_inertia
     return Body(
         per_mass,
         per_inertia,
@@ -370,16 +371,13 @@ def _loop(settings: tuple[Any, ...]) -> Callable[..., tuple[float, ...]]:
 def float_run(settings: Settings) -> Run:
     """Step through one case of floats."""
     moves, wheels = settings.geometry != "fixed", (settings.wheels_a, settings.wheels_b)
-    sizes = [len(kind._fields) for kind in _MOVING]
     most = 40 * settings.steps
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         if not moving[2].active:
             return moving
         step = _loop((engaging, moves, *wheels))
-        end = step([v for part in fixed for v in part], [v for part in moving for v in part], most, note)
-        one, two = sizes[0], sizes[0] + sizes[1]
-        return Motion(*end[:one]), Motion(*end[one:two]), Passing(*end[two:])
+        return _moving_of(step([v for part in fixed for v in part], [v for part in moving for v in part], most, note))
 
     return run
 

@@ -11,12 +11,11 @@ import numpy as np
 
 from ..errors import CollisionsError, InputError, Status
 from ..impact import Impact, answer_of, found_by, solved
-from ..inputs import Inputs
+from ..inputs import Inputs, body_numbers
 from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
-from ..models import body_numbers
 from ..provenance import Reconstruction, origin_where_answered
 from ..quantities import lock
 from ..reading import ArgumentReader, amount, broadcast

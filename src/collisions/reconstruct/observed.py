@@ -15,10 +15,9 @@ from ..errors import (
     Status,
 )
 from ..hints import hinted
-from ..inputs import read_inputs
+from ..inputs import body_numbers, read_inputs
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
-from ..models import body_numbers
 from ..solving import error_of, warn_of_refusals
 from ..units import Input, Pair, Value
 from ..vehicle import Vehicle, needed, not_a_vehicle, numbers_of, without_turning
@@ -261,8 +260,7 @@ def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[s
         )
     for name in ("x", "y"):
         needed(body, name, purpose, label)
-    numbers = dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
-    return numbers | {"yaw_inertia": np.inf if body.yaw_inertia is None else body.yaw_inertia}
+    return dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
 
 
 def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -> _Faults:

@@ -99,8 +99,8 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
     normal, tangential, loss = raw.normal_impulse, raw.tangential_impulse, raw.energy_loss
     if sticks:
         normal, tangential = raw.no_slip_normal, raw.no_slip_tangential
-        left = LAWS[law].sticking_slip(e)
-        loss = energy_losses(e, closing, slip, left * slip, (1.0 + left) * slip, 0.0, normal, tangential, None, EPS)[2]
+        slip_after = LAWS[law].sticking_slip(e) * slip
+        loss = energy_losses(law, e, closing, slip, slip_after, True, 0.0, normal, tangential, None, EPS)[2]
     whole = abs(speed_a) + abs(speed_b) + spinning
     return Seen(
         status=raw.status,
