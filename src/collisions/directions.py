@@ -130,10 +130,7 @@ def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple
 
 def angle_of(x: Any, y: Any) -> Value:
     """Direction of a vector [rad] in (-pi, pi]; NaN without a length."""
-    if isinstance(x, float) and isinstance(y, float):
-        atan2: Any = math.atan2
-    else:
-        atan2 = np.arctan2
+    atan2: Any = math.atan2 if isinstance(x, float) and isinstance(y, float) else np.arctan2
     angle = atan2(y, x)
     # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi.
     angle = select(angle <= -math.pi, -angle, angle)

@@ -130,15 +130,10 @@ def kind_of(inputs: Inputs, carrying: bool) -> tuple[str, str | None, bool, bool
 @cache
 def float_function(model: Model, *kind: Any) -> Callable[[Mapping[str, Any]], Answer | None]:
     """The kernel of a model compiled for plain floats, of ``vars(inputs)``; None where the kernel itself has to decide."""
-    return _compiled(model, model.options(*kind))
-
-
-@cache
-def _compiled(model: Model, settings: tuple[Any, ...]) -> Callable[[Mapping[str, Any]], Answer | None]:
     # Like all that not every caller needs, loaded at its first use.
     from .kernels.floats import compile_for_floats
 
-    return compile_for_floats(model.kernel, model.takes, settings)
+    return compile_for_floats(model.kernel, model.takes, model.options(*kind))
 
 
 def model_of(inputs: Inputs) -> Model:

@@ -287,14 +287,13 @@ class Side(Frozen, Summarized):
 
     def _work(self) -> Value:
         """Work of a contact that took time; of a body without a finite energy what the other one and the losses leave."""
-        own, other = (self._gain(index) for index in (self._index, 1 - self._index))
+        own, other = self._gain(), Side(self._inputs, self._answer, 1 - self._index, self._choice)._gain()
         work: Value = select(own == own, own, -self._answer.energy_loss - other)
         return work
 
-    def _gain(self, index: int) -> Any:
+    def _gain(self) -> Any:
         """Change of kinetic energy by the contact, without what the tyres took; NaN where it is not finite."""
-        label, before, answer = "ab"[index], self._inputs.b if index else self._inputs.a, self._answer
-        dvx, dvy, dw = (getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate"))
+        before, (dvx, dvy, dw) = self.before, self._change()
         vx, vy, spin = widened((before.vx, before.vy, before.yaw_rate), (dvx,))
         inertia = math.inf if before.yaw_inertia is None else before.yaw_inertia
         moving = before.mass * (dvx * (vx + 0.5 * dvx) + dvy * (vy + 0.5 * dvy))
@@ -302,7 +301,7 @@ class Side(Frozen, Summarized):
         # An infinite mass at rest, and an infinite inertia that does not turn, gain nothing.
         stands = numeric(before.mass).isinf(before.mass) & (vx == 0.0) & (vy == 0.0)
         rests = numeric(inertia).isinf(inertia) & (spin == 0.0)
-        return select(stands, 0.0, moving) + select(rests, 0.0, turning) + getattr(answer, f"tyre_loss_{label}")
+        return select(stands, 0.0, moving) + select(rests, 0.0, turning) + self.tyre_loss
 
     def _impulse(self) -> tuple[Value, Value]:
         x, y = self._answer.impulse_x, self._answer.impulse_y

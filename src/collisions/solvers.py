@@ -392,18 +392,9 @@ def time_resolved(
     """
     if unknown:
         raise no_argument("time_resolved()", signature(time_resolved).parameters, unknown, _ELSEWHERE)
-    extra = {
-        "duration": duration,
-        "stiffness": stiffness,
-        "crush_a": crush_a,
-        "crush_b": crush_b,
-        "drag": drag,
-        "wheelbase": wheelbase,
-        "track": track,
-        "geometry": geometry,
-        "steps": steps,
-    }
-    inputs = read_contact_time(a, b, restitution, normal, point, friction, extra)
+    spring = {"duration": duration, "stiffness": stiffness, "crush_a": crush_a, "crush_b": crush_b}
+    others = {"drag": drag, "wheelbase": wheelbase, "track": track, "geometry": geometry, "steps": steps}
+    inputs = read_contact_time(a, b, restitution, normal, point, friction, spring | others)
     return build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
 
 

@@ -48,40 +48,27 @@ def solve_inputs(
     """
     if on_failure is not None or progress is not None or type(threads) is not int or threads != 1:
         check_options(on_failure, threads, progress)
-    if model is TIME_RESOLVED:
-        return _solve_in_time(inputs, on_failure, threads, progress)
-    if inputs.shape is None:
-        raw = float_function(model, *kind_of(inputs, carrying))(vars(inputs))
-        return _solve_case(inputs, model, carrying, on_failure) if raw is None else raw
-    raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
-    say_of_cases(inputs, raw, on_failure)
-    return raw
-
-
-def _solve_in_time(inputs: Inputs, on_failure: Any, threads: Any, progress: Any) -> Any:
-    """Step through one case or a batch."""
     if inputs.shape is not None:
-        found = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
-        say_of_cases(inputs, found, on_failure)
-        return found
-    found = solve_case_in_time(inputs)
-    if found.status == Status.OK:
-        return found
-    if on_failure == "nan":
-        return Passed(found.status)
-    raise refusal(inputs, found)
-
-
-def _solve_case(inputs: Inputs, model: Model, carrying: bool, on_failure: Any) -> Answer:
-    raw: Answer = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
-    if raw.status == Status.OK:
+        if model is TIME_RESOLVED:
+            raw: Any = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
+        else:
+            raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
+        say_of_cases(inputs, raw, on_failure)
         return raw
+    if model is TIME_RESOLVED:
+        raw = solve_case_in_time(inputs)
+    else:
+        raw = float_function(model, *kind_of(inputs, carrying))(vars(inputs))
+        if raw is not None:
+            return raw
+        raw = model.kernel(*model.numbers(inputs), *model.settings(inputs, carrying))
+    if raw.status > Status.ENERGY_GAIN:
+        if on_failure != "nan":
+            raise refusal(inputs, raw)
+        return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
     if raw.status == Status.ENERGY_GAIN:
         _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss)
-        return raw
-    if on_failure == "nan":
-        return _REFUSED._replace(status=raw.status)
-    raise refusal(inputs, raw)
+    return raw
 
 
 def solve_cases(
@@ -214,16 +201,15 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
 
     found: list[Check] = []
 
-    def add_array(value: Any, domain: Domain) -> None:
-        if isinstance(value, np.ndarray):
-            found.append(Check(domain.faults, (value,), domain.holds, domain is FINITE))
+    def add_arrays(domain: Domain, *values: Any) -> None:
+        arrays = (value for value in values if isinstance(value, np.ndarray))
+        found.extend(Check(domain.faults, (array,), domain.holds, domain is FINITE) for array in arrays)
 
     for vehicle in (inputs.a, inputs.b):
         for name, domain in DOMAINS.items():
-            add_array(getattr(vehicle, name), domain)
+            add_arrays(domain, getattr(vehicle, name))
         if vehicle.pivot is not None:
-            for part in vehicle.pivot:
-                add_array(part, FINITE)
+            add_arrays(FINITE, *vehicle.pivot)
             inertia = () if vehicle.yaw_inertia is None else (vehicle.yaw_inertia,)
             found.append(Check(((either_infinite, Status.PINNED_INFINITE),), (vehicle.mass, *inertia)))
             motion = (vehicle.vx, vehicle.vy, vehicle.yaw_rate, vehicle.x, vehicle.y, *vehicle.pivot)
@@ -231,18 +217,16 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
                 # A float32 velocity is no more accurate in float64.
                 own = rounding(eps, vehicle.vx, vehicle.vy)
                 found.append(Check(((partial(not_about_pivot, eps=own), Status.PINNED_VELOCITY),), motion))
-    add_array(inputs.restitution, restitution_domain(inputs.incomplete))
+    add_arrays(restitution_domain(inputs.incomplete), inputs.restitution)
     if any(isinstance(part, np.ndarray) for part in inputs.normal):
-        for part in inputs.normal:
-            add_array(part, FINITE)
+        add_arrays(FINITE, *inputs.normal)
         found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
-    for part in (*(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ())):
-        add_array(part, FINITE)
-    add_array(inputs.rule_value, RULES[inputs.rule].domain)
+    add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
+    add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
-            add_array(part, domain)
+            add_arrays(domain, part)
     return found
 
 

@@ -44,32 +44,35 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
     the tolerance, rule, law, ``Known``, and eps. LACKING is the eccentric model where it lacks something, unless it is
     known that the bodies do not approach; with a pivot or an impulse from outside every input is needed.
     """
-    contact, bodies, outside, (tolerance, rule, law, known, eps) = (
-        given[:6],
-        (given[6:15], given[15:24]),
-        given[24:-5],
-        given[-5:],
+    contact, bodies, outside = given[:6], (given[6:15], given[15:24]), given[24:-5]
+    tolerance, rule, law, known, eps = given[-5:]
+    answered, closing, impulse, no_slip, *of_bodies = _eccentric(
+        *contact, *bodies[0], *bodies[1], rule, law, *known.pinned, eps, impulse_only=True, outside=outside or None
     )
-    linear, oblique, closing, torques, impulse = _errors(contact, bodies, outside, rule, law, known.pinned, eps)
+    beyond_central = any(known.pinned) or known.outside
+    linear = oblique = select(answered, inf, nan)
+    if not beyond_central:
+        linear, oblique = _errors(contact, bodies, rule, law, eps, answered, impulse, of_bodies)
     lacking: Any = False
-    approach: Any = True
     if not known.all:
-        # Without a position the lever arm is unknown, which matters for a body that can turn or is turning.
-        beyond_central = any(known.pinned) or known.outside
-        for body, torque, placed, weighed in zip(bodies, torques, known.places, known.inertias, strict=True):
-            _, inertia, _, _, spin, x, y, *_ = body
+        approach: Any = True
+        # Where the impulse without slip decides the ratio, it counts too.
+        counts = contact[3] > 0.0 if rule == CRITICAL_FRACTION else False
+        size = abs(impulse[0]) + abs(impulse[1]) + select(counts, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
+        bodies_known = zip(bodies, of_bodies, known.places, known.inertias, strict=True)
+        for (_, inertia, _, _, spin, x, y, *_), (_, _, torque, no_slip_torque), placed, weighed in bodies_known:
             if not placed:
+                # Without a position the lever arm is unknown, which matters for a body that can turn or is turning.
                 approach = approach & (spin == 0.0)
                 lacking = lacking | ((inertia < inf) | (spin != 0.0) if weighed else True)
             elif not weighed:
                 # Solved with infinite inertia: if there is no torque then, the true inertia does not matter.
                 lever = _LEVER * eps * (abs(x) + abs(y) + abs(contact[4]) + abs(contact[5]))
                 lever = select(lever < _LONGEST, lever, _LONGEST)
-                lacking = lacking | ((torque <= lever * impulse) ^ True)
-        if beyond_central:
-            lacking = True
+                turning = abs(torque) + select(counts, abs(no_slip_torque), 0.0)
+                lacking = lacking | ((turning <= lever * size) ^ True)
         apart = approach & ((closing > 0.0) ^ True)
-        lacking = lacking & (apart ^ True)
+        lacking = (True if beyond_central else lacking) & (apart ^ True)
         unknown = inf if beyond_central else nan
         linear, oblique = select(lacking, unknown, linear), select(lacking, unknown, oblique)
         lacking = apart ^ True
@@ -80,52 +83,27 @@ def least_model(*given: Any) -> tuple[Any, Any, Any]:
 
 
 def _errors(
-    contact: tuple[Any, ...],
-    bodies: tuple[Any, Any],
-    outside: tuple[Any, ...],
-    rule: str,
-    law: str,
-    pinned: tuple[bool, bool],
-    eps: float,
-) -> tuple[Any, Any, Any, tuple[Any, ...], Any]:
-    """Errors of the linear and the oblique model for the worse of both bodies; closing speed; torques on A and B; impulse.
+    contact: Any, bodies: tuple[Any, Any], rule: str, law: str, eps: float, answered: Any, impulse: Any, of_bodies: Any
+) -> tuple[Any, Any]:
+    """Errors of the linear and the oblique model for the worse of both bodies, from what the eccentric model answered.
 
-    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none, as with a pivot or an
-    impulse from outside. The
-    torques are sizes, and so is the impulse: together with those of the impulse without slip where that decides the ratio.
+    The errors are NaN where the eccentric model has no answer, infinite where the cheaper one has none.
     """
-    answered, closing, (normal, tangential_impulse), no_slip, for_a, for_b = _eccentric(
-        *contact, *bodies[0], *bodies[1], rule, law, *pinned, eps, impulse_only=True, outside=outside or None
-    )
-    torques: tuple[Any, ...] = (abs(for_a[2]), abs(for_b[2]))
-    impulse = abs(normal) + abs(tangential_impulse)
-    if rule == CRITICAL_FRACTION:
-        matters = contact[3] > 0.0
-        torques = tuple(
-            torque + select(matters, abs(body[3]), 0.0) for torque, body in zip(torques, (for_a, for_b), strict=True)
-        )
-        impulse = impulse + select(matters, abs(no_slip[0]) + abs(no_slip[1]), 0.0)
-    beyond: Any = select(answered, inf, nan)
-    if any(pinned) or outside:
-        return beyond, beyond, closing, torques, impulse
     # Mass, velocity and yaw rate of each body.
     point_masses = *bodies[0][:1], *bodies[0][2:5], *bodies[1][:1], *bodies[1][2:5]
-    central, pulls, central_normal, central_tangential = _oblique(
-        *contact[:4], *point_masses, rule, law, True, eps, impulse_only=True
-    )
-    off_normal = normal - central_normal
+    central, pulls, normal, tangential = _oblique(*contact[:4], *point_masses, rule, law, True, eps, impulse_only=True)
+    off_normal = impulse[0] - normal
     worst = []
     # Both central models have the same normal impulse, and the linear one no other.
-    for off_tangential in (tangential_impulse, tangential_impulse - central_tangential):
+    for off_tangential in (impulse[1], impulse[1] - tangential):
         squared = [
             # The last term is (radius of gyration times change of yaw rate) squared.
             _square(a * off_normal) + _square(a * off_tangential) + (a * torque) * (b * torque)
-            for a, b, torque, _ in (for_a, for_b)
+            for a, b, torque, _ in of_bodies
         ]
         worst.append(larger(*squared) ** 0.5)
-    linear = select(answered & central, worst[0], beyond)
-    oblique = select(answered & central & (pulls ^ True), worst[1], beyond)
-    return linear, oblique, closing, torques, impulse
+    beyond = select(answered, inf, nan)
+    return select(answered & central, worst[0], beyond), select(answered & central & (pulls ^ True), worst[1], beyond)
 
 
 def _square(value: Any) -> Any:
