@@ -202,8 +202,9 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
     found: list[Check] = []
 
     def add_arrays(domain: Domain, *values: Any) -> None:
-        arrays = (value for value in values if isinstance(value, np.ndarray))
-        found.extend(Check(domain.faults, (array,), domain.holds, domain is FINITE) for array in arrays)
+        for value in values:
+            if isinstance(value, np.ndarray):
+                found.append(Check(domain.faults, (value,), domain.holds, domain is FINITE))
 
     for vehicle in (inputs.a, inputs.b):
         for name, domain in DOMAINS.items():
