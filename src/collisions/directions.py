@@ -34,6 +34,13 @@ class Angle(NamedTuple):
         """Unit vector in the direction of the angle."""
         return from_degrees(self.value) if self.in_degrees else from_radians(self.value)
 
+    def to(self, other: Angle) -> tuple[Any, Any]:
+        """Cosine and sine of the angle from here to the other, from their difference: exact for nearly equal courses."""
+        if self.in_degrees and other.in_degrees:
+            return from_degrees(np.fmod(other.value, 360.0) - np.fmod(self.value, 360.0))
+        with np.errstate(over="ignore"):
+            return from_radians(np.asarray(other.radians - self.radians))
+
 
 # A vector whose length is this close to 1 is taken as it is, so that a unit vector read from a result stays the same bits.
 _UNIT_LENGTH = 2.0**-52
@@ -86,14 +93,6 @@ def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
         )
         return Angle(math.nan, False)
     return Angle(*reader.angle(value, argument))
-
-
-def between(one: Angle, other: Angle) -> tuple[Any, Any]:
-    """Cosine and sine of the angle from one direction to the other, from their difference: exact for nearly equal courses."""
-    if one.in_degrees and other.in_degrees:
-        return from_degrees(np.fmod(other.value, 360.0) - np.fmod(one.value, 360.0))
-    with np.errstate(over="ignore"):
-        return from_radians(np.asarray(other.radians - one.radians))
 
 
 def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple[Any, Any]:

@@ -10,7 +10,7 @@ sum(sign m s h) + J = 0 crossed with one unknown's course leaves the other unkno
 differences of courses.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -20,8 +20,6 @@ from .status import EPS
 VELOCITIES = ("va", "vb", "va_after", "vb_after")
 # Closing and separation speed.
 Pair: TypeAlias = tuple[Any, Any]
-# Cosine and sine of the angle from one course to another.
-Between: TypeAlias = Callable[[Any, Any], tuple[Any, Any]]
 # Sample points of a quartic: no point is 0 or a multiple of another, where a body at rest would carry no information.
 PLACES = np.array([-1.06, -0.47, 0.13, 0.61, 1.27])
 _FROM_PLACES = np.linalg.inv(np.vander(PLACES, increasing=True)).T
@@ -163,32 +161,26 @@ class Term(NamedTuple):
     course: Any
 
 
-def crossed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, course: Any, per_mass: Any, between: Between) -> Any:
-    """The known momentum of the balance crossed with a course, over a mass."""
+def unknown_speed(terms: Iterable[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term) -> Any:
+    """The speed of one unknown term, the other being eliminated; not finite where their courses are parallel."""
     total: Any = 0.0
     for term in terms:
         if term.speed is not None and term.course is not None:
-            total = total + term.sign * (term.mass / per_mass) * (term.speed * between(term.course, course)[1])
+            total = total + term.sign * (term.mass / wanted.mass) * (term.speed * term.course.to(other.course)[1])
     if impulse is not None:
-        c, s = course.direction
-        total = total + (impulse[0] * s - impulse[1] * c) / per_mass
-    return total
+        c, s = other.course.direction
+        total = total + (impulse[0] * s - impulse[1] * c) / wanted.mass
+    return np.divide(-wanted.sign * total, wanted.course.to(other.course)[1])
 
 
-def unknown_speed(terms: Sequence[Term], impulse: tuple[Any, Any] | None, wanted: Term, other: Term, between: Between) -> Any:
-    """The speed of one unknown term, the other being eliminated; not finite where their courses are parallel."""
-    sine = between(wanted.course, other.course)[1]
-    return np.divide(-wanted.sign * crossed(terms, impulse, other.course, wanted.mass, between), sine)
-
-
-def change_of_speed(cross: Any, wanted: Term, other: Term, between: Between) -> Any:
+def change_of_speed(cross: Any, wanted: Term, other: Term) -> Any:
     """Change of the wanted speed for a change ``cross`` of the balance crossed with the other unknown's course."""
-    return np.divide(-wanted.sign * cross, wanted.mass * between(wanted.course, other.course)[1])
+    return np.divide(-wanted.sign * cross, wanted.mass * wanted.course.to(other.course)[1])
 
 
-def course_change(term: Term, speed: Any, other: Term, between: Between) -> Any:
+def course_change(term: Term, speed: Any, other: Term) -> Any:
     """Change of the balance by radian of a term's course, crossed with the other unknown's course."""
-    return -term.sign * term.mass * (speed * between(term.course, other.course)[0])
+    return -term.sign * term.mass * (speed * term.course.to(other.course)[0])
 
 
 def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:

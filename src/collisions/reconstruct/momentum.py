@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..directions import Angle, angle_of, between, course, direction
+from ..directions import Angle, angle_of, course, direction
 from ..errors import (
     CollisionsError,
     CollisionsWarning,
@@ -190,7 +190,7 @@ def _share(given: dict[str, Any], kind: str) -> Any:
 
 
 def _same_course(one: Angle, other: Angle) -> Any:
-    cosine, sine = between(one, other)
+    cosine, sine = one.to(other)
     return (abs(sine) <= _angle_rounding(one, other, EPS)) & (cosine > 0.0)
 
 
@@ -238,12 +238,11 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     """Solve one case or many; raises for a refused single case."""
     cases, impulse, normal = known.cases, known.impulse, known.normal
     masses = known.numbers["mass_a"], known.numbers["mass_b"]
-    terms = [term for term in known.terms.values() if term.speed is not None]
     (first, one), (second, other) = unknown = [(name, term) for name, term in known.terms.items() if term.speed is None]
-    cosine, sine = between(one.course, other.course)
+    cosine, sine = one.course.to(other.course)
     speeds = {name: term.speed for name, term in known.terms.items()}
-    speeds[first] = unknown_speed(terms, impulse, one, other, between)
-    speeds[second] = unknown_speed(terms, impulse, other, one, between)
+    speeds[first] = unknown_speed(known.terms.values(), impulse, one, other)
+    speeds[second] = unknown_speed(known.terms.values(), impulse, other, one)
     speeds.setdefault("speed_b_after", speeds["speed_a_after"])
     outcome = _outcome(known, speeds)
     condition = np.divide(1.0 + abs(cosine), abs(sine))
@@ -266,17 +265,15 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
     )
     raise_or_warn(status, on_failure, lambda index: _refusal(Status(int(np.asarray(status)[index])), first, second))
     sure = np.less_equal(status, Status.ENERGY_GAIN)
-    found: dict[str, Any] = {**dict.fromkeys(_COURSES), "mass_a": masses[0], "mass_b": masses[1]}
-    found |= {name: angle.radians for name, angle in known.angles.items()}
+    found = {"mass_a": masses[0], "mass_b": masses[1]} | {name: angle.radians for name, angle in known.angles.items()}
     if normal is not None:
         found["normal_angle"] = angle_of(*normal)
     if impulse is not None:
         found["outside_impulse_x"], found["outside_impulse_y"] = impulse
     answers = {**speeds, **outcome, "condition": condition}
-    found |= {name: None if value is None else np.where(sure, value, np.nan) for name, value in answers.items()}
-    values: dict[str, Any] = {name: None if value is None else cases.values(value) for name, value in found.items()}
+    found |= {name: np.where(sure, value, np.nan) for name, value in answers.items()}
     solution = MomentumSolution(
-        **values,
+        **{name: cases.values(value) for name, value in found.items()},
         sensitivity=_sensitivity(known, found, unknown, sure),
         unknowns=(first, second),
         status=Status(status) if isinstance(status, int) else status,
@@ -315,14 +312,13 @@ def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
     for name, course_name in zip(_SPEEDS, _COURSES, strict=True):
         c, s = known.angles[course_name].direction if course_name in known.angles else (0.0, 0.0)
         velocity[name] = speeds[name] * c, speeds[name] * s
-    found: dict[str, Any] = {"closing_speed": None, "restitution": None}
+    found: dict[str, Any] = {}
     loss: Any = 0.0
     for side in "ab":
         (ux, uy), (wx, wy) = velocity[f"speed_{side}"], velocity[f"speed_{side}_after"]
         dx, dy = wx - ux, wy - uy
         found[f"delta_v_{side}"] = hypot(dx, dy)
         loss = loss - 0.5 * known.numbers[f"mass_{side}"] * (dx * (ux + wx) + dy * (uy + wy))
-        found[f"pdof_{side}"] = None
         if f"heading_{side}" in known.angles:
             hx, hy = known.angles[f"heading_{side}"].direction
             found[f"pdof_{side}"] = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
@@ -342,7 +338,7 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
     found = Sensitivity()
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
     for (name, wanted), (_, other) in (unknown, unknown[::-1]):
-        sine = {label: between(term.course, other.course)[1] for label, term in moving.items()}
+        sine = {label: term.course.to(other.course)[1] for label, term in moving.items()}
         row: dict[str, Any] = {}
         for side in "ab":
             # Vehicles that leave together have one term.
@@ -351,13 +347,11 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
         for label, term in moving.items():
             if term.speed is not None:
                 row[label] = term.sign * term.mass * sine[label]
-            row[label.replace("speed", "course")] = course_change(term, speeds[label], other, between)
+            row[label.replace("speed", "course")] = course_change(term, speeds[label], other)
         if known.impulse is not None:
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
-        found[name] = {
-            label: known.cases.where(sure, change_of_speed(cross, wanted, other, between)) for label, cross in row.items()
-        }
+        found[name] = {label: known.cases.where(sure, change_of_speed(cross, wanted, other)) for label, cross in row.items()}
     return found
 
 
@@ -375,7 +369,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
             warn_of_cases(warning, int(np.count_nonzero(where)), sentence)
 
     one, other = (known.terms[name].course for name in solution.unknowns)
-    sine = abs(between(one, other)[1])
+    sine = abs(one.to(other)[1])
     near = sure & (sine < math.sin(NEARLY_COLLINEAR))
     if np.any(near):
         degrees = math.degrees(math.asin(float(np.min(np.where(near, sine, 1.0)))))
@@ -391,9 +385,9 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
         say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", "speed", sentence, value=found[name])
     text = "the vehicles leave with {} more than they came with, which no impact gives; check courses and speeds"
     say(EnergyGainWarning, gains, text, "energy_gain", "energy", "", gain=-found["translational_energy_loss"])
-    closing, e = found["closing_speed"], found["restitution"]
-    if closing is None:
+    if known.normal is None:
         return
+    closing, e = found["closing_speed"], found["restitution"]
     sentence = "the centres do not approach along the normal, which must point from A into B"
     text = f"{sentence}: closing speed {{}}, so there is no restitution"
     say(OutOfRangeWarning, closing <= 0.0, text, "separating", "speed", sentence, closing_speed=closing)
