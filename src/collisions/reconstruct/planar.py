@@ -36,6 +36,7 @@ from ..vehicle import Vehicle, moved
 from ..warning import warn_of_cases
 from .common import Cases, exactly, finish, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .origins import End, Origin
+from .speeds_algebra import shares_critical
 
 Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "given"]
 _REGIMES = get_args(Regime)
@@ -134,14 +135,14 @@ def planar(
     (20.0, 16.0)
     """
     given = exactly({"restitution": restitution, "closing_speed": closing_speed, "energy_loss": energy_loss}, 1, "planar")
-    ((kind, known),) = given.items()
+    (kind,) = given
     reader = ArgumentReader()
-    if kind != "restitution":
-        known = read_amounts(reader, given)[kind]
-        if kind == "closing_speed" and isinstance(known, float) and known == 0.0:
-            reader.refuse(
-                InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
-            )
+    amounts = {} if kind == "restitution" else read_amounts(reader, given)
+    speed = amounts.get("closing_speed")
+    if isinstance(speed, float) and speed == 0.0:
+        reader.refuse(
+            InputError("closing_speed must be > 0, got 0: without closing, no impact", code="not_positive", argument=kind)
+        )
     if regime is not None and (not isinstance(regime, str) or regime not in _REGIMES):
         reader.refuse(
             InputError(
@@ -154,13 +155,13 @@ def planar(
         "eccentric",
         a_after,
         b_after,
-        known if kind == "restitution" else 0.0,
+        given.get("restitution", 0.0),
         normal,
         point,
         (friction, impulse_ratio, critical_fraction),
         law,
         reader.problems,
-        () if kind == "restitution" else (known,),
+        amounts.values(),
         incomplete,
     )
     if inputs.law not in (BRACH, KUDLICH_SLIBAR):
@@ -170,15 +171,14 @@ def planar(
             code="law_not_reversible",
             argument="law",
         )
-    numbers = {kind: inputs.restitution if kind == "restitution" else known} | numbers_by_name(inputs, "_after")
-    shares = (inputs.rule_value > 0.0) & (inputs.rule_value < 1.0)
-    if inputs.rule == CRITICAL_FRACTION and kind == "energy_loss" and np.any(shares):
+    if kind == "energy_loss" and shares_critical(inputs.rule, inputs.rule_value):
         raise InputError(
             "a critical_fraction between 0 and 1 cannot be used with energy_loss; give impulse_ratio=, or the restitution or "
             "closing_speed instead of the energy",
             code="bad_combination",
             argument="critical_fraction",
         )
+    numbers = (amounts or {kind: inputs.restitution}) | numbers_by_name(inputs, "_after")
     cases = Cases.of(numbers)
     arrays = {name: np.asarray(number, dtype=np.float64) for name, number in numbers.items()}
     pinned = a_after.pivot is not None, b_after.pivot is not None
@@ -200,10 +200,10 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
     count = sum((one.fits.astype(int) for one in origins), np.zeros((), dtype=int))
     no_trace = end.forgets_slip() & ((regime != "sliding") | end.always_sticks())
     plastic = np.equal(end.known, 0.0) & (end.kind == "restitution")
-    parts: Any = end.separation > (end.rounding if end.kind == "restitution" else -end.rounding)
-    if end.incomplete:
-        approaches = end.separation < -end.rounding
-        parts = np.where(np.less(end.known, 0.0), approaches, parts) if end.kind == "restitution" else True
+    if end.kind == "restitution":
+        parts = np.where(np.less(end.known, 0.0), end.separation < -end.rounding, end.separation > end.rounding)
+    else:
+        parts = end.incomplete | (end.separation > -end.rounding)
     status = cases.first_status(
         (
             *input_faults(end.numbers, end.incomplete),
@@ -250,9 +250,7 @@ def _answer(cases: Cases, end: End, inputs: Inputs, regime: Regime | None, on_fa
         return _refusal(status, end, regime, [one.regime for one in fitting], solutions)
 
     def solve_case(index: tuple[int, ...]) -> Impact:
-        def take(array: Any) -> float:
-            return cases.one(array, index)
-
+        take = partial(cases.one, index=index)
         contact: dict[str, Any] = {name: take(end.numbers[name]) for name in (end.kind, end.rule)}
         contact |= {"law": end.law, "normal": tuple(map(take, end.n)), "point": tuple(map(take, end.p))}
         contact |= {"regime": regime, "incomplete": end.incomplete}
@@ -303,10 +301,9 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
 
 def _interval(low: float, high: float, unit: str = "") -> str:
     """An interval in words; "" for all numbers."""
-    if math.isinf(low) or math.isinf(high):
-        end = f"above {low:.4g}{unit}" if math.isfinite(low) else f"below {high:.4g}{unit}"
-        return "" if math.isinf(low) and math.isinf(high) else end
-    return f"between {low:.4g} and {high:.4g}{unit}"
+    if math.isinf(low):
+        return "" if math.isinf(high) else f"below {high:.4g}{unit}"
+    return f"above {low:.4g}{unit}" if math.isinf(high) else f"between {low:.4g} and {high:.4g}{unit}"
 
 
 def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solutions: tuple[Impact, ...]) -> CollisionsError:
@@ -340,8 +337,7 @@ def _refusal(status: int, end: End, regime: str | None, regimes: list[str], solu
 
 def _instead(end: End) -> str:
     """The inputs that could replace the restitution."""
-    shares = end.rule == CRITICAL_FRACTION and 0.0 < end.bound < 1.0
-    return "closing_speed=" if shares else "closing_speed= or energy_loss="
+    return "closing_speed=" if shares_critical(end.rule, end.bound) else "closing_speed= or energy_loss="
 
 
 def _jamming_ratio(end: End) -> float:
