@@ -26,7 +26,6 @@ from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 _UNCHANGED = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # by an impulse
-_PINNED = ("vx", "vy", "yaw_rate", "x", "y", "pivot[0]", "pivot[1]")  # the fields that say how a pinned body moves
 _SAME_BODY = 1e-9  # relative
 _ANY = Vehicle(mass=1.0)  # stands in for bodies that were checked before
 _STILL_APPROACH = "the contact points still approach after the impact, which was incomplete (sideswipe) or is not this one"
@@ -229,7 +228,7 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
         )
         faults = [
             *input_faults(numbers),
-            *_pivot_faults(given, bodies, cases),
+            *(fault for body in bodies.values() for fault in _pivot_faults(body, cases.eps)),
             *_changed_bodies(given, contact, cases),
             (before.closing_speed < 0.0, Status.SEPARATING),
             (before.closing_speed == 0.0, Status.NO_CLOSING),
@@ -263,19 +262,15 @@ def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[s
     return dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
 
 
-def _pivot_faults(given: dict[str, Any], bodies: dict[str, Any], cases: Cases) -> _Faults:
+def _pivot_faults(body: Vehicle, eps: float) -> _Faults:
     """For arrays, the checks that ``Vehicle`` makes of single numbers of a pinned body."""
-    faults: _Faults = []
-    for label, body in bodies.items():
-        if body.pivot is None:
-            continue
-        mass, inertia = (given.get(f"{label}.{name}", 0.0) for name in ("mass", "yaw_inertia"))
-        motion = [given[f"{label}.{name}"] for name in _PINNED]
-        about: list[Any] = [np.asarray(value, dtype=np.float64) for value in motion]
-        about.append(rounding(cases.eps, *motion[:2]))
-        faults.append((either_infinite(mass, inertia), Status.PINNED_INFINITE))
-        faults.append((not_about_pivot(*about), Status.PINNED_VELOCITY))
-    return faults
+    if body.pivot is None:
+        return []
+    numbers = (body.vx, body.vy, body.yaw_rate, body.x, body.y, *body.pivot)
+    motion: list[Any] = [np.asarray(number, dtype=np.float64) for number in numbers]
+    motion.append(rounding(eps, body.vx, body.vy))
+    infinite = either_infinite(body.mass, body.yaw_inertia)
+    return [(infinite, Status.PINNED_INFINITE), (not_about_pivot(*motion), Status.PINNED_VELOCITY)]
 
 
 def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Faults:
