@@ -213,17 +213,14 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     read = read_inputs("solve", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
     contact = read.point
     used = {label: _numbers_at(body, contact, label, purpose) for label, body in bodies.items()}
-    numbers = {"normal[0]": read.normal[0], "normal[1]": read.normal[1]}
-    numbers |= {f"{label}.{name}": value for label, body in used.items() for name, value in body.items()}
-    numbers |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
-    # Fields that no motion needs are 0 above; here they are as given, to be checked as in a single vehicle.
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in numbers_of(body).items()}
-    numbers |= given
+    numbers = {"normal[0]": read.normal[0], "normal[1]": read.normal[1], **given}
+    numbers |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
     cases = Cases.of(numbers)
-    turning = {label: body.pivot is not None and not without_turning(body.yaw_rate) for label, body in bodies.items()}
+    pinned = {label: body.pivot is not None for label, body in bodies.items()}
     with np.errstate(all="ignore"):
         before, after = (
-            _moment(read.normal, contact or (0.0, 0.0), used[a], used[b], turning[a], turning[b])
+            _moment(read.normal, contact or (0.0, 0.0), used[a], used[b], pinned[a], pinned[b])
             for a, b in (("a_before", "b_before"), ("a_after", "b_after"))
         )
         faults = [
@@ -248,16 +245,13 @@ def _moment(normal: Any, contact: Any, a: dict[str, Any], b: dict[str, Any], *pi
 
 
 def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
-    """The numbers of one body by name; a field that does not affect its motion at the contact is filled in."""
-    if without_turning(body.yaw_rate):
-        yaw_rate = body.yaw_rate if np.any(np.isnan(body.yaw_rate)) else 0.0
-        moving = {"mass": body.mass, "yaw_inertia": np.inf, "vx": body.vx, "vy": body.vy, "yaw_rate": yaw_rate}
-        return dict.fromkeys(NUMBERS, 0.0) | moving
-    if contact is None:
+    """The numbers of one body by name; one that turns needs its position, and the contact point."""
+    turns = not without_turning(body.yaw_rate)
+    if turns and contact is None:
         raise MissingInputError(
             f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
         )
-    for name in ("x", "y"):
+    for name in ("x", "y") if turns else ():
         needed(body, name, purpose, label)
     return dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
 
