@@ -327,6 +327,13 @@ def test_refusals(call, code, said):
     assert caught.value.code == code
 
 
+@pytest.mark.parametrize("overlap", [math.nan, math.inf, None, True, "x", "5 mph"])
+def test_an_overlap_that_cannot_be_read_is_refused_once(overlap):
+    """And is not said to be above 1 as well."""
+    with pytest.raises(col.InputError, match=r"^overlap\b[^\n]*$"):
+        reference.restitution_by_overlap(overlap)
+
+
 def test_values_and_formulas_with_their_units():
     """Each number as a Quantity, by pint itself; a value that is not there stays None."""
     registry = pint.get_application_registry()

@@ -414,6 +414,13 @@ def at_least_zero(reader: ArgumentReader, read: Any, given: Any, name: str, code
     return read
 
 
+def single_number(reader: ArgumentReader, read: Any, name: str, text: str, argument: str = "") -> Any:
+    """A number that was read; refused with the text, which follows its name, if it is an array."""
+    if isinstance(read, np.ndarray):
+        return reader.refuse(ShapeError(f"{name} {text}", code="bad_shape", argument=argument or name))
+    return read
+
+
 def _refused(status: int, text: str, **fields: Any) -> CollisionsError:
     return InputError(text, code="refused_impact", status=Status(status).label, **fields)
 

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any, cast
-
-import numpy as np
 
 from ..contact_effects import left_out
 from ..drag import USUAL_DURATION, read_drag, read_duration
-from ..errors import InputError, MissingInputError, ShapeError
+from ..errors import InputError, MissingInputError
 from ..formatting import UnitSystem, bad_system
 from ..impact import Impact
 from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
-from ..reading import ArgumentReader, amount, need_one_case
+from ..reading import ArgumentReader, amount, need_one_case, single_number
 from ..reconstruct import MomentumSolution
 from ..settings import callers_options, computing, units_required
 from ..summary import spoken_system
@@ -30,6 +29,8 @@ _CHECKS = [check for module in _MODULES for check in vars(module).values() if is
 _CHECKS_OF = {kind: [check for check in _CHECKS if issubclass(kind, check.kind)] for kind in (ImpactCase, MomentumCase)}
 LIMITS: Mapping[str, Limit] = {check.code: check.limit for check in _CHECKS}
 """By code, in the order in which findings are listed: what is measured, its default limit and where that is from."""
+
+_single = partial(single_number, text="takes one value: diagnose takes one case")
 
 
 @computing
@@ -181,20 +182,12 @@ def read_limits(given: Any, reader: ArgumentReader) -> dict[str, float | None]:
             reader.refuse(InputError(text, code="unknown_finding", argument="limits"))
             continue
         count = len(reader.problems)
-        read = _single(reader, reader.number(value, LIMITS[code].unit, name, UNCHECKED), name, "limits")
+        read = _single(reader, reader.number(value, LIMITS[code].unit, name, UNCHECKED), name, argument="limits")
         if len(reader.problems) == count and not read >= 0.0:
             text = f"{name} must be >= 0 (inf switches it off), got {shown(value)}"
             reader.refuse(InputError(text, code="bad_limit", argument="limits"))
         limits[code] = read
     return limits
-
-
-def _single(reader: ArgumentReader, read: Any, name: str, argument: str = "") -> Any:
-    """A number that was read; refused unless it is a single one."""
-    if isinstance(read, np.ndarray):
-        text = f"{name} takes one value: diagnose takes one case"
-        return reader.refuse(ShapeError(text, code="bad_shape", argument=argument or name))
-    return read
 
 
 def _read_outline(reader: ArgumentReader, answer: Impact | MomentumSolution, given: Any, label: str) -> Any:

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ShapeError
+from ..errors import InputError
 from ..hints import hinted
 from ..kernels.elementwise import POSITIVE_FINITE
-from ..reading import ArgumentReader, at_least_zero
+from ..reading import ArgumentReader, at_least_zero, single_number
 from ..units import Input, Value, has_unit, shown
 from .published import Fit, Outside, Published, check_outside, settle
 
@@ -365,10 +365,8 @@ def restitution_by_overlap(overlap: Input) -> Published:
     (0.0, 0.15)
     """
     reader = ArgumentReader()
-    share: Any = reader.number(overlap, "", "overlap")
-    if isinstance(share, np.ndarray):
-        reader.refuse(ShapeError("overlap takes one value; ask for each", code="bad_shape", argument="overlap"))
-    elif not 0.0 < share <= 1.0:
+    share = single_number(reader, reader.number(overlap, "", "overlap"), "overlap", "takes one value; ask for each")
+    if share <= 0.0 or share > 1.0:
         reader.refuse(
             InputError(f"overlap must be > 0 and at most 1, got {shown(overlap)}", code="bad_fraction", argument="overlap")
         )

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import partial
 
-import numpy as np
-
-from ..errors import InputError, ShapeError
+from ..errors import InputError
 from ..hints import hinted
-from ..reading import ArgumentReader
+from ..reading import ArgumentReader, single_number
 from ..units import Input, shown
 from .published import Published
 
@@ -70,21 +68,15 @@ _BY_SURFACE = {
 }
 
 
-def _rolling(what: str, low: float, high: float) -> Published:
-    """A row of the drag of wheels that are not braked."""
-    return Published(
-        name=f"drag factor, {what}",
-        low=low,
-        high=high,
-        source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, NHTSA, 1978)",
-        domain="cars on pavement; the table divides it by the friction, to give a share of it",
-        quality=_HOW_GOOD,
-    )
-
-
-ROLLING_RESISTANCE = _rolling("free rolling, full to partial tyre inflation", 0.010, 0.013)
-ENGINE_BRAKING_HIGH = _rolling("engine braking in high gear", 0.150, 0.200)
-ENGINE_BRAKING_LOW = _rolling("engine braking in low gear", 0.200, 0.400)
+_not_braked = partial(
+    Published,
+    source=f"{_MANUAL}, Table 2-6, which has it from Calspan report ZQ-6057-V-6 (HS 805 040, NHTSA, 1978)",
+    domain="cars on pavement; the table divides it by the friction, to give a share of it",
+    quality=_HOW_GOOD,
+)
+ROLLING_RESISTANCE = _not_braked(name="drag factor, free rolling, full to partial tyre inflation", low=0.010, high=0.013)
+ENGINE_BRAKING_HIGH = _not_braked(name="drag factor, engine braking in high gear", low=0.150, high=0.200)
+ENGINE_BRAKING_LOW = _not_braked(name="drag factor, engine braking in low gear", low=0.200, high=0.400)
 _STATUTE = Published(
     name="drag factor behind a statutory table of stopping distances",
     low=0.70,
@@ -138,10 +130,8 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
     (0.4, 0.6)
     """
     reader = ArgumentReader()
-    fast: Any = reader.number(speed, "m/s", "speed")
-    if isinstance(fast, np.ndarray):
-        reader.refuse(ShapeError("speed takes one value; ask for each", code="bad_shape", argument="speed"))
-    elif fast < 0.0:
+    fast = single_number(reader, reader.number(speed, "m/s", "speed"), "speed", "takes one value; ask for each")
+    if fast < 0.0:
         reader.refuse(InputError(f"speed must be >= 0, got {shown(speed)}", code="negative_speed", argument="speed"))
     if not isinstance(surface, str) or surface not in _BY_SURFACE:
         reader.refuse(

@@ -8,8 +8,8 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ..errors import InputError, OutOfRangeWarning, ShapeError
-from ..reading import ArgumentReader
+from ..errors import InputError, OutOfRangeWarning
+from ..reading import ArgumentReader, single_number
 from ..units import Input, Value, shown, to_quantity
 from ..warning import warn_of_cases
 
@@ -63,9 +63,7 @@ class Published:
     def __contains__(self, value: Input) -> bool:
         """Whether a number in the SI unit, or with its unit, lies in the range."""
         reader = ArgumentReader()
-        number: Any = reader.number(value, self.unit, "value")
-        if isinstance(number, np.ndarray):
-            reader.refuse(ShapeError("value must be one number; ask of each", code="bad_shape", argument="value"))
+        number = single_number(reader, reader.number(value, self.unit, "value"), "value", "must be one number; ask of each")
         reader.close()
         return bool(self.low <= number <= self.high)
 

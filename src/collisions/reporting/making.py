@@ -11,8 +11,6 @@ from importlib import import_module
 from inspect import signature
 from typing import Any, Literal, TypeAlias, get_args
 
-import numpy as np
-
 from .. import plot
 from ..contact_effects import left_out
 from ..derivation.evidence import fit, momentum_inputs
@@ -20,13 +18,13 @@ from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_in
 from ..diagnostics import diagnose
 from ..document import Document
 from ..drag import USUAL_DURATION
-from ..errors import InputError, ShapeError
+from ..errors import InputError
 from ..formatting import UnitSystem
 from ..impact import Impact, with_vehicles
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..outlines import read_outline
 from ..plot.canvas import who
-from ..reading import ArgumentReader, need_one_case
+from ..reading import ArgumentReader, need_one_case, single_number
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import callers_options, computing
 from ..summary import cells
@@ -191,8 +189,8 @@ def report(
             sheet.say("The figures are in the HTML form of this report.")
     if derivation and not isinstance(readable, Posterior):
         sheet.heading("Derivation")
-        known = uncertainty if spread.ranges else spread.deviations
-        text = explain(readable, units=system, form="text" if form == "html" else form, uncertainty=known or None)
+        known = uncertainty if spread.outputs else None
+        text = explain(readable, units=system, form="text" if form == "html" else form, uncertainty=known)
         sheet.working(text)
     if findings is not None and isinstance(impact, (Impact, MomentumSolution)):
         sections.sources(sheet, impact, findings)
@@ -263,8 +261,9 @@ def _checked(impact: Any, options: Mapping[str, Any], uncertainty: Any) -> tuple
         for label in "ab"
         if options[f"outline_{label}"] is not None
     }
-    if share_a is not None and isinstance(reader.number(share_a, "", "share_a", UNIT_INTERVAL), np.ndarray):
-        reader.refuse(ShapeError("share_a takes one value: a report is of one case", code="bad_shape", argument="share_a"))
+    if share_a is not None:
+        share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
+        single_number(reader, share, "share_a", "takes one value: a report is of one case")
     reader.close()
     return [plain(paragraph) for paragraph in paragraphs], {name: plain(text) for name, text in beside.items()}, outlines
 
