@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..drag import HIGHEST_DRAG
+from ..inputs import PLACED
 from ..reference import CONTACT_DURATION
 from ..vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
@@ -210,7 +211,7 @@ def suspect_duration(case: Case) -> Iterator[Measured]:
 @finding("number of inputs that are missing to estimate the error of a central model", above(0.0), NOTE)
 def model_unknown(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
-    if name not in ("eccentric", "time_resolved"):
+    if name not in PLACED:
         choice, _ = case.model_choice
         missing = choice.missing["eccentric"]
         if missing and math.isnan(choice.errors[name]):

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..drag import GRAVITY
 from ..impact import Impact
+from ..inputs import PLACED
 from ..provenance import how_many
 from ..reference import INTER_VEHICLE_FRICTION
 from ..side import Side
@@ -107,7 +108,7 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
 )
 def model(case: ImpactCase) -> Iterator[Measured]:
     name = case.answer.model
-    if name in ("eccentric", "time_resolved"):
+    if name in PLACED:
         return
     choice, how = case.model_choice
     error = choice.errors[name]

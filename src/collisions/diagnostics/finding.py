@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
+from operator import gt, le, lt
 from typing import Any, NamedTuple, get_type_hints
 
 from ..quantities import OWN, Quantities
@@ -134,7 +135,8 @@ class Bound(NamedTuple):
     unit: str = ""
 
 
-above, below, at_or_below = (partial(Bound, passed) for passed in ("above", "below", "at or below"))
+_PASSES: dict[str, Callable[[float, float], bool]] = {"above": gt, "below": lt, "at or below": le}
+above, below, at_or_below = (partial(Bound, passed) for passed in _PASSES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,11 +159,7 @@ class Check:
         found = []
         for value, sentence, vehicle, limit, rounding in values:
             limit = limit if allowed is None else allowed
-            if self.passed == "above":
-                passed = value > limit + rounding
-            else:
-                passed = value < limit or (self.passed == "at or below" and value == limit)
-            if passed:
+            if _PASSES[self.passed](value, limit + rounding):
                 found.append(
                     Finding(
                         code=self.code,
