@@ -7,6 +7,7 @@ import warnings
 from dataclasses import replace
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -705,6 +706,33 @@ def test_a_propagation_tells_the_uncertainty():
     impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
     text = explain(impact, form="text", uncertainty=spread)
     assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
+
+
+def test_an_output_in_another_unit_is_no_answer_of_its_name():
+    """A speed that is named like the energy lost, which would be its spread in J."""
+    ureg = pint.UnitRegistry()
+
+    def model(v):
+        return {"energy_loss": ureg.Quantity(v / 2.0, "m/s"), "b_after_vx": ureg.Quantity(3.6 * v / 2.0, "km/h")}
+
+    spread = uncertainty.propagate(model, {"v": uncertainty.Normal(20.0, 1.0)}, method="first_order")
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
+    text = explain(impact, form="text", uncertainty=spread)
+    assert answer(text, "contact", "energy lost") == "100000 J"
+    assert answer(text, "B", "velocity after, along x") == "10.00 ± 0.50 m/s"
+    alone = uncertainty.propagate(lambda v: {"energy_loss": model(v)["energy_loss"]}, spread.inputs, method="first_order")
+    with pytest.raises(col.InputError, match=re.escape("energy_loss [m/s]; the answers are")):
+        explain(impact, uncertainty=alone)
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("friction", [0.05, 0.3, math.inf])
+@pytest.mark.parametrize("solver", [col.oblique_central, col.eccentric])
+def test_a_term_of_0_is_not_written_where_friction_passes_the_slip(solver, friction, units):
+    """Which would have a number without a unit converted: a kJ is no 3600 km/h."""
+    text = explain(crossroads(solver, law="stronge", friction=friction), form="text", units=units)
+    assert not re.search(r"\b0 \* \(?[A-Za-z]|[A-Za-z]\w* \* 0\b", text)
+    assert not re.search(r"1 (kN\*s|kJ|lbf\*s|ft\*lbf) = [\d.]+ (km/h|mph)[;.]", text)
 
 
 @pytest.mark.parametrize(

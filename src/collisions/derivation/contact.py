@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..impact import answer_of
+from ..inputs import PLACED
 from ..kernels.contact_laws import CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, RULES
 from .expressions import HALF, ZERO, Direction, Expression, Function, Sum, magnitude, root, signed_total, total
 from .page import Page
@@ -45,9 +46,7 @@ def velocity_after(page: Page, body: Body, s: Symbols, periods: Sequence[tuple[s
         found = body.along("n", start).plus(body.sign, impulse / body.mass)
         page.equation(caption, body.along("n", end), found if body.outside is None else found + body.pushed("n") / body.mass)
     along_t = f"Velocity of {body.label} after, along the tangent"
-    found = body.along("t")
-    if s.tangential.value != 0.0:
-        found = found.plus(body.sign, s.tangential / body.mass)
+    found = body.along("t").plus(body.sign, s.tangential.unless_zero() / body.mass)
     if body.outside is not None:
         found = found + body.pushed("t") / body.mass
     page.equation(along_t if isinstance(found, Sum) else f"{along_t}, as before", t, found)
@@ -279,14 +278,10 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:
     """Its value, NaN for a body that turns and whose yaw inertia is not known; and its formula, ZERO for a body at rest."""
     state = body.state(when)
-    formula: Expression = ZERO
-    if state.speed:
-        squares = (part.squared() for part in (body.axis("x", when), body.axis("y", when)) if part.value)
-        formula = HALF * body.mass * total(*squares)
-    if state.yaw_rate:
-        # A central model leaves the yaw rate as it was.
-        spin = body.spin(when if body.impact.model in ("eccentric", "time_resolved") else BEFORE)
-        formula = formula + HALF * body.inertia * spin.squared()
+    squares = total(*(body.axis(axis, when).unless_zero().squared() for axis in "xy"))
+    # A central model leaves the yaw rate as it was.
+    spin = body.spin(when if body.impact.model in PLACED else BEFORE).unless_zero()
+    formula = HALF * body.mass * squares + HALF * body.inertia * spin.squared()
     known = state.yaw_inertia is not None or not state.yaw_rate
     return float(state.kinetic_energy) if known else math.nan, formula
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
@@ -29,6 +29,7 @@ from .reverse import state_before, why_this_model
 from .symbols import Symbol, Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
+_Ranges: TypeAlias = dict[str, tuple[float, float]]
 # In standard deviations: how far an answer may differ from the mean of its propagation.
 _OFF_CENTRE = 0.1
 # The hint for a result that is a bare number.
@@ -288,23 +289,19 @@ def _normal(page: Page, s: Symbols) -> None:
 
 def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]:
     """The rows of results, rounded."""
-    for label, side in (("a", impact.a), ("b", impact.b)):
-        for name, (what, kind) in (_SIDE if impact.reconstruction is None else _BEFORE | _SIDE).items():
-            if impact.model not in PLACED and name.endswith("yaw_rate"):
-                continue
-            if side.before.pivot is None and name.startswith("pivot"):
-                continue
-            if impact.inputs.outside_a is None and name.startswith("outside"):
-                continue
-            if name == "after.course" and page.system.working(side.after.speed, "speed") == "0":
-                continue
-            value = attrgetter(name)(side)
-            if value is not None and not math.isnan(value):
-                yield label.upper(), what, page.answer(f"{label}.{name}", value, kind)
-    for name, (what, kind) in _CONTACT.items():
-        shown_already = name == "restitution" and impact.reconstruction is None
-        if not shown_already and not (impact.model == "linear_central" and name in _OF_FRICTION):
-            yield "contact", what, page.answer(name, getattr(impact, name), kind)
+    for name, (of, what, kind) in _IMPACT_ANSWERS.items():
+        side = impact.a if of == "A" else impact.b
+        left_out = (
+            impact.reconstruction is None and (".before." in name or name == "restitution"),
+            impact.model not in PLACED and name.endswith("yaw_rate"),
+            impact.model == "linear_central" and name in _OF_FRICTION,
+            impact.inputs.outside_a is None and ".outside" in name,
+            side.before.pivot is None and ".pivot" in name,
+            name.endswith("after.course") and page.system.working(side.after.speed, "speed") == "0",
+        )
+        value = None if any(left_out) else attrgetter(name)(impact)
+        if value is not None and (of == "contact" or not math.isnan(value)):
+            yield of, what, page.answer(name, value, kind)
 
 
 def _energy_gain(page: Page, status: Any, loss: float) -> None:
@@ -354,10 +351,35 @@ def about_ranges(uncertainty: Propagation) -> str:
     )
 
 
-def is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
+def spread_of(result: Any, uncertainty: Propagation) -> tuple[dict[str, Output], dict[str, float], _Ranges]:
+    """The outputs of a propagation that are results, by the name of the result, and their standard deviations in SI or ranges.
+
+    What has the name of a result and another unit is none. A result that is not the middle of a distribution has a range.
+    """
+    kinds = kinds_of_answers(result)
+    known = _by_spelling(kinds)
+    named = [(known[name], output) for name, output in uncertainty.outputs.items() if name in known]
+    outputs = {name: output for name, output in named if output.unit in (None, SI_UNITS[kinds[name]])}
+    deviations: dict[str, float] = {}
+    ranges: _Ranges = {}
+    for name, output in outputs.items():
+        if not _is_mean(result, name, kinds[name], output):
+            ranges[name] = output.interval()
+        elif varies(output, kinds[name]) and math.isfinite(output.std):
+            deviations[name] = float(output.std)
+    return outputs, deviations, ranges
+
+
+def _by_spelling(names: Iterable[str]) -> dict[str, str]:
+    """The names of results by what may be written for each, such as "b_after_vx" for "b.after.vx"."""
+    return {spelled: name for name in names for spelled in (name, name.replace(".", "_"))}
+
+
+def _is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
     """Whether an answer is the mean of its propagation, but for a tenth of the deviation: only then is it the middle of a ±."""
     mean, std = ends_of(output.mean), ends_of(output.std)
     value = attrgetter(name)(result)
+    # With an interval among the inputs there are two deviations, and neither includes the width of the interval.
     if len(std) > 1 or value is None:
         return False
     off = abs(value - mean[0])
@@ -365,23 +387,22 @@ def is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
     return not off > _OFF_CENTRE * std[0] or not varies(output, kind)
 
 
-def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
-    """Standard deviations in SI by result; or ranges, where the result is not the middle of a distribution."""
+def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
+    """Standard deviations in SI by result, of a propagation or as they were given; or ranges."""
     kinds = kinds_of_answers(result)
-    known = {name.replace(".", "_"): name for name in kinds} | {name: name for name in kinds}
     if isinstance(uncertainty, Propagation):
-        outputs = {known[name]: uncertainty[name] for name in uncertainty if name in known}
+        outputs, deviations, ranges = spread_of(result, uncertainty)
         if not outputs:
-            raise _unknown(", ".join(uncertainty), kinds)
-        # With an interval among the inputs there are two deviations, and neither includes the width of the interval.
-        deviations = {name: float(output.std) for name, output in outputs.items() if is_mean(result, name, kinds[name], output)}
-        return deviations, {name: output.interval() for name, output in outputs.items() if name not in deviations}
+            given = (name if output.unit is None else f"{name} [{output.unit}]" for name, output in uncertainty.outputs.items())
+            raise _unknown(", ".join(given), kinds)
+        return deviations, ranges
     if not isinstance(uncertainty, Mapping):
         raise InputError(
             f"uncertainty must be a Propagation, or a dict of standard deviations by name, got {type(uncertainty).__name__}",
             code="bad_option",
             argument="uncertainty",
         )
+    known = _by_spelling(kinds)
     stray = [shown(name) for name in uncertainty if name not in known]
     if stray:
         raise _unknown(", ".join(stray), kinds)

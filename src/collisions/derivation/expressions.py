@@ -184,7 +184,7 @@ class Expression:
 
     def squared(self) -> Expression:
         """Its square."""
-        return Square(self)
+        return self if self.is_literal(0.0) else Square(self)
 
     def __add__(self, other: Expression | float) -> Expression:
         return self.plus(1.0, _expression(other))
@@ -199,11 +199,13 @@ class Expression:
         return Literal(other).plus(-1.0, self)
 
     def __neg__(self) -> Expression:
-        return Negative(self)
+        return ZERO.plus(-1.0, self)
 
     def __mul__(self, factor: Expression | float) -> Expression:
         other = _expression(factor)
-        return self if other.is_literal(1.0) else other if self.is_literal(1.0) else Product(self, other)
+        if self.is_literal(0.0) or other.is_literal(1.0):
+            return self
+        return other if other.is_literal(0.0) or self.is_literal(1.0) else Product(self, other)
 
     def __rmul__(self, other: float) -> Expression:
         return Literal(other) * self
@@ -212,7 +214,7 @@ class Expression:
         under = _expression(other)
         if isinstance(under, Quotient) and under.over.is_literal(1.0):
             return under.under * self
-        return self if under.is_literal(1.0) else Quotient(self, under)
+        return self if self.is_literal(0.0) or under.is_literal(1.0) else Quotient(self, under)
 
     def __rtruediv__(self, other: float) -> Expression:
         return Quotient(Literal(other), self)

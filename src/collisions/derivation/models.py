@@ -67,7 +67,7 @@ def _against_fixed(page: Page, s: Symbols) -> None:
     number, change = ("(5)", v - wall_v) if hit is s.a else ("(6)", wall_v - v)
     page.equation(f"Impulse of the compression period, area A1 (3), on {hit.label}", s.compression, hit.mass * change)
     page.equation("Impulse of the restitution period, area A2 = e A1", s.restitution, s.e * s.compression)
-    common = wall_v if wall_v.value else ZERO
+    common = wall_v.unless_zero()
     caption = f"Velocity of {hit.label} after, {number} against a fixed body (Example 1)"
     page.equation(caption, hit.straight(AFTER), common - s.e * (v - common))
 
@@ -158,7 +158,7 @@ class Lever(Body):
     def torque(self, s: Symbols) -> Expression:
         """The moment of the impulse on this body."""
         by_normal = self.t * s.normal
-        by_tangential = self.n * s.tangential if s.tangential.value != 0.0 else ZERO
+        by_tangential = self.n * s.tangential.unless_zero()
         by_contact = by_normal - by_tangential if self.label == "A" else by_tangential - by_normal
         return by_contact if self.outside is None else by_contact + self.moment
 
@@ -358,17 +358,14 @@ def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> Non
         f"normal and the yaw rate counter-clockwise; the paper counts it clockwise, hence the sign of "
         f"{page.symbol(body.spin(AFTER))}."
     )
-    sides = []
-    for when in (BEFORE, AFTER):
-        moment = other.mass * body.t * other.along("n", when)
-        spin = body.spin(when)
-        sides.append(moment if spin.value == 0.0 else moment - body.resistance * spin)
-    page.balance("Moments about the pivot (20)", sides[0], sides[1], "angular momentum")
+    mass, inertia = other.mass * body.t, body.resistance
+    before, after = (mass * other.along("n", when) - inertia * body.spin(when).unless_zero() for when in (BEFORE, AFTER))
+    page.balance("Moments about the pivot (20)", before, after, "angular momentum")
     scale, speed, rate = (page.system.scale(kind) for kind in ("angular momentum", "speed", "yaw rate"))
     v, w = other.along("n", AFTER), body.spin(AFTER)
     # Counted as in (21): the contact point of the pinned body less the other one, both after.
     sign, lever = body.sign, body.t.value
-    moments = (sides[0].value * scale, other.mass.value * lever * scale / speed, -body.resistance.value * scale / rate)
+    moments = (before.value * scale, other.mass.value * lever * scale / speed, -body.resistance.value * scale / rate)
     parting = (s.separation.value * speed, -sign, -sign * lever * speed / rate)
     solvable = other.spin(AFTER).value == 0.0
     more = page.figures_to_solve((moments, parting), (v, w)) if solvable else 0

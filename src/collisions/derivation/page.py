@@ -22,14 +22,9 @@ class Page:
     """The parts written so far, and the printed conversion factors by the units they convert."""
 
     def __init__(
-        self,
-        system: System,
-        latex: bool,
-        deviations: Mapping[str, float],
-        ranges: Mapping[str, tuple[float, float]] | None = None,
+        self, system: System, latex: bool, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]
     ) -> None:
-        self.system, self.latex = system, latex
-        self.deviations, self.ranges = dict(deviations), dict(ranges or {})
+        self.system, self.latex, self.deviations, self.ranges = system, latex, deviations, ranges
         self.parts: list[str] = []
         self.conversions: dict[tuple[str, str], str] = {}
 
@@ -106,7 +101,7 @@ class Page:
         printed = self.system.working(left.value, left.kind)
         (numbers,), fits = self._in_numbers([(right, left.value)], left.kind, right.size)
         symbol, formula = self._in_symbols(left), self._in_symbols(right)
-        lines = [formula] * (formula != symbol) + [numbers] * (numbers not in (formula, printed))
+        lines = [formula] * (formula not in (symbol, printed)) + [numbers] * (numbers not in (formula, printed))
         self._lines(caption, symbol, [*lines, printed + self._unit(left.kind)], fits=fits)
 
     def let(self, caption: str, latex: str, kind: str, formula: Expression) -> Symbol:

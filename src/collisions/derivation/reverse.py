@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ..impact import Impact
 from ..kernels.central import shares
 from ..provenance import KNOWN, Reconstruction, how_many
-from .expressions import HALF, ONE, ZERO, Expression, root
+from .expressions import HALF, ONE, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
 from .symbols import AFTER, Symbol, Symbols
@@ -159,7 +159,7 @@ def _planar(page: Page, s: Symbols, kind: str) -> None:
         page.say(f"{'The closing speed was known:' if kind == 'closing_speed' else by_energy} {page.shown(g)}.")
         page.equation("Restitution (11)", e, r / g)
     if kind == "energy_loss":
-        by_tangential = HALF * (s.tangential * (s.slip + s.slip_after)) if s.tangential.value != 0.0 else ZERO
+        by_tangential = HALF * (s.tangential.unless_zero() * (s.slip + s.slip_after))
         page.equation("The energy that these lose", s.loss, HALF * (g - r) * s.normal - by_tangential)
     page.say(
         f"The regime is {s.impact.regime}, with the impulse {page.shown(s.normal)} and {page.shown(s.tangential)} on "

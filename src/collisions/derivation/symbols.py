@@ -8,10 +8,11 @@ from functools import cache
 from typing import Any
 
 from ..impact import Impact
+from ..inputs import PLACED
 from ..kernels.contact_laws import BRACH, LAWS
 from ..side import Side
 from ..vehicle import Vehicle
-from .expressions import ATOM, SUM, Expression, Pen, Written, signed_total
+from .expressions import ATOM, SUM, ZERO, Expression, Pen, Written, signed_total
 
 # At the start, at the end of compression, and after.
 BEFORE, COMPRESSED, AFTER = "before", "at_compression", "after"
@@ -35,6 +36,10 @@ class Symbol(Expression):
     def __init__(self, latex: str, value: Any, kind: str, text: str = "") -> None:
         self.latex, self.text, self.kind = latex, text or _plain_symbol(latex), kind
         super().__init__(float(value), abs(float(value)))
+
+    def unless_zero(self) -> Expression:
+        """The symbol, or ZERO, which is not written, if that is its value."""
+        return self if self.value != 0.0 else ZERO
 
     def write(self, pen: Pen) -> Written:
         if pen.system is None:
@@ -116,7 +121,7 @@ class Body:
         if contact:
             return Symbol(f"c_{{{index}}}{_PRIME[when]}", value, "speed")
         base = "u" if when == COMPRESSED else "v"
-        bar = rf"\bar{{{base}}}" if self.impact.model in ("eccentric", "time_resolved") else base
+        bar = rf"\bar{{{base}}}" if self.impact.model in PLACED else base
         return Symbol(f"{bar}_{{{index}}}{_PRIME[when]}", value, "speed")
 
     def straight(self, when: str = BEFORE) -> Symbol:

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from ..derivation.evidence import momentum_inputs
-from ..derivation.explain import impact_inputs, is_mean, kinds_of_answers, words_of_answers
+from ..derivation.explain import impact_inputs, kinds_of_answers, spread_of, words_of_answers
 from ..errors import InputError
 from ..formatting import SI_UNITS, Numbers, typeset, with_decimals
 from ..impact import Impact
@@ -32,28 +32,7 @@ class Spread:
     def __init__(self, impact: Impact | MomentumSolution | Fit | Posterior, uncertainty: Propagation | None) -> None:
         self.impact = impact
         self.kinds = kinds_of_answers(impact)
-        self.outputs: dict[str, Output] = {}
-        names = {name.replace(".", "_"): name for name in self.kinds} | {name: name for name in self.kinds}
-        for output in () if uncertainty is None else uncertainty.outputs.values():
-            name = names.get(output.name)
-            if name is not None and output.unit in (None, SI_UNITS[self.kinds[name]]):
-                self.outputs[name] = output
-
-    @property
-    def deviations(self) -> dict[str, float]:
-        """Standard deviations by result, of results that are the mean of their propagation."""
-        centred = {name: output for name, output in self.outputs.items() if name not in self.ranges}
-        found = {name: float(output.std) for name, output in centred.items() if varies(output, self.kinds[name])}
-        return {name: std for name, std in found.items() if math.isfinite(std)}
-
-    @property
-    def ranges(self) -> dict[str, tuple[float, float]]:
-        """The ranges of the other results, and of those that depend on an interval."""
-        return {
-            name: output.interval()
-            for name, output in self.outputs.items()
-            if not is_mean(self.impact, name, self.kinds[name], output)
-        }
+        self.outputs, self.deviations, self.ranges = ({}, {}, {}) if uncertainty is None else spread_of(impact, uncertainty)
 
     def heading(self, output: Output) -> str:
         """The result in words, such as "A: delta-V"; of any other output its name."""
