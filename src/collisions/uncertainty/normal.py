@@ -111,16 +111,19 @@ def density(z: float) -> float:
 
 
 def _ratio(top: tuple[float, ...], bottom: tuple[float, ...], x: Any) -> Any:
-    above, below = top[0] * x, bottom[0] * x
-    for a, b in zip(top[1:-1], bottom[1:-1], strict=True):
-        above += a
-        above *= x
-        below += b
-        below *= x
-    above += top[-1]
-    below += bottom[-1]
-    above /= below
-    return above
+    found = _polynomial(top, x)
+    found /= _polynomial(bottom, x)
+    return found
+
+
+def _polynomial(coefficients: tuple[float, ...], x: Any) -> Any:
+    """The polynomial with these coefficients, highest first."""
+    found = coefficients[0] * x
+    for coefficient in coefficients[1:-1]:
+        found += coefficient
+        found *= x
+    found += coefficients[-1]
+    return found
 
 
 def _beyond(distance: Any) -> Any:
@@ -138,11 +141,7 @@ def log_survival(z: Any) -> Any:
 
 def _beside_exponential(distance: Any) -> Any:
     """The probability beyond distances >= 0, over exp(-distance**2 / 2)."""
-    found = _TAIL[0] * (u := (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
-    for coefficient in _TAIL[1:-1]:
-        found += coefficient
-        found *= u
-    found += _TAIL[-1]
+    found = _polynomial(_TAIL, (distance - _TAIL_CENTRE) / (distance + _TAIL_CENTRE))
     found /= distance + 1.0
     return found
 

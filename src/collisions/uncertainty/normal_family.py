@@ -9,6 +9,7 @@ Gauss-Legendre quadrature, whose terms all have the same sign; the closed forms 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -50,10 +51,19 @@ class NormalFamily(Distribution):
     # Of the probability before truncation: below the lower bound, between both, and above the upper one.
     _split: tuple[float, float, float] | None
 
+    # Mean and standard deviation, before truncation, for which two values have the scores -score and +score.
+    _spanning: Callable[[float, float, float], tuple[float, float]]
+    # Moments and support before truncation, the value at a score there, and the difference of the scores of two values.
+    _whole: Callable[[], tuple[float, float, float, float, tuple[float, float]]]
+    _value: Callable[[Any], Any]
+    _between: Callable[[float, float], float]
+    # Mean and standard deviation after truncation, from those about the anchor.
+    _moved: Callable[[float, Moments], tuple[float, float]]
+
     @hinted
     def __init__(self, mean: Input, sd: Input, *, truncate: Truncation | None = None) -> None:
-        (given_mean, given_sd, *bounds), unit = read_alike({"mean": mean, "sd": sd}, _named_bounds(truncate))
-        self._make(unit, mean=given_mean, sd=given_sd, truncate=_pair(bounds))
+        given_mean, given_sd, bounds, unit = _read({"mean": mean, "sd": sd}, truncate)
+        self._make(unit, mean=given_mean, sd=given_sd, truncate=bounds)
 
     def __str__(self) -> str:
         if self._range is not None:
@@ -93,7 +103,7 @@ class NormalFamily(Distribution):
         >>> round(LogNormal.between("0.5 s", "2 s", 0.9).quantile(0.95), 12)
         2.0
         """
-        (start, end, *bounds), unit = read_alike({"low": low, "high": high}, _named_bounds(truncate))
+        start, end, bounds, unit = _read({"low": low, "high": high}, truncate)
         reader = ArgumentReader()
         share = reader.number(coverage, "", "coverage")
         reader.close()
@@ -106,7 +116,7 @@ class NormalFamily(Distribution):
             )
         check_order(start, end, unit=unit)
         mean, sd = cls._spanning(start, end, score_of_coverage(share))
-        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": _pair(bounds)}, (start, end, share))
+        return from_numbers(cls, unit, {"mean": mean, "sd": sd, "truncate": bounds}, (start, end, share))
 
     def _derive(self, mean: float, sd: float, truncate: tuple[float | None, float | None] | None) -> None:
         if not sd > 0.0:
@@ -152,45 +162,21 @@ class NormalFamily(Distribution):
         """Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is linear in the score."""
         return 0.0
 
-    @staticmethod
-    def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
-        """Mean and standard deviation, before truncation, for which these two values have the scores -score and +score."""
-        raise NotImplementedError
-
-    def _whole(self) -> tuple[float, float, float, float, tuple[float, float]]:
-        """Moments and support before truncation."""
-        raise NotImplementedError
-
-    def _value(self, score: Any) -> Any:
-        """The value at a score of the distribution before truncation."""
-        raise NotImplementedError
-
     def _score(self, value: float) -> float:
         """The score of a value in the distribution before truncation, where the mean scores half the steepness."""
         return self._between(self.given_mean, value) + 0.5 * self._steepness
-
-    def _between(self, start: float, end: float) -> float:
-        """The difference of the scores of two values."""
-        raise NotImplementedError
-
-    def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
-        """Mean and standard deviation after truncation, from those about the anchor."""
-        raise NotImplementedError
 
     def _scored(self, z: Any) -> Any:
         return self._inside(self._value(z)) if self._split is None else super()._scored(z)
 
     def _at(self, below: Any, above: Any) -> Any:
-        return self._inside(self._value(self._score_at(below, above)))
-
-    def _score_at(self, below: Any, above: Any) -> Any:
-        """The score before truncation; the smaller side decides, so that nothing is lost near either end."""
         if self._split is None:
-            return quantile(below)
+            return self._inside(self._value(quantile(below)))
         lost_below, share, lost_above = self._split
         lower, upper = lost_below + below * share, lost_above + above * share
+        # The smaller side decides, so that nothing is lost near either end.
         score = quantile(np.asarray(np.minimum(lower, upper)))
-        return np.where(lower <= upper, score, -score)
+        return self._inside(self._value(np.where(lower <= upper, score, -score)))
 
     def _inside(self, value: Any) -> Any:
         """The value, clipped to bounds that rounding may have crossed."""
@@ -366,8 +352,8 @@ def _fall(score: float) -> float:
     return 2.0 * _NEGLIGIBLE / (math.sqrt(score * score + 2.0 * _NEGLIGIBLE) + abs(score))
 
 
-def _named_bounds(truncate: Any) -> dict[str, Any]:
-    """Both bounds of a truncation, under the names that messages use."""
+def _read(needed: dict[str, Any], truncate: Any) -> tuple[float, float, tuple[float | None, ...] | None, str]:
+    """Two numbers, the bounds of a truncation or None where both sides are open, and the unit of all."""
     if truncate is None:
         truncate = (None, None)
     if not isinstance(truncate, (tuple, list)) or len(truncate) != 2:
@@ -376,12 +362,8 @@ def _named_bounds(truncate: Any) -> dict[str, Any]:
             code="bad_shape",
             argument="truncate",
         )
-    return {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}
-
-
-def _pair(bounds: list[float | None]) -> tuple[float | None, ...] | None:
-    """Two bounds as they are stored: None where both sides are open."""
-    return None if bounds == [None, None] else tuple(bounds)
+    (one, other, *bounds), unit = read_alike(needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)})
+    return one, other, None if bounds == [None, None] else tuple(bounds), unit
 
 
 def _check_positive(name: str, value: float) -> None:
