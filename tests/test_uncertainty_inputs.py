@@ -26,7 +26,7 @@ from collisions.uncertainty import (
     normal_family,
 )
 from collisions.uncertainty.distribution import from_numbers
-from collisions.uncertainty.distributions import read_input
+from collisions.uncertainty.model import read_input
 from collisions.units import si_unit
 
 EPS = 2.0**-52

@@ -15,7 +15,7 @@ import pytest
 
 import collisions as col
 from collisions.quantities import unit_of
-from collisions.uncertainty.distributions import read_input
+from collisions.uncertainty.model import read_input
 from collisions.units import si_unit
 
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}

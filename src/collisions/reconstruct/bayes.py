@@ -14,8 +14,8 @@ from ..hints import hinted
 from ..kernels.batch import in_order
 from ..progress import reporter
 from ..quantities import lock
-from ..uncertainty.distributions import Distribution, Normal, range_hint
-from ..uncertainty.model import Model
+from ..uncertainty.distributions import Distribution, Normal
+from ..uncertainty.model import Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
 from ..units import shown

@@ -16,8 +16,8 @@ from ..quantities import lock
 from ..settings import in_si
 from ..uncertainty.angles import folded
 from ..uncertainty.distribution import read_alike
-from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform, range_hint
-from ..uncertainty.model import Model
+from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
+from ..uncertainty.model import Model, range_hint
 from ..units import is_quantity
 from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
 from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread

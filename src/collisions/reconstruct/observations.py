@@ -11,9 +11,8 @@ import numpy as np
 from ..errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..reading import ArgumentReader
 from ..uncertainty.angles import folded
-from ..uncertainty.censored import Censored
 from ..uncertainty.distribution import from_numbers, read_alike, show
-from ..uncertainty.distributions import Interval, Normal
+from ..uncertainty.distributions import Censored, Interval, Normal
 from ..uncertainty.model import Model, check_names
 from ..uncertainty.normal import log_survival
 

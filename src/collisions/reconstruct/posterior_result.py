@@ -12,8 +12,7 @@ import numpy as np
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError
 from ..records import strict
 from ..summary import Cells, Part, Summarized, Summary
-from ..uncertainty.censored import Censored
-from ..uncertainty.distributions import Distribution, Normal, Samples, Uniform
+from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of

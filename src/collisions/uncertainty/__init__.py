@@ -1,7 +1,6 @@
 """Uncertainty of results: distributions and intervals of the inputs, and their propagation to every output."""
 
-from .censored import Censored
-from .distributions import Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
+from .distributions import Censored, Distribution, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 from .propagation import propagate
 from .result import Histogram, Output, Propagation, Shares
 

@@ -59,9 +59,14 @@ def cut(angles: Any) -> float | None:
     return where + _TURN if float(np.mean(folded(found, where))) <= -math.pi + _ANGLE_TOL else where
 
 
+def turns_to(angles: Any, where: float | None) -> Any:
+    """The turns by which directions are moved into the turn that ends at this cut; none without a cut."""
+    return 0.0 if where is None else -np.ceil((angles - where) / _TURN)
+
+
 def folded(angles: Any, where: float | None) -> Any:
     """Directions moved into the turn that ends at this cut; those in it already stay bit for bit."""
-    return angles if where is None else angles - _TURN * np.ceil((angles - where) / _TURN)
+    return angles if where is None else angles + _TURN * turns_to(angles, where)
 
 
 def beside(angles: Any, middle: float) -> Any:
@@ -83,14 +88,12 @@ def point_everywhere(values: Any) -> bool:
 
     The error of the mean is then twice what their spread suggests (Hotz and Huckemann), and the mean soon has no meaning.
     """
-    return bool(values.size) and float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
+    return float(np.mean(np.abs(values - np.mean(values)) > math.pi - _OPPOSITE)) > _OPPOSITE / _TURN
 
 
 def point_to_opposite_sides(values: Any) -> bool:
     """Whether another mean of unwrapped directions, an eighth of a turn away or more, fits to a tenth of their variance."""
     count = values.size
-    if not count:
-        return False
     first = np.arange(1, count + 1)
     ahead = np.cumsum(np.sort(values - np.mean(values)))
     # If the first n values get one more turn, the mean moves by n / count turns.

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import NoSolutionError
 from . import angles, normal
-from .model import Model
+from .model import Model, count_failed
 from .result import Output, Shares, average, deviation
 from .sampling import Joint
 
@@ -45,7 +45,7 @@ class Local(Output):
     def turned(self, turns: float) -> Local:
         """The same direction plus this many turns."""
         mean, std = self._figures
-        return Local(self.name, self.unit, mean + 2.0 * math.pi * turns, std, self.skewness, self._known_shares)
+        return Local(self.name, self.unit, mean + math.tau * turns, std, self.skewness, self._known_shares) if turns else self
 
     def _mean(self) -> Any:
         return self._figures[0]
@@ -187,5 +187,4 @@ def differences(model: Model, drawn: Mapping[str, Any], outputs: Mapping[str, Lo
         by = most / scale if scale else math.inf
         if by > _NOTICED and most > max(_NO_DIFFERENCE * float(np.max(np.abs(values))), _LEAST):
             found[name] = by
-    failed = np.any([np.isnan(values) for values in answers.values()], axis=0)
-    return found, int(np.count_nonzero(failed))
+    return found, count_failed(answers)

@@ -171,15 +171,12 @@ class Distribution(Stated):
     def _describe(self, mean: float, sd: float, skewness: float, kurtosis: float, support: tuple[float, float]) -> None:
         """Set the moments; refused if one has overflowed."""
         if not np.all(np.isfinite((mean, sd, skewness, kurtosis))):
-            raise self._too_large()
+            raise self._beyond_floats()
         if not sd > 0.0:
             raise self._beyond_floats("its deviation is too small")
         self._set(mean=mean, sd=sd, skewness=skewness, kurtosis=kurtosis, support=support)
 
-    def _too_large(self) -> InputError:
-        return self._beyond_floats("its mean, its deviation or their ratio is too large")
-
-    def _beyond_floats(self, what: str) -> InputError:
+    def _beyond_floats(self, what: str = "its mean, its deviation or their ratio is too large") -> InputError:
         return InputError(
             f"{type(self).__name__}: {what} for a float64; look for a wrong unit or a slipped digit",
             code="out_of_range",

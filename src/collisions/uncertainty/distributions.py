@@ -1,26 +1,22 @@
-"""Uncertain inputs: ``Uniform``, ``Triangular``, ``Samples``, and ``Interval``, which only bounds a quantity."""
+"""``Uniform``, ``Triangular``, ``Samples``, and bounds alone: ``Interval`` for an input, ``Censored`` for a reading."""
 
 from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
-from numbers import Number
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, UnitsError
+from ..errors import InputError, MissingInputError, ShapeError
 from ..hints import hinted
-from ..kernels.elementwise import UNCHECKED
 from ..quantities import lock
-from ..reading import ArgumentReader
-from ..units import Input, is_quantity, si_unit
+from ..units import Input
 from .distribution import Distribution, Stated, check_order, from_numbers, read_alike, show
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal
 
-__all__ = ["Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform", "read_input"]
+__all__ = ["Censored", "Distribution", "Interval", "LogNormal", "Normal", "Samples", "Triangular", "Uniform"]
 
 
 class Uniform(Distribution):
@@ -110,7 +106,7 @@ class Triangular(Distribution):
         self._set(mode=mode)
         width = high - low
         if math.isinf(width):
-            raise self._too_large()
+            raise self._beyond_floats()
         left, right = (mode - low) / width, (high - mode) / width
         square = (left * left + left * right + right * right) / 18.0
         skewness = (right - left) * (2.0 * left + right) * (left + 2.0 * right) / (270.0 * square * math.sqrt(square))
@@ -303,73 +299,64 @@ class Interval(Stated):
         self._set(low=low, high=high)
 
 
-def read_input(name: str, value: Any) -> Any:
-    """The input for a model: a stated input or other object as it is, a number or a text as an SI float.
+class Censored(Stated):
+    """A reading known only to lie above a bound, below one, or between two.
+
+    A recorder that ended early would have read at least what it had reached; a speed class or a display in steps gives two
+    values with the reading between them. As evidence, it is weighted by the probability that a reading falls within the
+    bounds, where readings are normally distributed about the truth with the standard deviation ``error``. Without an error, the
+    truth itself lies within the bounds, and an observation ``Interval(low, high)`` says the same.
+
+    Parameters
+    ----------
+    low, high : float, str or Quantity, optional
+        The bounds, ``low`` < ``high``; give at least one. SI, or all with a unit.
+    error : float, str or Quantity, optional
+        Standard deviation of the reading, > 0, in the same unit; without it the bounds are sharp.
 
     Raises
     ------
     InputError
-        A boolean, NaN, an array or a list of numbers, or a text that is not a number with a unit.
+        No bound, bounds not in order, or an error not above 0.
+    UnitsError
+        Some numbers with a unit and some without, or units of different kinds.
 
     Examples
     --------
-    >>> read_input("speed", "36 km/h"), read_input("restitution", 0.4), read_input("point", (2.1, 0.3))
-    (10.0, 0.4, (2.1, 0.3))
+    The recorder lost power after a delta-V of 28 km/h; its standard deviation is 1 km/h.
+
+    >>> Censored(low="28 km/h", error="1 km/h")
+    Censored(low=28 km/h, error=1 km/h)
     """
-    if isinstance(value, (tuple, list)) and any(
-        isinstance(part, (str, Distribution, Interval)) or is_quantity(part) for part in value
-    ):
-        raise InputError(
-            f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
-            f"and put them together in the model{range_hint(value)}",
-            code="bad_inputs",
-            argument=name,
-        )
-    if isinstance(value, list) and value and all(isinstance(part, (Number, np.generic)) for part in value):
-        raise ShapeError(
-            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values are given as Samples(values), "
-            f"the parts of a point as a tuple, and what the model needs as an array is written into the model itself",
-            code="bad_shape",
-            argument=name,
-        )
-    if not (isinstance(value, (str, Number, np.generic)) or is_quantity(value) or hasattr(value, "__array__")):
-        return value
-    try:
-        unit = si_unit(value, name)
-    except UnitsError as error:
-        if not isinstance(value, str):
-            raise
-        raise UnitsError(
-            f"{error}; a text that is no quantity, such as the name of a law, is written into the model itself",
-            code=error.code,
-            **error.fields,
-        ) from None
-    reader = ArgumentReader()
-    number = reader.number(value, unit, name, UNCHECKED)
-    reader.close()
-    if isinstance(number, np.ndarray):
-        raise ShapeError(
-            f"{name} is an array of shape {number.shape}; measured values are given as Samples(values), and what the model "
-            f"needs as an array is written into the model itself",
-            code="bad_shape",
-            argument=name,
-        )
-    if math.isnan(number):
-        raise InputError(
-            f"{name} is NaN; give a number, or a distribution of what is not known", code="not_finite", argument=name
-        )
-    return number
 
+    __slots__ = ("error", "high", "low")
 
-def pair_hints(fixed: Mapping[str, Any]) -> str:
-    """Hints for inputs that are pairs of numbers in order: they are read as points, but may be meant as ranges."""
-    return "".join(
-        f". {name} is the pair {value!r} in every case{hint}" for name, value in fixed.items() if (hint := range_hint(value))
-    )
+    low: float | None
+    high: float | None
+    error: float | None
 
+    @hinted
+    def __init__(self, low: Input | None = None, high: Input | None = None, error: Input | None = None) -> None:
+        (start, end, sigma), unit = read_alike({}, {"low": low, "high": high, "error": error})
+        self._make(unit, low=start, high=end, error=sigma)
 
-def range_hint(value: Any) -> str:
-    """A hint for a pair of numbers or texts in order that may be meant as a range; "" for others."""
-    kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
-    rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
-    return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
+    def _derive(self, low: float | None, high: float | None, error: float | None) -> None:
+        if low is None and high is None:
+            raise MissingInputError(
+                "a censored reading needs a bound; write Censored(low=...) for at least, Censored(high=...) for at most",
+                code="missing_bound",
+                argument="low",
+            )
+        if low is not None and high is not None:
+            check_order(low, high, unit=self.unit)
+        if error is not None and not error > 0.0:
+            raise InputError(
+                f"error must be > 0, got {show(error, self.unit)}; leave it out where the bounds are sharp",
+                code="not_positive",
+                argument="error",
+            )
+        self._set(low=low, high=high, error=error)
+
+    def __str__(self) -> str:
+        bounds = (("at least", self.low), ("at most", self.high), ("±", self.error))
+        return ", ".join(f"{word} {show(value, self.unit)}" for word, value in bounds if value is not None)

@@ -20,7 +20,7 @@ from ..records import strict
 from . import angles
 from .derivatives import Local
 from .designs import REPLICATES
-from .model import Model
+from .model import Model, count_failed
 from .normal import power_of_two
 from .result import COVERAGE, Output, Sampled, Shares
 
@@ -136,7 +136,7 @@ class _Places:
         count = len(at) * self.cases
         found = self.model(values, count)
         self.samples += count
-        self.failed += int(np.count_nonzero(np.any([np.isnan(one) for one in found.values()], axis=0)))
+        self.failed += count_failed(found)
         return {name: self._counted(name, one.reshape(len(at), -1)) for name, one in found.items()}
 
     def count_directions(self, first: Mapping[str, Any]) -> dict[str, Any]:
@@ -150,8 +150,7 @@ class _Places:
         if name not in self.cuts:
             return values
         about = angles.counted(values)
-        means = _means(about)
-        return about + 2.0 * np.pi * np.rint((angles.folded(means, self.cuts[name]) - means) / (2.0 * np.pi))[:, np.newaxis]
+        return about + math.tau * np.reshape(angles.turns_to(_means(about), self.cuts[name]), (-1, 1))
 
 
 def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, effort: _Effort) -> tuple[Any, float]:
@@ -209,7 +208,7 @@ class Bounds(Output):
     def __init__(self, name: str, unit: str | None, cases: Sequence[Local | Sampled], cut: float | None = None) -> None:
         super().__init__(name, unit)
         # One turn for the means of all directions, the one that ends at the cut, or the figures could not be compared.
-        self.cases = cases if cut is None else [_within_turn(case, cut) for case in cases]
+        self.cases = [case.turned(float(angles.turns_to(case.mean, cut))) for case in cases]
 
     @property
     def bounds_only(self) -> bool:
@@ -270,12 +269,6 @@ class Bounds(Output):
             code="no_variance",
             argument=self.name,
         )
-
-
-def _within_turn(direction: Local | Sampled, cut: float) -> Local | Sampled:
-    """A direction's figures with the mean within the turn that ends at the cut."""
-    turns = round((float(angles.folded(direction.mean, cut)) - direction.mean) / (2.0 * math.pi))
-    return direction.turned(turns) if turns else direction
 
 
 def _range(figures: Iterable[float]) -> tuple[float, float]:

@@ -1,22 +1,24 @@
-"""``Model``: the user's function, called with arrays of cases; its outputs are checked to be one value per case."""
+"""``Model``: the user's function. Its fixed inputs are read, it is called with arrays of cases, and its outputs are checked."""
 
 from __future__ import annotations
 
 import inspect
 import math
 from collections.abc import Callable, Collection, Mapping
+from numbers import Number
 from types import FunctionType
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError, ShapeError
+from ..errors import CollisionsError, InputError, ShapeError, UnitsError
+from ..kernels.elementwise import UNCHECKED
 from ..reading import ArgumentReader
 from ..settings import in_si
 from ..units import is_quantity, shown, si_unit
 from ..warning import Noted, quietly, warn
 from . import angles
-from .distributions import pair_hints
+from .distributions import Distribution, Interval
 
 Function: TypeAlias = Callable[..., Mapping[str, Any]]
 
@@ -112,6 +114,83 @@ class Model:
         found = np.array(read, dtype=np.float64).reshape(count)
         found[~np.isfinite(found)] = np.nan
         return found
+
+
+def count_failed(answers: Mapping[str, Any]) -> int:
+    """Cases without an answer to at least one output."""
+    return int(np.count_nonzero(np.any([np.isnan(values) for values in answers.values()], axis=0)))
+
+
+def read_input(name: str, value: Any) -> Any:
+    """The input for a model: a stated input or other object as it is, a number or a text as an SI float.
+
+    Raises
+    ------
+    InputError
+        A boolean, NaN, an array or a list of numbers, or a text that is not a number with a unit.
+
+    Examples
+    --------
+    >>> read_input("speed", "36 km/h"), read_input("restitution", 0.4), read_input("point", (2.1, 0.3))
+    (10.0, 0.4, (2.1, 0.3))
+    """
+    if isinstance(value, (tuple, list)) and any(
+        isinstance(part, (str, Distribution, Interval)) or is_quantity(part) for part in value
+    ):
+        raise InputError(
+            f"{name} is a {type(value).__name__} with a unit or a distribution in it; give each part as an input of its own, "
+            f"and put them together in the model{range_hint(value)}",
+            code="bad_inputs",
+            argument=name,
+        )
+    if isinstance(value, list) and value and all(isinstance(part, (Number, np.generic)) for part in value):
+        raise ShapeError(
+            f"{name} is a list of {len(value)} number{'s' * (len(value) > 1)}; measured values are given as Samples(values), "
+            f"the parts of a point as a tuple, and what the model needs as an array is written into the model itself",
+            code="bad_shape",
+            argument=name,
+        )
+    if not (isinstance(value, (str, Number, np.generic)) or is_quantity(value) or hasattr(value, "__array__")):
+        return value
+    try:
+        unit = si_unit(value, name)
+    except UnitsError as error:
+        if not isinstance(value, str):
+            raise
+        raise UnitsError(
+            f"{error}; a text that is no quantity, such as the name of a law, is written into the model itself",
+            code=error.code,
+            **error.fields,
+        ) from None
+    reader = ArgumentReader()
+    number = reader.number(value, unit, name, UNCHECKED)
+    reader.close()
+    if isinstance(number, np.ndarray):
+        raise ShapeError(
+            f"{name} is an array of shape {number.shape}; measured values are given as Samples(values), and what the model "
+            f"needs as an array is written into the model itself",
+            code="bad_shape",
+            argument=name,
+        )
+    if math.isnan(number):
+        raise InputError(
+            f"{name} is NaN; give a number, or a distribution of what is not known", code="not_finite", argument=name
+        )
+    return number
+
+
+def pair_hints(fixed: Mapping[str, Any]) -> str:
+    """Hints for inputs that are pairs of numbers in order: they are read as points, but may be meant as ranges."""
+    return "".join(
+        f". {name} is the pair {value!r} in every case{hint}" for name, value in fixed.items() if (hint := range_hint(value))
+    )
+
+
+def range_hint(value: Any) -> str:
+    """A hint for a pair of numbers or texts in order that may be meant as a range; "" for others."""
+    kinds = {type(part) for part in value} if isinstance(value, (tuple, list)) and len(value) == 2 else {None}
+    rising = kinds == {str} or (kinds <= {int, float} and value[0] < value[1])
+    return f"; if a range was meant, write Uniform{tuple(value)!r} or Interval{tuple(value)!r}" if rising else ""
 
 
 def check_names(function: Any, names: Collection[str], argument: str, code: str) -> None:

@@ -20,9 +20,9 @@ from ..warning import warn
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
-from .distributions import Distribution, Interval, pair_hints, read_input
+from .distributions import Distribution, Interval
 from .intervals import COMMON_CASES, Bounds, extremes
-from .model import Function, Model, check_names
+from .model import Function, Model, check_names, count_failed, pair_hints, read_input
 from .result import Output, Propagation, Sampled, Shares
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
@@ -41,7 +41,7 @@ _SHARE_SAMPLES = 8192
 class Run:
     """The outputs of one run, its counts, and the warnings it needs."""
 
-    outputs: Mapping[str, Local | Sampled]
+    outputs: Mapping[str, Any]
     samples: int
     failed: int
     interrupted: bool = False
@@ -216,8 +216,8 @@ def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads:
             raise _bad_option(name, f"{name} must be {allowed}, got {shown(value)}")
 
 
-def _bad_option(argument: str, text: str) -> InputError:
-    return InputError(text, code="bad_option", argument=argument)
+def _bad_option(argument: str, text: str, code: str = "bad_option") -> InputError:
+    return InputError(text, code=code, argument=argument)
 
 
 def _read_inputs(inputs: Any) -> dict[str, Any]:
@@ -237,19 +237,17 @@ def _read_tolerances(tolerance: Any, units: Mapping[str, str | None]) -> dict[st
     given = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(units, tolerance)
     unknown = [f"{shown(name)}, which is no output" for name in given if name not in units]
     if unknown or not given:
-        raise _bad_tolerance(f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}")
+        text = f"tolerance names {(*unknown, 'no output')[0]}; the model returned {', '.join(units)}"
+        raise _bad_option("tolerance", text, "bad_tolerance")
     names = {name: f"tolerance[{shown(name)}]" for name in given}
     reader = ArgumentReader(trusted=tuple(names.values()))
     found = {name: reader.number(value, units[name] or "", names[name]) for name, value in given.items()}
     reader.close()
     for name, value in found.items():
         if not isinstance(value, float) or not value > 0.0:
-            raise _bad_tolerance(f"tolerance must be a number > 0, got {shown(value)} for {name}")
+            text = f"tolerance must be a number > 0, got {shown(value)} for {name}"
+            raise _bad_option("tolerance", text, "bad_tolerance")
     return found
-
-
-def _bad_tolerance(text: str) -> InputError:
-    return InputError(text, code="bad_tolerance", argument="tolerance")
 
 
 def _run_at(
@@ -307,17 +305,17 @@ def _sampled(
     if tolerance is not None and not any(np.isnan(values).all() for values in sample.outputs.values()):
         wanted = _read_tolerances(tolerance, model.units)
         try:
-            while not sample.interrupted and not unreached and not enough(sample, model.units, wanted):
-                unreached = sample.done >= MOST_SAMPLES
-                if not unreached:
-                    sample.extend(min(2 * sample.done, MOST_SAMPLES), report)
+            while not sample.interrupted and not enough(sample, model.units, wanted):
+                if unreached := sample.done >= MOST_SAMPLES:
+                    break
+                sample.extend(min(2 * sample.done, MOST_SAMPLES), report)
         except KeyboardInterrupt:
             sample.interrupted = True
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
     outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs.items()}
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
     unanswered = tuple(name for name, output in outputs.items() if output.failed == sample.done)
-    return Run(outputs, sample.done, sample.failed(), sample.interrupted, unreached, wrapped, unanswered)
+    return Run(outputs, sample.done, count_failed(sample.outputs), sample.interrupted, unreached, wrapped, unanswered)
 
 
 def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]) -> bool:
@@ -330,7 +328,7 @@ def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[
     return True
 
 
-def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> Propagation:
+def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Propagation:
     """The least and the greatest value of every output between the bounds of the inputs."""
     if correlation is not None and (not isinstance(correlation, Mapping) or correlation):
         raise InputError(
@@ -338,19 +336,16 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
             code="bad_correlation",
             argument="correlation",
         )
-    bounds = {}
-    for name, value in stated.items():
-        if isinstance(value, Interval):
-            bounds[name] = value.low, value.high
-        elif isinstance(value, Distribution):
-            if not all(map(math.isfinite, value.support)):
-                raise InputError(
-                    f"{name} = {value!r} has no bounds for method='interval'; write Interval(low, high), or "
-                    f"truncate=(low, high)",
-                    code="unbounded",
-                    argument=name,
-                )
-            bounds[name] = value.support
+    uncertain = {name: value for name, value in stated.items() if name not in model.fixed}
+    bounds = {name: (one.low, one.high) if isinstance(one, Interval) else one.support for name, one in uncertain.items()}
+    for name, ends in bounds.items():
+        if not all(map(math.isfinite, ends)):
+            raise InputError(
+                f"{name} = {stated[name]!r} has no bounds for method='interval'; write Interval(low, high), or "
+                f"truncate=(low, high)",
+                code="unbounded",
+                argument=name,
+            )
     if not bounds:
         raise InputError(
             f"method='interval' needs an input with bounds, such as Interval(low, high){pair_hints(model.fixed)}",
@@ -358,15 +353,14 @@ def _by_interval(model: Model, stated: Mapping[str, Any], correlation: Any) -> P
             argument="inputs",
         )
     found = extremes(model, bounds, {})
-    # Each end is an output with nothing uncertain about it.
-    ends = {
-        name: [Local(name, model.units[name], value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values]
-        for name, values in found.values.items()
-    }
-    outputs: dict[str, Output] = {name: Bounds(name, model.units[name], cases) for name, cases in ends.items()}
-    run = Run({name: cases[0] for name, cases in ends.items()}, found.samples, found.failed, wrapped=found.wrapped)
+    outputs: dict[str, Output] = {}
+    for name, values in found.values.items():
+        unit = model.units[name]
+        # Each end is an output with nothing uncertain about it.
+        outputs[name] = Bounds(name, unit, [Local(name, unit, value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values])
+    run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
     _warn("interval", [run], 1, found.samples, found.failed, model)
-    return Propagation("interval", dict(stated), outputs, found.samples, found.failed)
+    return Propagation("interval", stated, outputs, found.samples, found.failed)
 
 
 def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model) -> None:

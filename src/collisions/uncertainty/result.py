@@ -75,6 +75,12 @@ class Output(Summarized):
     texts: tuple[str, ...] = ()
     """Texts by which the units of its summary are chosen."""
 
+    # What every kind of output works out in its own way.
+    _mean: Callable[[], Any]
+    _std: Callable[[], Any]
+    _quantile: Callable[[Any], Any]
+    _shares: Callable[[], Shares]
+
     def __init__(self, name: str, unit: str | None) -> None:
         self.name = name
         self.unit = unit
@@ -234,18 +240,6 @@ class Output(Summarized):
             "interval_95": self.interval(),
         }
 
-    def _mean(self) -> Any:
-        raise NotImplementedError
-
-    def _std(self) -> Any:
-        raise NotImplementedError
-
-    def _quantile(self, p: Any) -> Any:
-        raise NotImplementedError
-
-    def _shares(self) -> Shares:
-        raise NotImplementedError
-
 
 class InUnit(Quantities):
     """An output's attributes and the results of its methods as plain numbers in a unit that was asked for."""
@@ -311,7 +305,7 @@ class Sampled(Output):
     def turned(self, turns: float) -> Sampled:
         """The same directions plus this many turns."""
         values = self.values if self._directions is None else self._directions
-        return Sampled(self.name, self.unit, values, self._all_shares, turns)
+        return Sampled(self.name, self.unit, values, self._all_shares, turns) if turns else self
 
     def may_wrap(self) -> bool:
         """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has directions to all sides."""

@@ -37,59 +37,49 @@ class Joint:
     def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
         self.inputs = inputs
         pairs = _read_correlation(inputs, {} if correlation is None else correlation)
-        groups = _groups(inputs, pairs)
-        self.labels = [" & ".join(group) for group in groups]
         # The columns of joint samples, in the order in which they belong together.
         self._columns = {name: d.rows for name, d in inputs.items() if isinstance(d, Samples) and d.group is not None}
         self.rows: dict[tuple[str, ...], list[int]] = {}
         self.dimensions = 0
-        for group in groups:
+        for group in _groups(inputs, pairs):
             count = 1 if group[0] in self._columns else len(group)
             self.rows[group] = list(range(self.dimensions, self.dimensions + count))
             self.dimensions += count
+        self.labels = [" & ".join(group) for group in self.rows]
         self._factors = {group: _factor(group, pairs) for group, rows in self.rows.items() if len(rows) > 1}
         # Rows whose normal scores are needed: worked out together, they take two thirds of the time of one by one.
-        self._by_score = [
-            row
-            for group, rows in self.rows.items()
-            for row in rows
-            if group[0] not in self._columns and (group in self._factors or is_whole_normal(inputs[group[0]]))
-        ]
+        by_score = [rows for group, rows in self.rows.items() if group in self._factors or is_whole_normal(inputs[group[0]])]
+        self._by_score = [row for rows in by_score for row in rows]
 
     def values(self, points: Any) -> dict[str, Any]:
         """The inputs at points (dimensions, cases) of the unit cube."""
         scores = dict(zip(self._by_score, normal.quantile(points[self._by_score]), strict=True))
-        return self._at(
-            lambda row: points[row],
-            lambda row: scores[row],
-            lambda one, row: at_scores(one, scores[row]) if row in scores else at_probabilities(one, points[row]),
-        )
+        return self._at(points, scores)
 
     def scored(self, scores: Any) -> dict[str, Any]:
         """The inputs at independent normal scores (dimensions, cases)."""
-        return self._at(
-            lambda row: normal.cdf(scores[row]), lambda row: scores[row], lambda one, row: at_scores(one, scores[row])
-        )
+        points = {rows[0]: normal.cdf(scores[rows[0]]) for group, rows in self.rows.items() if group[0] in self._columns}
+        return self._at(points, dict(enumerate(scores)))
 
-    def _at(
-        self, share: Callable[[int], Any], score: Callable[[int], Any], alone: Callable[[Distribution, int], Any]
-    ) -> dict[str, Any]:
-        """The inputs, given what a row of the cube is in probabilities, in scores and in values of an independent input."""
+    def _at(self, points: Any, scores: Mapping[int, Any]) -> dict[str, Any]:
+        """The inputs, by row of the cube: at normal scores where these are known, and at probabilities elsewhere."""
         found: dict[str, Any] = {}
-        for group, places in self.rows.items():
+        for group, (row, *others) in self.rows.items():
             if group[0] in self._columns:
                 for name in group:
                     column = self._columns[name]
-                    at = (share(places[0]) * len(column)).astype(np.intp)
+                    at = (points[row] * len(column)).astype(np.intp)
                     found[name] = column[np.minimum(at, len(column) - 1)]
             elif group in self._factors:
-                independent = [*map(score, places)]
+                independent = [scores[each] for each in (row, *others)]
                 for name, weights in zip(group, self._factors[group], strict=True):
                     # Term by term: a matrix product adds in an order that depends on how many cases there are.
-                    scores = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
-                    found[name] = self.inputs[name].scored(scores)
+                    mixed = sum(weight * score for weight, score in zip(weights, independent, strict=True) if weight)
+                    found[name] = at_scores(self.inputs[name], mixed)
+            elif row in scores:
+                found[group[0]] = at_scores(self.inputs[group[0]], scores[row])
             else:
-                found[group[0]] = alone(self.inputs[group[0]], places[0])
+                found[group[0]] = at_probabilities(self.inputs[group[0]], points[row])
         return {name: found[name] for name in self.inputs}
 
     @property
@@ -217,10 +207,6 @@ class Sample:
             self.interrupted = True
         self.outputs = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
         self.done = len(next(iter(self.outputs.values())))
-
-    def failed(self) -> int:
-        """Cases without an answer to at least one output."""
-        return int(np.count_nonzero(np.any([np.isnan(values) for values in self.outputs.values()], axis=0)))
 
     def _answers(self, block: tuple[int, int]) -> dict[str, Any]:
         start, stop = block
