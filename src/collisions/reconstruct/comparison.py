@@ -132,13 +132,15 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     before = _read_prior(posteriors, prior)
     logs = {name: one.log_evidence for name, one in posteriors.items()}
     errors = {name: one.log_evidence_error for name, one in posteriors.items()}
-    most = max(logs[name] + math.log(before[name]) for name in logs)
-    weights = {name: math.exp(logs[name] + math.log(before[name]) - most) for name in logs}
+    joint = {name: logs[name] + math.log(before[name]) for name in logs}
+    weights = {name: math.exp(one - max(joint.values())) for name, one in joint.items()}
     after = {name: weight / sum(weights.values()) for name, weight in weights.items()}
+    # To first order in the errors of the logarithms.
+    moves = {name: [after[name] * ((other == name) - after[other]) * errors[other] for other in after] for name in after}
     pairs = list(permutations(logs, 2))
     found = Comparison(
         probability=after,
-        probability_error={name: _error_of(name, after, errors) for name in after},
+        probability_error={name: math.hypot(*of_each) for name, of_each in moves.items()},
         prior=before,
         log_bayes_factors={(one, other): logs[one] - logs[other] for one, other in pairs},
         log_bayes_factor_errors={(one, other): math.hypot(errors[one], errors[other]) for one, other in pairs},
@@ -186,12 +188,6 @@ def _read_prior(posteriors: Mapping[str, Posterior], prior: Any) -> dict[str, fl
 
 def _bad_prior(text: str) -> InputError:
     return InputError(text, code="bad_prior", argument="prior")
-
-
-def _error_of(name: str, after: Mapping[str, float], errors: Mapping[str, float]) -> float:
-    """The standard error of one probability, to first order in the errors of the logarithms of the evidences."""
-    moves = [after[name] * ((other == name) - after[other]) * errors[other] for other in after]
-    return math.hypot(*moves)
 
 
 def _sentence(before: Mapping[str, float], after: Mapping[str, float], logs: Mapping[str, float], errors: Any) -> str:

@@ -247,9 +247,8 @@ def crush_delta_v(
 
 def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[Value]:
     """The answers of these cases; NaN where a batch has a fault, an error for a single case."""
-    with np.errstate(all="ignore"):
-        beyond = [(cases.beyond(answer), Status.OUT_OF_RANGE) for answer in found]
-        status = cases.first_status((*faults, *beyond))
+    beyond = [(cases.beyond(answer), Status.OUT_OF_RANGE) for answer in found]
+    status = cases.first_status((*faults, *beyond))
     if cases.shape is None and status != Status.OK:
         # The reader has checked the rest.
         text = {Status.IMMOVABLE: "both are infinite; at least one must be finite"}.get(

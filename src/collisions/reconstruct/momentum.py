@@ -152,7 +152,7 @@ def momentum(
     with np.errstate(all="ignore"):
         unlike = np.logical_or(_share(numbers, "speed"), _share(angles, "course")) if together else False
         terms = _terms(numbers, angles, together)
-        exactly({name: True if term.speed is not None else None for name, term in terms.items()}, len(terms) - 2, "momentum")
+        exactly({name: term.speed for name, term in terms.items()}, len(terms) - 2, "momentum")
         _need_courses(terms)
         impulse, normal = (
             (numbers[f"{name}[0]"], numbers[f"{name}[1]"]) if f"{name}[0]" in numbers else None

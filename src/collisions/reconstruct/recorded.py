@@ -247,7 +247,5 @@ def _columns(reader: ArgumentReader, path: str) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         text = f"time: the file {path!r} cannot be used: {error}; write time [ms],longitudinal [km/h],lateral [km/h], or arrays"
         raise InputError(text, code="bad_file", argument="time") from None
-    factors = [
-        reader.number(f"1 {unit}", si, f"unit of {name}") for unit, (name, si) in zip(units, _NAMES.items(), strict=False)
-    ]
-    return {name: factor * column for name, factor, column in zip(_NAMES, factors, numbers, strict=False)}
+    columns = zip(units, _NAMES.items(), numbers, strict=False)
+    return {name: reader.number(f"1 {unit}", si, f"unit of {name}") * column for unit, (name, si), column in columns}
