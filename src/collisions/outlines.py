@@ -18,75 +18,60 @@ from .vehicle import Vehicle, needed
 # A corner whose sine is within this of 0 is straight, not a dent.
 _STRAIGHT = 1e-9
 # In metres: no road vehicle is larger, so a bare number beyond is in another unit.
-_LONGEST, _WIDEST = 30.0, 3.5
+_LIKELY = (("length", 30.0), ("width", 3.5))
 # In metres: sums of larger ones leave the range of floats.
 _LARGEST = 1e306
 
 
 def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """Corners (forward, left) from the centre of mass, counter-clockwise: from length and width, or from corners."""
-    return _within_range(reader, _read(reader, given, argument), argument)
-
-
-def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
-    whole = given.magnitude if is_quantity(given) else given
-    if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
-        read = reader.number(given, "m", argument)
-        polygon = _polygon(reader, read.astype(np.float64), argument) if isinstance(read, np.ndarray) else None
-        return _of_likely_size(polygon, [] if is_quantity(given) else given.reshape(-1).tolist(), argument)
-    if isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
-        count = len(reader.problems)
-        corners = [reader.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
-        if len(reader.problems) > count:
-            return None
-        if any(isinstance(number, np.ndarray) for corner in corners for number in corner):
-            return _bad_shape(reader, given, argument)
-        parts = [part for corner in given for part in corner]
-        return _of_likely_size(_polygon(reader, np.array(corners), argument), parts, argument)
-    if isinstance(given, tuple) and len(given) in (2, 3):
-        return _rectangle(reader, given, argument)
-    return _bad_shape(reader, given, argument)
-
-
-def _within_range(reader: ArgumentReader, corners: Any, argument: str) -> Any:
-    """The corners; refused if sums of them could overflow."""
-    largest = 0.0 if corners is None else float(np.max(np.abs(corners)))
-    if largest <= _LARGEST:
-        return corners
-    reader.refuse(
-        InputError(
-            f"{argument} has a corner {largest:.3g} m from the centre of mass, and may be {_LARGEST:g} m large at most; give "
-            f"metres, such as (4.5, 1.8)",
+    try:
+        corners = _read(reader, given, argument)
+        if corners is None or np.all(np.abs(corners) <= _LARGEST):
+            return corners
+        raise InputError(
+            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, and may be {_LARGEST:g} m large at "
+            f"most; give metres, such as (4.5, 1.8)",
             code="out_of_range",
             argument=argument,
         )
-    )
-    return None
-
-
-def _of_likely_size(corners: Any, given: Sequence[Any], argument: str) -> Any:
-    """The corners, with a warning if numbers given without a unit make a vehicle that is too large."""
-    if corners is None:
+    except InputError as problem:
+        reader.refuse(problem)
         return None
-    for axis, limit, name in ((0, _LONGEST, "length"), (1, _WIDEST, "width")):
-        bare = [float(part) for part in given[axis::2] if not has_unit(part)]
-        if bare:
-            warn_if_large(None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm")
-    return corners
 
 
-def _bad_shape(reader: ArgumentReader, given: Any, argument: str) -> None:
-    reader.refuse(
-        ShapeError(
-            f"{argument} must be (length, width), (length, width, how far the centre of mass is ahead of the middle), or at "
-            f"least three corners (forward, left) from the centre of mass; got {shown(given)}",
-            code="bad_shape",
-            argument=argument,
-        )
+def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
+    """The corners; None if the reader refused a number."""
+    count = len(reader.problems)
+    whole = given.magnitude if is_quantity(given) else given
+    if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
+        read = reader.number(given, "m", argument)
+        parts = [] if is_quantity(given) else given.reshape(-1).tolist()
+    elif isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
+        read = [reader.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
+        parts = [part for corner in given for part in corner]
+    elif isinstance(given, tuple) and len(given) in (2, 3):
+        return _rectangle(reader, given, argument)
+    else:
+        raise _bad_shape(given, argument)
+    if len(reader.problems) > count:
+        return None
+    if isinstance(read, list) and any(isinstance(number, np.ndarray) for corner in read for number in corner):
+        raise _bad_shape(given, argument)
+    return _polygon(np.array(read, dtype=np.float64), parts, argument)
+
+
+def _bad_shape(given: Any, argument: str) -> ShapeError:
+    return ShapeError(
+        f"{argument} must be (length, width), (length, width, how far the centre of mass is ahead of the middle), or at "
+        f"least three corners (forward, left) from the centre of mass; got {shown(given)}",
+        code="bad_shape",
+        argument=argument,
     )
 
 
 def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) -> Any:
+    """The corners of a rectangle; None if the reader refused a number."""
     count = len(reader.problems)
     length, width = (
         reader.number(value, "m", f"{argument}[{i}] ({name})", POSITIVE)
@@ -96,28 +81,34 @@ def _rectangle(reader: ArgumentReader, given: tuple[Any, ...], argument: str) ->
     if len(reader.problems) > count:
         return None
     if any(isinstance(value, np.ndarray) for value in (length, width, ahead)):
-        return _bad_shape(reader, given, argument)
+        raise _bad_shape(given, argument)
     if not abs(ahead) < 0.5 * length < math.inf or math.isinf(width):
-        reader.refuse(
-            InputError(
-                f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a length of {length:.6g} m "
-                f"and a width of {width:.6g} m; both must be finite, and the offset less than half the length",
-                code="bad_outline",
-                argument=argument,
-            )
+        raise InputError(
+            f"{argument}: the centre of mass, {ahead:.6g} m ahead of the middle, is not within a length of {length:.6g} m "
+            f"and a width of {width:.6g} m; both must be finite, and the offset less than half the length",
+            code="bad_outline",
+            argument=argument,
         )
-        return None
-    for value, read, limit, name in ((given[0], length, _LONGEST, "length"), (given[1], width, _WIDEST, "width")):
+    for value, read, (name, limit) in zip(given, (length, width), _LIKELY, strict=False):
         warn_if_large(value, read, limit, f"{argument} ({name})", "metres", "in", "mm")
     front, back, side = 0.5 * length - ahead, -0.5 * length - ahead, 0.5 * width
     return np.array([(front, side), (back, side), (back, -side), (front, -side)])
 
 
-def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
+def _polygon(corners: Any, parts: Sequence[Any], argument: str) -> Any:
+    """The corners of a convex polygon, with a warning if their ``parts`` without a unit make a vehicle that is too large."""
+    if not np.any(np.abs(corners) > _LARGEST):  # refused for its size later
+        corners = _convex(corners, argument)
+    for axis, (name, limit) in enumerate(_LIKELY):
+        bare = [float(part) for part in parts[axis::2] if not has_unit(part)]
+        if bare:
+            warn_if_large(None, max(bare) - min(bare), limit, f"{argument} ({name})", "metres", "in", "mm")
+    return corners
+
+
+def _convex(corners: Any, argument: str) -> Any:
     """The corners counter-clockwise; refused if there is a dent or no area."""
     problem = ""
-    if np.any(np.abs(corners) > _LARGEST):
-        return corners  # refused for its size
     if len(corners) < 3:
         problem = "has fewer than three corners"
     elif not np.all(np.isfinite(corners)):
@@ -126,7 +117,7 @@ def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
         edges, lengths = _edges(corners)
         sines = _cross(edges, np.roll(edges, -1, axis=0))
         if np.all(sines <= _STRAIGHT) and np.any(sines < -_STRAIGHT):
-            return _polygon(reader, corners[::-1], argument)
+            return _convex(corners[::-1], argument)
         angles = np.arctan2(edges[:, 1], edges[:, 0])
         around = np.sum((np.roll(angles, -1) - angles) % (2.0 * math.pi))
         if not np.any(sines > _STRAIGHT):
@@ -134,15 +125,12 @@ def _polygon(reader: ArgumentReader, corners: Any, argument: str) -> Any:
         elif np.any(sines < -_STRAIGHT) or not np.all(lengths) or around > 3.0 * math.pi:
             problem = "has a dent, a corner twice, or sides that cross"
     if problem:
-        reader.refuse(
-            InputError(
-                f"{argument} {problem}; give corners (forward, left) one after another around a convex outline, such as "
-                f"[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
-                code="bad_outline",
-                argument=argument,
-            )
+        raise InputError(
+            f"{argument} {problem}; give corners (forward, left) one after another around a convex outline, such as "
+            f"[(2.2, 0.8), (-2.3, 0.9), (-2.3, -0.9), (2.2, -0.8)]",
+            code="bad_outline",
+            argument=argument,
         )
-        return None
     return corners
 
 
