@@ -286,6 +286,7 @@ class _Reader:
     def __init__(self, document: dict[str, Any]) -> None:
         self.problems: list[tuple[str, str]] = []
         self.uncertain: dict[str, Uncertain] = {}
+        self.solver = ""
         self.document: dict[str, Any] = self.plain(document)
         # The reverse solvers under their names, as the others are.
         if isinstance(inside := self.document.get("reconstruct"), dict):
@@ -325,7 +326,7 @@ class _Reader:
             what = "has the tables {}; leave one of them" if solvers_of else "has no table of a solver; write one of {}"
             self.refuse("", what.format(tables))
             raise CaseError(*self.problems)
-        (name,) = solvers_of
+        self.solver = name = solvers_of[0]
         call = self.call(name, SOLVERS[name], self.document[name], {label: self.vehicle(label) for label in bodies})
         if studies and studies[0] != "propagate" and not self.uncertain:
             self.refuse(
@@ -397,14 +398,11 @@ class _Reader:
                 unit = re.search(r"\[(\S+)\]$", what)
                 such = f", such as {_PAIR if one.annotation == 'Pair' else example(unit[1])}" if unit else ""
                 self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
-        prefix, before = "" if key in SOLVERS else f"{key}.", len(self.problems)
         read = {
-            name: _open(name, value) if plain else self.value(f"{prefix}{name}", value, str(takes[name].annotation))
+            name: _open(name, value) if plain else self.value(f"{key}.{name}", value, str(takes[name].annotation))
             for name, value in given.items()
             if name in takes
         }
-        if not prefix:
-            self.problems[before:] = [(f"{key}.{place}", text) for place, text in self.problems[before:]]
         unknown = {name: None for name, one in takes.items() if one.default is Parameter.empty}
         return Call(key, function, {**unknown, **(beside or {}), **read})
 
@@ -457,8 +455,9 @@ class _Reader:
             middle = f"{middle / found.unit.factor:.15g} {found.unit.written}"
         elif middle is not None and call.function is stated:
             middle = f"{middle:.15g}"  # a text without a unit is refused where one is needed
-        self.uncertain[key] = Uncertain(key, found, middle)
-        return self.uncertain[key]
+        name = key.removeprefix(f"{self.solver}.")
+        self.uncertain[name] = Uncertain(name, found, middle)
+        return self.uncertain[name]
 
     def study(self, name: str) -> dict[str, Any]:
         """The arguments of what is asked of the uncertain numbers."""

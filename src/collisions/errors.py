@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from .kernels.status import Status as Status
@@ -16,11 +17,7 @@ class _Carrying(BaseException):
         self.fields = fields
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (type(self), str(self), self.code, self.fields)
-
-
-def _rebuild(kind: type[Any], message: str, code: str, fields: dict[str, Any]) -> Any:
-    return kind(message, code=code, **fields)
+        return partial(type(self), code=self.code, **self.fields), (str(self),)
 
 
 class CollisionsError(_Carrying, Exception):

@@ -30,8 +30,8 @@ def read_outline(reader: ArgumentReader, given: Any, argument: str) -> Any:
         if corners is None or np.all(np.abs(corners) <= _LARGEST):
             return corners
         raise InputError(
-            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, and may be {_LARGEST:g} m large at "
-            f"most; give metres, such as (4.5, 1.8)",
+            f"{argument} has a corner {np.max(np.abs(corners)):.3g} m from the centre of mass, and may be {_LARGEST:g} m large "
+            f"at most; give metres, such as (4.5, 1.8)",
             code="out_of_range",
             argument=argument,
         )
@@ -44,10 +44,11 @@ def _read(reader: ArgumentReader, given: Any, argument: str) -> Any:
     """The corners; None if the reader refused a number."""
     count = len(reader.problems)
     whole = given.magnitude if is_quantity(given) else given
+    pairs = isinstance(given, (tuple, list)) and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given)
     if isinstance(whole, np.ndarray) and whole.ndim == 2 and whole.shape[1] == 2:
         read = reader.number(given, "m", argument)
         parts = [] if is_quantity(given) else given.reshape(-1).tolist()
-    elif isinstance(given, (tuple, list)) and given and all(isinstance(part, (tuple, list)) and len(part) == 2 for part in given):
+    elif pairs and given:
         read = [reader.pair(part, "m", f"{argument}[{i}]") for i, part in enumerate(given)]
         parts = [part for corner in given for part in corner]
     elif isinstance(given, tuple) and len(given) in (2, 3):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from typing import Any, TypeVar, cast
@@ -63,24 +63,23 @@ class options:
         units_required.reset(self._before)
 
 
-@contextmanager
-def in_si() -> Iterator[None]:
+def in_si() -> AbstractContextManager[None]:
     """Within this context numbers need no unit: they are the package's own, in SI."""
-    token = units_required.set(False)
-    try:
-        yield
-    finally:
-        units_required.reset(token)
+    return _set(units_required, False)
+
+
+def callers_options() -> AbstractContextManager[None]:
+    """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
+    return _set(units_required, _callers.get())
 
 
 @contextmanager
-def callers_options() -> Iterator[None]:
-    """Within this context a function under ``computing`` reads its own arguments, by the options of its caller."""
-    token = units_required.set(_callers.get())
+def _set(variable: ContextVar[bool], value: bool) -> Iterator[None]:
+    token = variable.set(value)
     try:
         yield
     finally:
-        units_required.reset(token)
+        variable.reset(token)
 
 
 def computing(function: F) -> F:
@@ -92,11 +91,7 @@ def computing(function: F) -> F:
 
     @wraps(function)
     def inside(*args: Any, **options: Any) -> Any:
-        token = _callers.set(units_required.get())
-        try:
-            with in_si():
-                return named(*args, **options)
-        finally:
-            _callers.reset(token)
+        with _set(_callers, units_required.get()), in_si():
+            return named(*args, **options)
 
     return cast(F, inside)

@@ -1,4 +1,4 @@
-"""``Sheet``, ``Html`` and ``Markdown``: the output formats of a report. The HTML is one self-contained file."""
+"""``Html`` and ``Markdown``: the output formats of a report. The HTML is one self-contained file."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from typing import TypeAlias
 
 from ..derivation.expressions import System
 from ..derivation.page import HEAD, Page
@@ -66,8 +67,8 @@ class Printed(System):
     typeset = True
 
 
-class Sheet(Page):
-    """A derivation page with the additions of a report, such as lists, pictures and the record."""
+class _Sheet(Page):
+    """A derivation page with what both forms of a report have in common."""
 
     def __init__(self, units: str, deviations: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> None:
         super().__init__(Printed(units), False, deviations, ranges)
@@ -98,18 +99,6 @@ class Sheet(Page):
         """A list of items, each with a lead-in that may be empty."""
         raise NotImplementedError
 
-    def working(self, text: str) -> None:
-        """The derivation in this output format."""
-        raise NotImplementedError
-
-    def record(self, text: str) -> None:
-        """The record, as JSON, from which the report can be made again."""
-        raise NotImplementedError
-
-    def whole(self, version: str) -> str:
-        """The whole report, made by this version of the package."""
-        raise NotImplementedError
-
 
 def given_as(value: str, text: str) -> str:
     """A number as it is printed, and as it was given; not if it has the digits of a conversion, which nobody types."""
@@ -118,7 +107,7 @@ def given_as(value: str, text: str) -> str:
     return value if given == value or digits > _DIGITS else f"{value}, given as {given}"
 
 
-class Html(Sheet):
+class Html(_Sheet):
     """One HTML file."""
 
     def title(self, text: str) -> None:
@@ -182,7 +171,7 @@ class Html(Sheet):
         return "\n".join(lines) + "\n"
 
 
-class Markdown(Sheet):
+class Markdown(_Sheet):
     """Markdown, whose figures are left to the HTML form."""
 
     def title(self, text: str) -> None:
@@ -214,6 +203,9 @@ class Markdown(Sheet):
 
     def whole(self, version: str) -> str:
         return "\n\n".join(self.blocks) + "\n"
+
+
+Sheet: TypeAlias = Html | Markdown
 
 
 def _escaped(text: str) -> str:
