@@ -35,7 +35,7 @@ from . import sections
 from .record import plain_options, record
 from .render import Html, Markdown, plain, visible
 from .sections import EVIDENCE
-from .uncertainty import Spread, single
+from .uncertainty import Spread, shares_of
 
 Form: TypeAlias = Literal["html", "markdown"]
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -327,7 +327,7 @@ def _figures(sheet: Html, impact: Any, spread: Spread, uncertainty: Propagation 
         if isinstance(output, Sampled):
             caption = f"{name}, in the cases drawn, given {output.given}."
             _draw(sheet, f"distribution-{number}", caption, plot.distribution, output, units=units, words=name)
-        if not isinstance(impact, Posterior) and not single(output):
+        if not isinstance(impact, Posterior) and len(shares_of(output)) != 1:
             caption = f"{name}, and the share of its variance that each input brings, by itself and in all."
             _draw(sheet, f"contributions-{number}", caption, plot.contributions, output, units=units, words=name)
     if not isinstance(impact, Impact) and sheet.blocks[-1] == before:

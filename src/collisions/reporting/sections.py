@@ -94,7 +94,8 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
             for what, number in speed_rows(vehicle):
-                text = plain(texts[what]) if number is None else _as_text(sheet, what, number, texts)
+                found = "" if number is None else sheet.number(number, "speed" if what == "speed" else "angle")
+                text = plain(texts[what]) if number is None else given_as(found, texts.get(what, found))
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
@@ -187,11 +188,6 @@ def speed_rows(vehicle: Vehicle) -> Iterator[tuple[str, float | None]]:
             yield name, value
         elif name in texts:
             yield name, None
-
-
-def _as_text(sheet: Sheet, name: str, value: float, texts: Mapping[str, str]) -> str:
-    number = sheet.number(value, "speed" if name == "speed" else "angle")
-    return given_as(number, texts.get(name, number))
 
 
 def _known(sheet: Sheet, impact: Impact, notes: Mapping[str, str]) -> list[tuple[str, str, str]]:
@@ -327,7 +323,9 @@ def assumptions(
         lines.append((f"Outline of {label.upper()}:", f"{outline}. {notes.get(f'outline_{label}', '')}".rstrip()))
     for code, value in read_limits(limits, ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
-            lines.append((f"Limit of {label_of(code)}:", f"{_amount(sheet, value, LIMITS[code].unit)}, set for this report."))
+            lines.append(
+                (f"Limit of {label_of(code)}:", f"{sheet.number(value, KIND_OF[LIMITS[code].unit])}, set for this report.")
+            )
     sheet.items(lines)
     if found is None:
         _pulse(sheet, impact)
@@ -381,26 +379,18 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
     yield "travel during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
-    lost = "the model has no answer with the"
-    moved = f"{lost} places and the normal of later in the contact, in which the bodies part as a rule"
-    for what, change, share, why in (
-        (f"delta-V from its own tyres, {own}", side.tyre_delta_v_bound, side.tyre_share_bound, ""),
-        (
-            "change of delta-V by the tyres of both vehicles",
-            side.tyre_delta_v,
-            side.tyre_share,
-            f"{lost} speeds that the tyres leave",
-        ),
-        (
-            "change of delta-V as positions and normal move during the contact",
-            side.geometry_delta_v,
-            side.geometry_share,
-            moved,
-        ),
+    own_tyres = f"delta-V from its own tyres, {own}", ""
+    both_tyres = "change of delta-V by the tyres of both vehicles", "speeds that the tyres leave"
+    later = "places and the normal of later in the contact, in which the bodies part as a rule"
+    moved = "change of delta-V as positions and normal move during the contact", later
+    for (what, other), change, share in (
+        (own_tyres, side.tyre_delta_v_bound, side.tyre_share_bound),
+        (both_tyres, side.tyre_delta_v, side.tyre_share),
+        (moved, side.geometry_delta_v, side.geometry_share),
     ):
         if change is not None and share is not None:
             part = "" if math.isnan(float(share)) else f" ({percent(float(share))})"
-            part = f": {why}" if math.isnan(float(change)) else part
+            part = f": the model has no answer with the {other}" if math.isnan(float(change)) else part
             yield what, sheet.system.answer(float(change), "speed") + part
 
 
@@ -463,7 +453,7 @@ def findings(sheet: Sheet, found: Findings) -> None:
         end = "" if sentence.endswith("?") else "."
         judged = ""
         if not is_note(finding):
-            measured, limit = (_amount(sheet, value, finding.unit) for value in (finding.measured, finding.limit))
+            measured, limit = (sheet.number(value, KIND_OF[finding.unit]) for value in (finding.measured, finding.limit))
             judged = f" Measured {measured}, limit {limit}. Basis of the limit: {_basis(finding)}."
         lines.append((f"{label_of(finding.code)}{of}:", f"{sentence}{end}{judged}"))
     sheet.items(lines)
@@ -497,8 +487,3 @@ def _basis(finding: Finding) -> str:
     return _PUBLISHED.sub(
         lambda found: f"{words.get(found[1]) or f'“{getattr(reference, found[1]).name}”'} (see References)", finding.source
     )
-
-
-def _amount(sheet: Sheet, value: float, unit: str) -> str:
-    """A number in an SI unit, in the units of the page."""
-    return sheet.number(value, KIND_OF[unit])

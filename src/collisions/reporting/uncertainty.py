@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import Any
 
 from ..derivation.evidence import momentum_inputs
@@ -120,21 +121,20 @@ def _stated(system: Numbers, value: Any, kind: str = "", number: float = math.na
     return typeset(str(value))
 
 
-def single(output: Output) -> bool:
-    """Whether all variance comes from one input, or from one group drawn together, whose share then says nothing."""
-    try:
-        return len(output.contributions) == 1
-    except InputError:
-        return False
+def shares_of(output: Output) -> dict[str, float]:
+    """The share of each input in the variance; empty where the method has none."""
+    with suppress(InputError):
+        return output.contributions
+    return {}
 
 
 def _shares(output: Output) -> list[tuple[str, str]]:
-    """Table rows with each input's share of the variance, by itself and in total."""
-    try:
-        shares = output.contributions
-    except InputError:
-        return []
-    if not varies(output) or len(shares) == 1:
+    """Table rows with each input's share of the variance, by itself and in total.
+
+    One share, of one input or of one group drawn together, says nothing.
+    """
+    shares = shares_of(output)
+    if not varies(output) or len(shares) < 2:
         return []
     whole, errors = output.total_contributions, output.contribution_standard_errors
     rows = [
