@@ -12,8 +12,7 @@ import numpy as np
 
 from .directions import direction
 from .errors import InputError, Status
-from .formatting import KIND_OF, bad_system, scale_of
-from .formatting import unit_of as system_unit
+from .formatting import KIND_OF
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
@@ -24,6 +23,7 @@ from .pulse import Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
+from .summary import Cells, cells
 from .units import Texts, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
@@ -210,9 +210,7 @@ def _vehicle(found: Mapping[str, Any], lost: bool) -> Vehicle:
 
 def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, list[Any]]:
     """One list per number, named by its path in the record; every list has one value per case."""
-    problem = None if units is None else bad_system(units)
-    if problem is not None:
-        raise problem
+    system = None if units is None else cells(units)
     found: dict[str, tuple[Any, str | None]] = {}
     for name, value in _results(impact):
         _add(found, name, value, unit_of(type(impact), name))
@@ -225,7 +223,7 @@ def to_columns(impact: Any, units: Any = None, wanted: Any = None) -> dict[str, 
                 _add(found, f"{label}.{moment}.{name}", getattr(vehicle, name), unit_of(Vehicle, name))
         for name, value in _results(side):
             _add(found, f"{label}.{name}", value, unit_of(Side, name))
-    return dict(_column(name, *found[name], units, np.shape(impact.status)) for name in _chosen(impact, found, wanted))
+    return dict(_column(name, *found[name], system, np.shape(impact.status)) for name in _chosen(impact, found, wanted))
 
 
 def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
@@ -251,14 +249,14 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
     return names
 
 
-def _column(name: str, value: Any, unit: str | None, units: Any, shape: tuple[int, ...]) -> tuple[str, list[Any]]:
+def _column(name: str, value: Any, unit: str | None, system: Cells | None, shape: tuple[int, ...]) -> tuple[str, list[Any]]:
     """A column with its name, in a system of units if one is given."""
     numbers = np.asarray(value)
-    if units is not None and unit:
+    if system is not None and unit:
         kind = KIND_OF.get(unit)
         with np.errstate(over="ignore"):
-            numbers = numbers if kind is None else numbers * scale_of(kind, units)
-        name = f"{name} [{unit if kind is None else system_unit(kind, units)}]"
+            numbers = numbers if kind is None else numbers * system.scale(kind)
+        name = f"{name} [{unit if kind is None else system.label(kind)}]"
     return name, np.broadcast_to(numbers, shape).reshape(-1).tolist()
 
 
@@ -313,7 +311,7 @@ def strict(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {name: strict(part) for name, part in value.items()}
     if isinstance(value, float) and not math.isfinite(value):
-        return "nan" if math.isnan(value) else "inf" if value > 0.0 else "-inf"
+        return str(value)
     return value
 
 

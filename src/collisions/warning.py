@@ -19,7 +19,12 @@ _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
 def warn(warning: CollisionsWarning) -> None:
     """Warn at the line of the first caller outside this package."""
-    warnings.warn(warning, stacklevel=callers_level())
+    level, package = 1, __name__.partition(".")[0]
+    frame: Any = sys._getframe()
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        frame = frame.f_back
+        level += 1
+    warnings.warn(warning, stacklevel=level)
 
 
 def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = "") -> None:
@@ -46,14 +51,3 @@ def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
     finally:
         _quiet.reset(token)
         _sampling.reset(sampled)
-
-
-def callers_level() -> int:
-    """The ``stacklevel`` of the first caller outside this package, where a warning belongs."""
-    level = 1
-    frame: Any = sys._getframe(1)
-    package = __name__.partition(".")[0]
-    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
-        frame = frame.f_back
-        level += 1
-    return level

@@ -74,11 +74,7 @@ def record(
 def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
     """The options with numbers as floats or the texts given; a value that cannot be read is kept, for the reader to refuse."""
     found = {name: value for name, value in given.items() if name in _UNITS}
-    for name, unit in _UNITS.items():
-        if unit is not None and isinstance(given[name], (tuple, list)):
-            found[name] = [_number(part, unit, name) for part in given[name]]
-        elif unit is not None and given[name] is not None:
-            found[name] = _number(given[name], unit, name)
+    found |= {name: _number(given[name], unit, name) for name, unit in _UNITS.items() if unit is not None}
     if isinstance(given["limits"], Mapping):
         found["limits"] = {
             code: _number(value, LIMITS[code].unit, code) if code in LIMITS else value
@@ -93,8 +89,10 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _number(value: Any, unit: str, name: str) -> Any:
-    """A number as a float, or as its text if that reads as the same number here."""
-    if isinstance(value, str):
+    """A number as a float, or as its text if that reads as the same number here; of several a list."""
+    if isinstance(value, (tuple, list)):
+        return [_number(part, unit, name) for part in value]
+    if value is None or isinstance(value, str):
         return value
     reader = ArgumentReader(trusted=(name,))
     read = reader.number(value, unit, name, UNCHECKED)
