@@ -13,6 +13,7 @@ from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
 from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, body_numbers, read_inputs
+from .kernels.contact_laws import BRACH
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
 from .kernels.status import Passed, Status
 from .quantities import lock
@@ -63,9 +64,8 @@ def read_contact_time(
         found["steps"] = int(found["steps"])
     found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
     found = _SIZES | found
-    inputs = read_inputs(
-        "time_resolved", a, b, restitution, normal, point, (friction, None, None), "brach", reader.problems, _numbers(found)
-    )
+    arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
+    inputs = read_inputs("time_resolved", arguments, reader.problems, _numbers(found))
     given = {**(inputs.given or {}), **reader.texts} or None
     return replace(inputs, given=given, **found)
 
@@ -95,10 +95,8 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
         text = f"give one of {_STIFFNESS}; got {' and '.join(kinds) or 'none'}. It says how long the contact takes"
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     for name, domains in DOMAINS.items():
-        if name not in extra:
-            continue
-        value = extra[name]
-        if value is None and name in STIFFNESSES:
+        value = extra.get(name)
+        if name not in extra or (value is None and name in STIFFNESSES):
             continue
         if name == "drag":
             found[name] = read_drag(reader, value, name)

@@ -53,12 +53,10 @@ def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterabl
     """
     if isinstance(value, tuple):
         if len(value) != 2:
-            reader.refuse(
-                ShapeError(f"{argument} must be an angle or a tuple (x, y), got {len(value)} components", code="bad_shape")
-            )
-            return math.nan, math.nan
+            text = f"{argument} must be an angle or a tuple (x, y), got {len(value)} components"
+            return reader.refuse(ShapeError(text, code="bad_shape")), math.nan
         count = len(reader.problems)
-        vx, vy = (reader.number(part, "", f"{argument}[{i}]") for i, part in enumerate(value))
+        vx, vy = reader.pair(value, "", argument)
         try:
             broadcast({f"{argument}[0]": vx, f"{argument}[1]": vy})
         except ShapeError as problem:
@@ -68,30 +66,20 @@ def direction(reader: ArgumentReader, value: Any, argument: str, beside: Iterabl
         vx, vy = widened((vx, vy), beside)
         return normalised(reader, vx, vy, argument)
     if isinstance(value, list):
-        reader.refuse(
-            ShapeError(
-                f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
-                f"np.array([...]) for angles",
-                code="bad_shape",
-                argument=argument,
-            )
+        text = (
+            f"{argument} is a list, which could be a vector or several angles: write the tuple (nx, ny) for a vector, "
+            f"np.array([...]) for angles"
         )
-        return math.nan, math.nan
+        return reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), math.nan
     return Angle(*reader.angle(value, argument)).beside(beside).direction
 
 
 def course(reader: ArgumentReader, value: Any, argument: str) -> Angle:
     """The angle of a course or a heading (number, text, Quantity or array); a vector is refused."""
     if isinstance(value, (tuple, list)):
-        reader.refuse(
-            ShapeError(
-                f"{argument} is a {type(value).__name__}, and a {argument.partition('_')[0]} is an angle; many angles go in a "
-                f"numpy array",
-                code="bad_shape",
-                argument=argument,
-            )
-        )
-        return Angle(math.nan, False)
+        kind = argument.partition("_")[0]
+        text = f"{argument} is a {type(value).__name__}, and a {kind} is an angle; many angles go in a numpy array"
+        return Angle(reader.refuse(ShapeError(text, code="bad_shape", argument=argument)), False)
     return Angle(*reader.angle(value, argument))
 
 
@@ -101,12 +89,8 @@ def normalised(reader: ArgumentReader, vx: Any, vy: Any, argument: str) -> tuple
         # Scaled first: the length of a vector of 1e308 would overflow, that of one of 5e-324 loses all its digits.
         scale = max(abs(vx), abs(vy))
         if scale == 0.0:
-            reader.refuse(
-                InputError(
-                    f"{argument} has no length: (0, 0); give the direction it points in", code="zero_normal", argument=argument
-                )
-            )
-            return math.nan, math.nan
+            text = f"{argument} has no length: (0, 0); give the direction it points in"
+            return reader.refuse(InputError(text, code="zero_normal", argument=argument)), math.nan
         length = math.hypot(vx, vy)
         if abs(length - 1.0) <= _UNIT_LENGTH:
             return vx, vy

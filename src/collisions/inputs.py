@@ -23,6 +23,8 @@ from .vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle
 
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
+# Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.
+Arguments: TypeAlias = tuple[Any, Any, Any, Any, Any, tuple[Any, ...], Any]
 
 _ALONG_X = (1.0, 0.0)
 _new = object.__new__
@@ -187,6 +189,12 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
     return whole
 
 
+def first_case(holds: Any) -> tuple[tuple[int, ...], str]:
+    """Index of the first case of a batch in which a condition holds, and how a message names it."""
+    index = tuple(int(i) for i in np.argwhere(holds)[0])
+    return index, f"case {index if len(index) != 1 else index[0]}"
+
+
 def index_of(index: Any, shape: tuple[int, ...] | None) -> tuple[int, ...]:
     """The index of one case of a batch, checked against its shape (None for a single impact, which has no cases)."""
     if shape is None:
@@ -253,13 +261,7 @@ def plain_inputs(
 
 def read_inputs(
     model: str,
-    a: Vehicle,
-    b: Vehicle,
-    restitution: Any,
-    normal: Any,
-    point: Any,
-    tangential: tuple[Any, ...],
-    law: Any,
+    arguments: Arguments,
     problems: Sequence[InputError] = (),
     beside: Iterable[Any] = (),
     incomplete: Any = False,
@@ -269,13 +271,14 @@ def read_inputs(
     """Validate the arguments of a solver.
 
     Missing inputs, and inputs that the model cannot represent, are refused; one error names all that cannot be used, with the
-    ``problems`` that were found before. ``tangential`` are the values of ``RULES``, of which one must be given. ``beside`` has
-    the numbers that are not among these arguments, with which the normal shares its precision.
+    ``problems`` that were found before. Of the values of ``RULES`` one must be given. ``beside`` has the numbers that are not
+    among these arguments, with which the normal shares its precision.
     """
     if not problems and incomplete is False and outside_a is outside_b is None:
-        plain = plain_inputs(model, a, b, restitution, normal, point, tangential, law)
+        plain = plain_inputs(model, *arguments)
         if plain is not None:
             return plain
+    a, b, restitution, normal, point, tangential, law = arguments
     reader = ArgumentReader()
     reader.problems.extend(problems)
     if model in PLACED:
@@ -334,17 +337,11 @@ def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Seq
     """One error for each input that a model with places needs and that was not given."""
     if point is not None and _is_complete(a) and _is_complete(b):
         return ()
-    found: list[InputError] = []
+    found = [missing(a if label == "a" else b, name, model, label) for label, name in lacking(a, b)]
     if point is None:
-        found.append(
-            MissingInputError(
-                f"point is None, and {model} needs it; give the scene point (x, y) at which the impulse acts",
-                code="missing_point",
-                argument="point",
-            )
-        )
-    bodies = {"a": a, "b": b}
-    return found + [missing(bodies[label], name, model, label) for label, name in lacking(a, b)]
+        text = f"point is None, and {model} needs it; give the scene point (x, y) at which the impulse acts"
+        found.insert(0, MissingInputError(text, code="missing_point", argument="point"))
+    return found
 
 
 def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .contact_time import timed
 from .formatting import Numbers
-from .inputs import Inputs, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
+from .inputs import Inputs, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
@@ -230,10 +230,7 @@ def part_of_choice(choice: ModelChoice, take: Any) -> ModelChoice:
 
 def refuse_incomplete(inputs: Inputs, lacks: Any) -> None:
     """Raise for all missing inputs, in a batch for the first case that needs them."""
-    place = ""
-    if isinstance(lacks, np.ndarray):
-        at = tuple(int(i) for i in np.unravel_index(int(np.argmax(lacks)), lacks.shape))
-        place = f"case {at if len(at) != 1 else at[0]}: "
+    place = f"{first_case(lacks)[1]}: " if isinstance(lacks, np.ndarray) else ""
     reader = ArgumentReader()
     for error in missing_numbers(inputs.a, inputs.b, inputs.point):
         reader.problems.append(type(error)(place + str(error), code=error.code, **error.fields))

@@ -12,7 +12,7 @@ import numpy as np
 
 from .contact_time import DOMAINS, read_contact_time, read_least_time, solve_case_in_time
 from .errors import InputError
-from .inputs import OUTSIDE, Inputs, body_numbers, read_inputs
+from .inputs import OUTSIDE, Arguments, Inputs, body_numbers, first_case, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
@@ -147,32 +147,18 @@ def in_form(model: Model, inputs: Inputs) -> Model:
     return model if inputs.outside_a is None else _WITH_OUTSIDE
 
 
-def read(
-    model: str,
-    a: Any,
-    b: Any,
-    restitution: Any,
-    normal: Any,
-    point: Any,
-    tangential: tuple[Any, ...],
-    law: Any,
-    tolerance: Any = None,
-    duration: Any = None,
-    drag: Any = None,
-    **more: Any,
-) -> Inputs:
-    """Read a solver's arguments, for ``solve`` with tolerance, duration and drag; see ``read_inputs``."""
+def read_for_solve(arguments: Arguments, tolerance: Any, duration: Any, drag: Any, **more: Any) -> Inputs:
+    """Read the arguments of ``solve``."""
     reader = ArgumentReader()
     times = {} if duration is None and drag is None else read_least_time(reader, duration, drag)
-    if model == "solve" and not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
+    if not (type(tolerance) is float and 0.0 <= tolerance < math.inf):
         tolerance = _read_tolerance(reader, tolerance)
-    inputs = read_inputs(model, a, b, restitution, normal, point, tangential, law, reader.problems, **more)
-    if model == "solve":
-        # Nobody else has these inputs yet.
-        vars(inputs)["tolerance"] = tolerance
-        if times:
-            texts = {name: text for name, text in reader.texts.items() if name in times}
-            inputs = replace(inputs, given={**(inputs.given or {}), **texts} or None, **times)
+    inputs = read_inputs("solve", arguments, reader.problems, **more)
+    # Nobody else has these inputs yet.
+    vars(inputs)["tolerance"] = tolerance
+    if times:
+        texts = {name: text for name, text in reader.texts.items() if name in times}
+        inputs = replace(inputs, given={**(inputs.given or {}), **texts} or None, **times)
     return inputs
 
 
@@ -185,15 +171,17 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     e = inputs.restitution
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
-    times = inputs.duration, inputs.drag
     more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
             again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
             return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-        given: Any = tangential, BRACH if inputs.law is None else inputs.law, inputs.tolerance, *times
-        again = read(inputs.model, inputs.a, inputs.b, *contact, *given, **more)
+        arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
+        if inputs.model == "solve":
+            again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, **more)
+        else:
+            again = read_inputs(inputs.model, arguments, **more)
     return replace(
         again,
         restitution=e if unknown else again.restitution,
@@ -206,9 +194,9 @@ def _read_tolerance(reader: ArgumentReader, tolerance: Any) -> Any:
     """The tolerance of ``solve``; for an array, the error names the first element that a single call would refuse."""
     limit = amount(reader, tolerance, "m/s", "tolerance")
     if isinstance(limit, np.ndarray) and limit.size and not (limit.min() >= 0.0 and limit.max() < math.inf):
-        at = tuple(int(i) for i in np.argwhere(~np.isfinite(limit) | (limit < 0.0))[0])
-        value, place = float(limit[at]), at[0] if len(at) == 1 else at
+        at, place = first_case(~np.isfinite(limit) | (limit < 0.0))
+        value = float(limit[at])
         code = "negative_speed" if math.isfinite(value) else "not_finite"
-        text = f"tolerance must be finite and >= 0 in every case, got {value:g} in case {place}; 0 asks for the full model"
+        text = f"tolerance must be finite and >= 0 in every case, got {value:g} in {place}; 0 asks for the full model"
         reader.refuse(InputError(text, code=code, argument="tolerance"))
     return limit

@@ -10,7 +10,7 @@ from .hints import hinted, no_argument, open_to_hints
 from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, plain_inputs, read_inputs
 from .kernels.contact_laws import FRICTION
-from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read
+from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read_for_solve
 from .progress import Progress
 from .quantities import in_units_of
 from .solving import solve_inputs
@@ -465,9 +465,9 @@ def required_model(
     >>> choice.model, round(choice.errors["linear_central"], 2)
     ('eccentric', 2.14)
     """
-    tangential = friction, impulse_ratio, critical_fraction
+    arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
     from .model_choice import choose
 
     return in_units_of(choose(inputs)[0], inputs.texts)
@@ -536,9 +536,9 @@ def solve(
     """
     if unknown:
         raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
-    tangential = friction, impulse_ratio, critical_fraction
+    arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read("solve", a, b, restitution, normal, point, tangential, law, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
     return solved(inputs, on_failure, threads, progress)
 
 
@@ -564,6 +564,6 @@ def _solve(
             answer = float_function(model, FRICTION, law, a.pivot is not None, b.pivot is not None, False)(inputs.__dict__)
             if answer is not None:
                 return build(inputs, answer)
-    more = incomplete, *(outside or (None, None))
-    inputs = read_inputs(model.name, a, b, restitution, normal, point, tangential, law, (), (), *more)
+    arguments = a, b, restitution, normal, point, tangential, law
+    inputs = read_inputs(model.name, arguments, (), (), incomplete, *(outside or (None, None)))
     return build(inputs, solve_inputs(in_form(model, inputs), inputs, on_failure, threads, progress))

@@ -12,7 +12,7 @@ import numpy as np
 from .contact_time import DOMAINS as TIME_DOMAINS
 from .contact_time import solve_case_in_time, solve_cases_in_time
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
-from .inputs import Inputs, named_numbers, part_of_inputs
+from .inputs import Inputs, first_case, named_numbers, part_of_inputs
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import (
     FINITE,
@@ -177,12 +177,6 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
         _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
 
 
-def first_refused(status: Any) -> tuple[tuple[int, ...], str]:
-    """Index of the first refused case of a batch, and its wording in a message."""
-    index = tuple(int(i) for i in np.argwhere(status > Status.ENERGY_GAIN)[0])
-    return index, f"case {index if len(index) != 1 else index[0]}: "
-
-
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
     """One warning that counts the refused cases of a batch by their kind."""
     refused = int(np.count_nonzero(status > Status.ENERGY_GAIN))
@@ -233,7 +227,7 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
 
 def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:
     """The error of the first refused case, found by solving it by itself."""
-    index, place = first_refused(status)
+    index, place = first_case(status > Status.ENERGY_GAIN)
 
     def take(value: Any) -> Any:
         return np.broadcast_to(value, status.shape)[index].item()
@@ -242,9 +236,9 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
         case = read_again(part_of_inputs(inputs, take))
         solve_inputs(model_of(case), case) if one is None else one(take)
     except CollisionsError as error:
-        return type(error)(place + str(error), code=error.code, **error.fields)
+        return type(error)(f"{place}: {error}", code=error.code, **error.fields)
     outcome = Status(status[index])
-    return InputError(place + outcome.sentence, code=outcome.label)
+    return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
 
 def _warn_of_gain(what: str, gain: float) -> None:

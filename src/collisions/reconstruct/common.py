@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import CollisionsError, InputError, Status
 from ..impact import Impact, answer_of, found_by, solved
-from ..inputs import Inputs, body_numbers
+from ..inputs import Inputs, body_numbers, first_case
 from ..kernels.batch import precision
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
@@ -19,7 +19,7 @@ from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
 from ..provenance import Reconstruction, origin_where_answered
 from ..quantities import lock
 from ..reading import ArgumentReader, amount, broadcast
-from ..solving import check_options, error_of, first_refused, warn_of_refusals
+from ..solving import check_options, error_of, warn_of_refusals
 from ..units import Texts
 from ..vehicle import Vehicle
 from ..warning import quietly
@@ -237,7 +237,7 @@ def raise_or_warn(status: Any, on_failure: Any, error: Callable[[tuple[int, ...]
     if not isinstance(status, np.ndarray):
         raise error(())
     if on_failure == "raise":
-        index, place = first_refused(status)
+        index, place = first_case(status > Status.ENERGY_GAIN)
         problem = error(index)
-        raise type(problem)(place + str(problem), code=problem.code, **problem.fields)
+        raise type(problem)(f"{place}: {problem}", code=problem.code, **problem.fields)
     warn_of_refusals(status)

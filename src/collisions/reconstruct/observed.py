@@ -210,7 +210,7 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     """The contact before and after, from the forward kernel, and the faults of the cases."""
     wrong = [not_a_vehicle(label, body) for label, body in bodies.items() if not isinstance(body, Vehicle)]
     motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body).values())
-    read = read_inputs("solve", _ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH, wrong, motions)
+    read = read_inputs("solve", (_ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH), wrong, motions)
     contact = read.point
     used = {label: _numbers_at(body, contact, label, purpose) for label, body in bodies.items()}
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in numbers_of(body).items()}

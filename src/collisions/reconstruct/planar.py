@@ -151,19 +151,9 @@ def planar(
                 argument="regime",
             )
         )
-    inputs = read_inputs(
-        "eccentric",
-        a_after,
-        b_after,
-        given.get("restitution", 0.0),
-        normal,
-        point,
-        (friction, impulse_ratio, critical_fraction),
-        law,
-        reader.problems,
-        amounts.values(),
-        incomplete,
-    )
+    e = given.get("restitution", 0.0)
+    arguments = a_after, b_after, e, normal, point, (friction, impulse_ratio, critical_fraction), law
+    inputs = read_inputs("eccentric", arguments, reader.problems, amounts.values(), incomplete)
     if inputs.law not in (BRACH, KUDLICH_SLIBAR):
         raise InputError(
             f"reconstruct.planar cannot go back under law {inputs.law!r}; give {BRACH!r} or {KUDLICH_SLIBAR!r}, or fit a model "

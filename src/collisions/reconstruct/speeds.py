@@ -186,19 +186,10 @@ def speeds(
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
     }
-    inputs = read_inputs(
-        "eccentric",
-        a,
-        b,
-        0.0 if callable(restitution) else restitution,
-        normal,
-        point,
-        (friction, impulse_ratio, critical_fraction),
-        law,
-        reader.problems,
-        (*known.values(), *(angle.value for angle in courses.values())),
-        incomplete,
-    )
+    e = 0.0 if callable(restitution) else restitution
+    arguments = a, b, e, normal, point, (friction, impulse_ratio, critical_fraction), law
+    beside = (*known.values(), *(angle.value for angle in courses.values()))
+    inputs = read_inputs("eccentric", arguments, reader.problems, beside, incomplete)
     numbers = {**known, "restitution": inputs.restitution, **numbers_by_name(inputs, without=("vx", "vy"))}
     # Both courses are widened to the precision of all other inputs.
     beside = (*numbers.values(), *(angle.value for angle in courses.values()))
