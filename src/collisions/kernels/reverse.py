@@ -173,16 +173,6 @@ def unknown_speed(terms: Iterable[Term], impulse: tuple[Any, Any] | None, wanted
     return np.divide(-wanted.sign * total, wanted.course.to(other.course)[1])
 
 
-def change_of_speed(cross: Any, wanted: Term, other: Term) -> Any:
-    """Change of the wanted speed for a change ``cross`` of the balance crossed with the other unknown's course."""
-    return np.divide(-wanted.sign * cross, wanted.mass * wanted.course.to(other.course)[1])
-
-
-def course_change(term: Term, speed: Any, other: Term) -> Any:
-    """Change of the balance by radian of a term's course, crossed with the other unknown's course."""
-    return -term.sign * term.mass * (speed * term.course.to(other.course)[0])
-
-
 def parabola_roots(samples: Sequence[Any], step: Any) -> tuple[Any, Any]:
     """Roots of the parabola through three points a step apart, the middle one at 0, rising; NaN where there are none."""
     behind, middle, ahead = samples

@@ -21,7 +21,7 @@ from ..errors import (
 )
 from ..hints import hinted
 from ..inputs import OnFailure
-from ..kernels.reverse import Term, change_of_speed, course_change, unknown_speed
+from ..kernels.reverse import Term, unknown_speed
 from ..kernels.status import EPS, Status
 from ..quantities import hypot, in_units_of, show
 from ..reading import ArgumentReader, amount
@@ -338,20 +338,23 @@ def _sensitivity(known: _Known, speeds: dict[str, Any], unknown: list[tuple[str,
     found = Sensitivity()
     moving = {name: term for name, term in known.terms.items() if term.course is not None}
     for (name, wanted), (_, other) in (unknown, unknown[::-1]):
-        sine = {label: term.course.to(other.course)[1] for label, term in moving.items()}
+        # Cosine and sine from each course to that of the other unknown, with which the balance is crossed.
+        turns = {label: term.course.to(other.course) for label, term in moving.items()}
         row: dict[str, Any] = {}
         for side in "ab":
             # Vehicles that leave together have one term.
             own = [label for label in moving if side == label[6] or (label == "speed_a_after" and len(known.terms) == 3)]
-            row[f"mass_{side}"] = sum(moving[label].sign * (speeds[label] * sine[label]) for label in own)
+            row[f"mass_{side}"] = sum(moving[label].sign * (speeds[label] * turns[label][1]) for label in own)
         for label, term in moving.items():
+            cosine, sine = turns[label]
             if term.speed is not None:
-                row[label] = term.sign * term.mass * sine[label]
-            row[label.replace("speed", "course")] = course_change(term, speeds[label], other)
+                row[label] = term.sign * term.mass * sine
+            row[label.replace("speed", "course")] = -term.sign * term.mass * (speeds[label] * cosine)
         if known.impulse is not None:
             c, s = other.course.direction
             row["outside_impulse_x"], row["outside_impulse_y"] = s, -c
-        found[name] = {label: known.cases.where(sure, change_of_speed(cross, wanted, other)) for label, cross in row.items()}
+        across = wanted.mass * turns[name][1]
+        found[name] = {label: known.cases.where(sure, np.divide(-wanted.sign * cross, across)) for label, cross in row.items()}
     return found
 
 
