@@ -240,8 +240,7 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
             if value is not None:
                 whole[name].reshape(-1)[block] = value
     there = {name: value for name, value in whole.items() if value is not None}
-    settled = settle(list(there.values()), {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)])
-    return _assembled(whole | dict(zip(there, settled, strict=True)), texts)
+    return _assembled(whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]), texts)
 
 
 def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:

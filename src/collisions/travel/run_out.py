@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, Any
@@ -241,20 +241,21 @@ def path(
     run_out = partial(_run_out, frictions=frictions, locks=locks, grades=grades, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [in_radians(angle._replace(value=value)) for angle, value in zip(headed, values, strict=True)]
-        run, gaps = run_out(points, turned, kind=kind)
+        found, gaps = run_out(points, turned, kind=kind)
         if errors:
             (place,), (turn,) = lists[-2:]
-            run = replace(run, **_errors(run_out, points, turned, place, turn, shape or (), kind))
-        answered = run.time + run.distance + run.yaw_rate
+            found |= _errors(run_out, points, turned, place, turn, shape or (), kind)
+        answered = found["time"] + found["distance"] + found["yaw_rate"]
         if shape is not None:
             checks = [("coincident_points", np.equal(x0, x1) & np.equal(y0, y1)) for (x0, y0), (x1, y1) in pairwise(points)]
             checks += [("turns_too_far", abs(after - before) > HALF_TURN) for before, after in pairwise(turned)]
             checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
-            run = _settled(run, named, shape, checks)
+            found = write_locked(settle(found, named, shape, checks))
         elif not (min(gaps) > 0.0 and math.isfinite(answered)):
             raise out_of_range()
+    run = RunOut(**found)
     _warn_of_wide_segments(turned, locks)
     _warn_of_fast_yaw(run)
     return in_units_of(run, texts_of(surveyed))
@@ -269,8 +270,8 @@ def _run_out(
     end: Any,
     window: Any,
     kind: Any,
-) -> tuple[RunOut, list[Any]]:
-    """The run-out from plain numbers, one case or many, and the duration of each segment."""
+) -> tuple[dict[str, Any], list[Any]]:
+    """The fields of the run-out from plain numbers, one case or many, and the duration of each segment."""
     surveyed = *map(list, zip(*points, strict=True)), list(headings)
     (xs, ys, turned), (at, weights) = smooth(surveyed, window, kind)
     places = list(zip(xs, ys, strict=True))
@@ -286,18 +287,18 @@ def _run_out(
     ]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
     durations = durations_along(lengths, grades, speeds)
-    run = RunOut(
-        speed=speeds[0],
-        course=angle_of(*slopes(surveyed[:2], at, weights, kind)),
-        yaw_rate=slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[0],
-        time=sum(durations),
-        distance=sum(lengths),
-        straight_course=angle_of(points[-1][0] - points[0][0], points[-1][1] - points[0][1]),
-        speeds=tuple(speeds),
-        crab_angles=tuple(crabs),
-        drags=tuple(drags),
-    )
-    return run, durations
+    found = {
+        "speed": speeds[0],
+        "course": angle_of(*slopes(surveyed[:2], at, weights, kind)),
+        "yaw_rate": slopes(surveyed[2:], list(accumulate(durations, initial=0.0)), weights, kind)[0],
+        "time": sum(durations),
+        "distance": sum(lengths),
+        "straight_course": angle_of(points[-1][0] - points[0][0], points[-1][1] - points[0][1]),
+        "speeds": tuple(speeds),
+        "crab_angles": tuple(crabs),
+        "drags": tuple(drags),
+    }
+    return found, durations
 
 
 def _errors(
@@ -314,22 +315,13 @@ def _errors(
             for first, error in enumerate((place, place, heading))
         )
         places = [(px + dx, py + dy) for (px, py), dx, dy in zip(points, x, y, strict=True)]
-        run, _ = run_out(places, [angle + change for angle, change in zip(turned, turn, strict=True)], kind=np.float64)
+        found, _ = run_out(places, [angle + change for angle, change in zip(turned, turn, strict=True)], kind=np.float64)
         for name, square in squares.items():
-            found = getattr(run, name)
-            change = found[0::2] - found[1::2]
+            change = found[name][0::2] - found[name][1::2]
             change = _wrapped(change) if name == "course" else change
             squares[name] = square + np.sum(np.square(0.5 * change), axis=0)
     errors = {f"{name}_error": np.where(np.isnan(square), np.inf, np.sqrt(square)) for name, square in squares.items()}
     return {name: float(error) if kind is None else error.astype(kind) for name, error in errors.items()}
-
-
-def _settled(run: RunOut, named: dict[str, Any], shape: tuple[int, ...], checks: Sequence[tuple[str, Any]]) -> RunOut:
-    """The results of a batch as locked arrays of its shape; NaN where a case has none."""
-    of_run = {f.name: value for f in fields(run) if (value := getattr(run, f.name)) is not None}
-    settled = settle(list(of_run.values()), named, shape, checks)
-    copied: list[Any] = [tuple(map(np.array, part)) if isinstance(part, tuple) else np.array(part) for part in settled]
-    return RunOut(**write_locked(dict(zip(of_run, copied, strict=True))))
 
 
 def _wrapped(angle: Any) -> Any:

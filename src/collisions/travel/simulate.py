@@ -220,7 +220,7 @@ def simulate(
         checks += [("out_of_range", ~np.isfinite(time)), ("never_stops", time >= limits), ("no_convergence", speed > 0.0)]
         finite = {name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")}
         # 0, or NaN where a case is refused.
-        still = write_locked(settle([np.zeros(shape)], finite, shape, checks)[0].astype(precision(named.values())))
+        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(precision(named.values())))
         found = (way.reshape(len(way), moments, *shape) + still).astype(still.dtype)
     time, x, y, heading, *tracks = write_locked(tuple(found))
     end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}

@@ -244,4 +244,4 @@ def _answer(found: Any, named: dict[str, Any], shape: tuple[int, ...] | None) ->
         if not math.isfinite(found):
             raise out_of_range()
         return found
-    return settle([found], named, shape, [("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))])[0]
+    return settle(found, named, shape, [("out_of_range", np.isinf(found)), ("contradictory", np.isnan(found))])

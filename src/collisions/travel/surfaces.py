@@ -154,10 +154,8 @@ def out_of_range() -> InputError:
     )
 
 
-def settle(
-    found: Sequence[Any], named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]
-) -> list[Any]:
-    """The answers of a batch, some in tuples, NaN where an argument is refused or a check holds; one warning counts why."""
+def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]) -> Any:
+    """A batch, or a dict or tuple of some, NaN where an argument is refused or a check holds; one warning counts why."""
     reasons = [("not_finite", ~np.isfinite(value)) for value in named.values()]
     for name, value in named.items():
         code = _BELOW_ZERO.get(name.partition("[")[0])
@@ -183,8 +181,10 @@ def settle(
         )
 
     def settled(answer: Any) -> Any:
+        if isinstance(answer, dict):
+            return {name: settled(part) for name, part in answer.items()}
         if isinstance(answer, tuple):
             return tuple(map(settled, answer))
         return select(answered, answer, np.nan) if counts else np.broadcast_to(answer, shape)
 
-    return list(map(settled, found))
+    return settled(found)
