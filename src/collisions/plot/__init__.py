@@ -5,13 +5,12 @@ on the ``axes`` given, or on a new figure, and returns the Axes. ``units`` is "s
 (mph, ft, degrees, lbf·s, ft·lbf). What was drawn can be found again by its ``get_gid()``, which is also its id in an SVG file.
 """
 
+from .contact import force_time, pulse
 from .energy import energy
 from .evidence import corner, residuals
-from .force_time import force_time
 from .impulse_plane import impulse_plane
 from .momentum import momentum
 from .path import path
-from .pulse import pulse
 from .scene import scene
 from .uncertainty import contributions, distribution
 

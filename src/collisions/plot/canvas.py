@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..errors import InputError, MissingInputError
 from ..formatting import KIND_OF, SI_UNITS, decimals_of, in_words, number_with_unit, places, typeset, with_decimals
@@ -15,7 +15,12 @@ from ..units import shown
 from ..vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    import matplotlib.axes
+    import matplotlib.figure
+
+# Types of matplotlib by name, as it is imported when something is drawn.
+Axes: TypeAlias = "matplotlib.axes.Axes"
+Figure: TypeAlias = "matplotlib.figure.Figure"
 
 INK, GREY, LIGHT = "#1a1a1a", "#6a6a6a", "#d0d0d0"
 SIDES = ("a", "b")
@@ -76,8 +81,8 @@ def number(value: float, decimals: int = _MOST_DECIMALS) -> str:
     return text.replace("-", MINUS)
 
 
-def check_impact(impact: Impact, function: str) -> None:
-    """Raise unless it is a single solved impact with numbers that can be drawn."""
+def check_impact(impact: Impact, function: str, impulse: bool = False) -> None:
+    """Raise unless it is a single solved impact with numbers that can be drawn, and an impulse where one is needed."""
     spread = ", or draw a spread with plot.distribution(propagate(...)['...'])"
     need_one_case(impact, (Impact,), f"plot.{function}", many=spread)
     for side in (impact.a, impact.b):
@@ -88,11 +93,7 @@ def check_impact(impact: Impact, function: str) -> None:
     check_size("energy_loss", impact.energy_loss)
     for name in ("closing_speed", "normal_impulse"):
         check_size(name, getattr(impact, name), least=SMALLEST)
-
-
-def only_of_an_impulse(impact: Impact, function: str) -> None:
-    """Raise for an impact that was followed in time."""
-    if impact.pulse is not None:
+    if impulse and impact.pulse is not None:
         raise InputError(
             f"impact was followed in time, and {function} draws an impulse; write plot.pulse(impact)",
             code="takes_time",
@@ -133,8 +134,8 @@ def in_lines(text: str, width: int = _WIDTH, most: int = 3) -> str:
 def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
     """The given Axes, or new ones in a new figure."""
     try:
+        import matplotlib.axes
         import matplotlib.pyplot as plt
-        from matplotlib.axes import Axes
     except ImportError as error:
         raise MissingInputError(
             f"collisions.plot needs matplotlib, which cannot be imported ({error}); write: python -m pip install matplotlib",
@@ -144,7 +145,7 @@ def begin(axes: Any, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
     if axes is None:
         made: Axes = plt.subplots(figsize=size, layout="constrained")[1]
         return made
-    if not isinstance(axes, Axes) or axes.name != "rectilinear":
+    if not isinstance(axes, matplotlib.axes.Axes) or axes.name != "rectilinear":
         raise InputError(
             f"axes must be one Axes with x and y, got {shown(axes)} of type {type(axes).__name__}; write "
             f"figure, axes = matplotlib.pyplot.subplots() and give axes",

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .canvas import INK
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .canvas import INK, Axes
 
 Place = tuple[float, float]
 

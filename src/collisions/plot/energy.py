@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
 from ..vehicle import Vehicle
-from .canvas import COLOURS, FORCE, GREY, INK, Units, begin, check_impact, number, tidy, who
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .canvas import COLOURS, FORCE, GREY, INK, Axes, Units, begin, check_impact, number, tidy, who
 
 
 @hinted

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,11 +13,7 @@ from ..hints import hinted
 from ..reconstruct import Fit, Posterior
 from ..uncertainty import Normal
 from ..units import shown
-from .canvas import BARS, FORCE, GREY, INK, LIGHT, SMALLEST, Units, begin, check_size, in_lines, tidy
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from .canvas import BARS, FORCE, GREY, INK, LIGHT, SMALLEST, Axes, Figure, Units, begin, check_size, in_lines, tidy
 
 _SHARES = (0.5, 0.95)  # of the samples within the two lines
 _BINS = 28

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,22 +15,20 @@ from ..kernels.contact_laws import BRACH, IMPULSE_RATIO, LAWS
 from ..kernels.status import EPS
 from ..model_choice import until_compressed
 from ..warning import quietly
-from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Units, begin, check_impact, legend_below, only_of_an_impulse, tidy
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .canvas import FORCE, GREY, INK, LARGEST, LIGHT, Axes, Units, begin, check_impact, legend_below, tidy
 
 # A no-slip impulse further out than this many times the impulse would leave nothing to see of the rest.
 _FAR = 4.0
 _NO_YIELD = 64.0 * EPS  # relative: a coefficient this small is the rounding of differences of speeds
-# Where on the solid line the impulse ends, by regime.
-_ENDS = {
-    "frictionless": "on the axis: there is no friction",
-    "sliding": "on the cone: the contact slides",
-    "sticking": "where slip ends: the contact sticks",
-    "reversing": "within the cone: the slip turns around",
-    "given": "at the impulse ratio given",
+# By regime: the impulse in the legend, and where on the solid line it ends.
+_REGIMES = {
+    "frictionless": ("frictionless", "on the axis: there is no friction"),
+    "sliding": ("sliding", "on the cone: the contact slides"),
+    "sticking": ("sticking", "where slip ends: the contact sticks"),
+    "reversing": ("reversing", "within the cone: the slip turns around"),
+    "given": ("ratio given", "at the impulse ratio given"),
 }
+_NO_REGIME = "no tangential one in this model", "on the axis: there is no tangential impulse in this model"
 
 
 @hinted
@@ -77,8 +75,7 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     'tangential impulse Pt on B [kN·s]'
     """
     labels = Units(units, impact)
-    check_impact(impact, "impulse_plane")
-    only_of_an_impulse(impact, "impulse_plane")
+    check_impact(impact, "impulse_plane", impulse=True)
     axes = begin(axes, (7.5, 6.0))
     factor = labels.factor("N*s")
     normal, tangential = impact.normal_impulse * factor, impact.tangential_impulse * factor
@@ -142,14 +139,13 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     point: Any = {"ms": 8, "mec": FORCE, "ls": "none"}
     text = "impulse at the end of compression" if impact.complete else "impulse at the end"
     axes.plot(*compressed, "o", mfc="white", mew=1.8, zorder=7, gid="at compression", label=text, **point)
-    text = f"impulse: {_regime(impact)}"
-    axes.plot(normal, tangential, "o", mfc=FORCE, zorder=8, gid="answer", label=text, **point)
+    kind, place = _NO_REGIME if plain else _REGIMES[impact.regime]
+    axes.plot(normal, tangential, "o", mfc=FORCE, zorder=8, gid="answer", label=f"impulse: {kind}", **point)
 
     axes.axhline(0.0, color=INK, lw=0.7, zorder=1)
     axes.set(xlim=(0.0, right), ylim=(low, high))
-    how = f",\nhere {'on the axis: there is no tangential impulse in this model' if plain else _ENDS[impact.regime]}."
-    if shows_no_slip and cone:
-        how = ":\nat the diamond if the contact sticks, on the cone if it slides."
+    either = ":\nat the diamond if the contact sticks, on the cone if it slides."
+    how = either if shows_no_slip and cone else f",\nhere {place}."
     axes.set_xlabel(f"{labels.label('normal impulse Pn on B', 'N*s')}\nThe impulse ends on the solid line{how}")
     axes.set_ylabel(labels.label("tangential impulse Pt on B", "N*s"))
     pair = f"Pn = {labels.text(impact.normal_impulse, 'N*s')}, Pt = {labels.text(impact.tangential_impulse, 'N*s')}"
@@ -159,12 +155,6 @@ def impulse_plane(impact: Impact, *, axes: Axes | None = None, units: UnitSystem
     tidy(axes)
     legend_below(axes)
     return axes
-
-
-def _regime(impact: Impact) -> str:
-    if impact.model == "linear_central":
-        return "no tangential one in this model"
-    return {"given": "ratio given"}.get(impact.regime, str(impact.regime))
 
 
 def _draw_friction(axes: Axes, impact: Impact, right: float) -> bool:

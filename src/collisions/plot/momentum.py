@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import InputError
 from ..formatting import UnitSystem
 from ..hints import hinted
 from ..impact import Impact
 from ..vehicle import Vehicle
-from .canvas import COLOURS, FORCE, GREY, GRID, INK, SIDES, Units, begin, check_impact, in_lines, legend_below, tidy, who
+from .canvas import COLOURS, FORCE, GREY, GRID, INK, SIDES, Axes, Units, begin, check_impact, in_lines, legend_below, tidy, who
 from .drawing import ALONG_ONE_LINE, Drawing, Place, beside, covers, cross
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 # Gap between momenta side by side, as a share of the longest: where all are, or where only some would hide each other.
 _SIDE_BY_SIDE, _APART = 0.11, 0.04

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,12 +13,9 @@ from ..hints import hinted
 from ..travel import SimulatedPath
 from ..units import shown
 from ..vehicle import Vehicle
-from .canvas import COLOURS, INK, Units, begin, tidy, who
+from .canvas import COLOURS, INK, Axes, Units, begin, tidy, who
 from .drawing import Place, beside
 from .scene import Picture, corners_of, size_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _BETWEEN = 3  # outlines on the way, at equal parts of it
 _ROOM = 2.0  # m, shown about a vehicle at rest

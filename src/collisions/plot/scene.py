@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,11 +15,8 @@ from ..outlines import placed, read_outline
 from ..reading import ArgumentReader
 from ..units import shown
 from ..vehicle import Vehicle, missing
-from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Units, begin, check_impact, tidy, who
+from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Axes, Units, begin, check_impact, tidy, who
 from .drawing import APART, Arrows, Drawing, Place, beside
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
 _TITLES = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +12,7 @@ from ..hints import hinted
 from ..uncertainty.intervals import Bounds
 from ..uncertainty.result import COVERAGE, Output, Propagation
 from ..units import shown
-from .canvas import BARS, FORCE, GREY, INK, LIGHT, MINUS, Units, begin, check_size, drawable, in_lines, legend_below, tidy
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .canvas import BARS, FORCE, GREY, INK, LIGHT, MINUS, Axes, Units, begin, check_size, drawable, in_lines, legend_below, tidy
 
 _ASIDE = 0.24  # of a row: error bars, diamonds and figures from its middle
 
