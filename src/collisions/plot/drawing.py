@@ -43,17 +43,21 @@ class _Spot(NamedTuple):
 
 
 class Drawing:
-    """The drawing on one Axes in data coordinates; labels go where there is room when it is rendered, at its size then."""
+    """The drawing on one Axes in data coordinates; labels go where there is room when it is rendered, at its size then.
 
-    def __init__(self, axes: Axes) -> None:
-        self.axes = axes
+    ``size`` is that of the whole scene, by which distances of arrows are judged.
+    """
+
+    def __init__(self, axes: Axes, size: float = 0.0) -> None:
+        self.axes, self.size = axes, size
+        self.moved = False
         self._labels: list[_Label] = []
-        self._arrows: list[tuple[Place, Place, float]] = []
+        self.arrows: list[tuple[Place, Place, float]] = []
         self._seen: list[Place] = []
         self._areas: dict[int, list[Place]] = {}
         self._found: tuple[Any, list[Place]] = (None, [])
 
-    def arrow(self, tail: Place, tip: Place, gid: str, *, colour: str = INK, width: float = 1.8, style: Any = "-") -> None:
+    def arrow(self, tail: Place, tip: Place, gid: str, *, colour: str, width: float, style: Any = "-") -> None:
         """An arrow whose ends are exactly these; none without a length."""
         self.include(tail, tip)
         if tail == tip:
@@ -75,7 +79,31 @@ class Drawing:
             zorder=4,
         )
         made.set_gid(gid)
-        self._arrows.append((tail, tip, width))
+        self.arrows.append((tail, tip, width))
+
+    def covers(self, start: Place, vector: Place) -> bool:
+        """Whether a new arrow would lie on one that was drawn."""
+        return any(covers(start, vector, tail, beside(tip, tail, -1.0), self.size) for tail, tip, _ in self.arrows)
+
+    def hides(self, start: Place, vector: Place) -> bool:
+        """Whether a new arrow would lie on one that was drawn, or one of the two beneath the other."""
+        return self.covers(start, vector) or any(
+            _buries((start, beside(start, vector)), (tail, tip), _WIDE * self.size) for tail, tip, _ in self.arrows
+        )
+
+    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
+        """The new arrows, start and vector, all moved as far down, or to the right, as it takes to hide none."""
+        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
+        length = math.hypot(vx, vy)
+        if length == 0.0:
+            return arrows
+        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
+        found, steps = arrows, 0
+        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
+            steps += 1
+            found = [(beside(start, aside, steps * APART * self.size), vector) for start, vector in arrows]
+        self.moved = self.moved or steps > 0
+        return found
 
     def line(self, one: Place, other: Place, gid: str, **style: Any) -> None:
         """A straight line."""
@@ -148,7 +176,7 @@ class Drawing:
             return self.axes.transData.transform(places) / pixels
 
         room = _Room(np.array(self.axes.bbox.extents) / pixels)
-        for tail, tip, width in self._arrows:
+        for tail, tip, width in self.arrows:
             room.draw(to_points([tail, tip]), _LINE * width)
         for artist in (*self.axes.lines, *self.axes.patches):
             drawn: Any = artist
@@ -248,44 +276,15 @@ def beside(place: Place, direction: Place, far: float = 1.0) -> Place:
     return place[0] + far * direction[0], place[1] + far * direction[1]
 
 
-def off_line(place: Place, start: Place, vector: Place) -> float:
+def _buries(one: tuple[Place, Place], other: tuple[Place, Place], wide: float) -> bool:
+    """Whether the shorter of two arrows, tail and tip, lies wholly beneath the line and the head of the longer."""
+    shorter, longer = sorted((one, other), key=lambda ends: math.dist(*ends))
+    return all(_off_line(place, *longer) < wide for place in shorter)
+
+
+def _off_line(place: Place, tail: Place, tip: Place) -> float:
     """The distance of a point from an arrow."""
-    length = math.hypot(*vector)
-    along = vector[0] / length, vector[1] / length
-    way = (place[0] - start[0]) * along[0] + (place[1] - start[1]) * along[1]
-    nearest = beside(start, along, min(max(way, 0.0), length))
-    return math.hypot(place[0] - nearest[0], place[1] - nearest[1])
-
-
-class Arrows:
-    """The arrows drawn so far, which new ones must not cover; ``size`` is that of the whole scene."""
-
-    def __init__(self) -> None:
-        self.size = 0.0
-        self.moved = False
-        self._drawn: list[tuple[Place, Place]] = []
-
-    def hides(self, start: Place, vector: Place) -> bool:
-        """Whether an arrow would lie on one of them."""
-        return any(covers(start, vector, *other, self.size) or self._buries(start, vector, *other) for other in self._drawn)
-
-    def _buries(self, start: Place, vector: Place, other: Place, along: Place) -> bool:
-        """Whether the shorter of two arrows lies wholly beneath the line and the head of the longer."""
-        if math.hypot(*vector) > math.hypot(*along):
-            start, vector, other, along = other, along, start, vector
-        return all(off_line(place, other, along) < _WIDE * self.size for place in (start, beside(start, vector)))
-
-    def free(self, arrows: list[tuple[Place, Place]]) -> list[tuple[Place, Place]]:
-        """The arrows, start and vector, all moved as far down, or to the right, as it takes."""
-        vx, vy = max((vector for _, vector in arrows), key=lambda vector: math.hypot(*vector))
-        length = math.hypot(vx, vy)
-        if length == 0.0:
-            return arrows
-        aside = (-vy / length, vx / length) if (vx, vy) < (0.0, 0.0) else (vy / length, -vx / length)
-        found, steps = arrows, 0
-        while any(self.hides(start, vector) for start, vector in found if vector != (0.0, 0.0)):
-            steps += 1
-            found = [(beside(start, aside, steps * APART * self.size), vector) for start, vector in arrows]
-        self.moved = self.moved or steps > 0
-        self._drawn += [(start, vector) for start, vector in found if vector != (0.0, 0.0)]
-        return found
+    length = math.dist(tail, tip)
+    along = (tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length
+    way = (place[0] - tail[0]) * along[0] + (place[1] - tail[1]) * along[1]
+    return math.dist(place, beside(tail, along, min(max(way, 0.0), length)))

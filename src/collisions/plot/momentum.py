@@ -78,11 +78,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
     open_ended = not all(takes_part) or any(side.tyre_loss or side.before.pivot is not None for side in sides)
 
-    drawing = Drawing(axes)
+    drawing = Drawing(axes, longest)
     across = _common_normal([*chains["before"], *chains["after"]], longest)
-    drawn: list[tuple[Place, Place]] = []
-    apart: list[str] = []
-
     aside = (0.0, 0.0)
     if across is None and open_ended:
         aside = _aside(_chain((0.0, 0.0), [*chains["before"], outside]), chains["after"], longest)
@@ -93,11 +90,10 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
             return
         # To the right, seen along the arrow.
         side = (vector[1] / length, -vector[0] / length) if across is None else across
-        start = tail if across is None else beside(tail, across, -_SIDE_BY_SIDE * longest * len(drawn))
-        while across is None and any(covers(start, vector, *other, longest) for other in drawn):
+        start = tail if across is None else beside(tail, across, -_SIDE_BY_SIDE * longest * len(drawing.arrows))
+        while across is None and drawing.covers(start, vector):
             start = beside(start, side, _APART * longest)
-            apart.append(gid)
-        drawn.append((start, vector))
+            drawing.moved = True
         drawing.arrow(start, beside(start, vector), gid, colour=colour, style=style, width=width)
         middle, *others = (beside(start, vector, share) for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8))
         drawing.label(middle, tag, side, colour, *others)
@@ -134,7 +130,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     title = ["Momenta before (dashed) and after (solid)", *([together] if 0 < len(together) <= _TITLE else named)]
     if aside != (0.0, 0.0):
         title.append("(those after are drawn side by side with those before;\nthin lines join what is one place)")
-    elif across is not None or apart:
+    elif across is not None or drawing.moved:
         title.append("(momenta on one line are drawn side by side)")
     axes.set_title("\n".join(title), fontsize=10.5, parse_math=False)
     axes.grid(color=GRID, lw=0.6)

@@ -85,27 +85,27 @@ def path(
         colour, name = COLOURS[index], "AB"[index]
         line = _places(way.x * metre, way.y * metre)
         # A vehicle takes up some room, wherever it goes.
-        picture.drawing.include(*line, *(beside(line[-1], (side, side), _ROOM * metre) for side in (-1.0, 1.0)))
+        picture.include(*line, *(beside(line[-1], (side, side), _ROOM * metre) for side in (-1.0, 1.0)))
         axes.plot(*np.transpose(line), color=colour, lw=1.2, ls=("-", (0, (6, 2)))[index], zorder=3, gid=f"{letter}.path")
         for mark in way.marks:
             x, y = (part * metre for part in mark)
             slid = np.isfinite(x)
             if slid.any():
                 axes.plot(x, y, color=INK, lw=1.6, alpha=0.45, zorder=1, gid=f"{letter}.mark")
-                picture.drawing.include(*_places(x[slid], y[slid]))
+                picture.include(*_places(x[slid], y[slid]))
         *passed, at_rest = ([picture.scaled(corner) for corner in outline] for outline in corners[letter])
         for outline in filter(None, passed):
-            picture.drawing.include(*outline)
+            picture.include(*outline)
             picture.outline(index, outline, f"{letter}.passing outline", 0.0, 0.7)
-        picture.drawing.include(*at_rest)
+        picture.include(*at_rest)
         axes.plot(*line[0], "os"[index], ms=5, mfc=colour, mec=colour, zorder=6, gid=f"{letter}.separation")
         back = line[0][0] - line[-1][0], line[0][1] - line[-1][1]
-        picture.drawing.label(line[0], f"{name} at separation", back, colour, of=index)
+        picture.label(line[0], f"{name} at separation", back, colour, of=index)
         picture.body(line[-1], index, f"{who(index, way.rest)} at rest", at_rest)
     axes.set(xlabel=labels.label("x", "m"), ylabel=labels.label("y", "m"))
     axes.set_title("From separation to rest", fontsize=10.5)
     tidy(axes, (-3, 8))
-    picture.drawing.finish()
+    picture.finish()
     return axes
 
 

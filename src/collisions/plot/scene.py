@@ -16,7 +16,7 @@ from ..reading import ArgumentReader
 from ..units import shown
 from ..vehicle import Vehicle, missing
 from .canvas import COLOURS, FORCE, GREY, INK, LARGEST, SIDES, THIN, Axes, Units, begin, check_impact, tidy, who
-from .drawing import APART, Arrows, Drawing, Place, beside
+from .drawing import APART, Drawing, Place, beside
 
 _MOMENTS = {"before": ("before",), "after": ("after",), "both": ("before", "after")}
 _TITLES = {
@@ -108,8 +108,8 @@ def scene(
     outlines = [[picture.scaled(corner) for corner in outline] for outline in corners]
     pins = [side.before.pivot and picture.scaled(side.before.pivot) for side in sides]
     known = [place for place in (*bodies, *outlines[0], *outlines[1], *pins, at) if place is not None]
-    picture.drawing.include(*known)
-    picture.arrows.size = size = size_of(known, labels, sketched)
+    picture.include(*known)
+    picture.size = size = size_of(known, labels, sketched)
 
     for index, (side, place, pin) in enumerate(zip(sides, bodies, pins, strict=True)):
         if place is None:
@@ -138,7 +138,7 @@ def scene(
         if scale
     )
     note = "not all positions given: a sketch, places not to scale\n" if sketched else ""
-    note += "arrows that would hide each other are drawn side by side\n" if picture.arrows.moved else ""
+    note += "arrows that would hide each other are drawn side by side\n" if picture.moved else ""
     x, y = (name if sketched else labels.label(name, "m") for name in "xy")
     axes.set_xlabel(f"{x}\n{note}{stated and f'arrows: {stated}'}".rstrip())
     axes.set_ylabel(y)
@@ -147,7 +147,7 @@ def scene(
         axes.set(xticks=[], yticks=[])
     # Coordinates of a national grid have seven digits before the point, and all of them count.
     tidy(axes, (-3, 8))
-    picture.drawing.finish()
+    picture.finish()
     return axes
 
 
@@ -205,12 +205,12 @@ def _scale(values: list[float], factor: float, most: float) -> float:
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= least)
 
 
-class Picture:
+class Picture(Drawing):
     """The parts of a scene, drawn in the units of its labels."""
 
     def __init__(self, axes: Axes, labels: Units) -> None:
-        self.axes, self.labels = axes, labels
-        self.drawing, self.arrows = Drawing(axes), Arrows()
+        super().__init__(axes)
+        self.labels = labels
 
     def scaled(self, place: Place) -> Place:
         """A place in metres in the unit of the axes."""
@@ -218,7 +218,7 @@ class Picture:
 
     def wall(self, at: Place, n: Place, index: int, vehicle: Vehicle) -> None:
         """Draw a body of unknown position as a hatched edge along the tangent."""
-        away, size = 1.0 if index else -1.0, self.arrows.size
+        away, size = 1.0 if index else -1.0, self.size
         along = -n[1] * 0.32 * size, n[0] * 0.32 * size
         deep = away * 0.05 * size * n[0], away * 0.05 * size * n[1]
         one, other = beside(at, along, -1.0), beside(at, along)
@@ -227,17 +227,17 @@ class Picture:
             *zip(*edge, strict=True),
             fc="white", ec=COLOURS[index], hatch="////", lw=1.2, zorder=1, gid=f"{SIDES[index]}.wall",
         )  # fmt: skip
-        self.drawing.include(one, other)
-        self.drawing.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
+        self.include(one, other)
+        self.label(edge[-1], who(index, vehicle), (away * n[0], away * n[1]), COLOURS[index], of=index)
 
     def body(self, place: Place, index: int, name: str, corners: list[Place]) -> None:
         """The centre of mass with its name, and the outline where it was given, its front edge the heavy one."""
         letter, colour = SIDES[index], COLOURS[index]
         if corners:
             self.outline(index, corners, f"{letter}.outline", 0.08)
-            self.drawing.area(index, corners)
+            self.area(index, corners)
         self.axes.plot(*place, "os"[index], ms=7, mfc="white", mec=colour, mew=2.0, zorder=7, gid=f"{letter}.centre")
-        self.drawing.label(place, name, (0.0, 1.0), colour, of=index)
+        self.label(place, name, (0.0, 1.0), colour, of=index)
 
     def outline(self, index: int, corners: list[Place], gid: str, filled: float, width: float = 1.4) -> None:
         """The outline of a vehicle, filled with this share of its colour, and its front."""
@@ -251,7 +251,7 @@ class Picture:
     def pivot(self, pin: Place, index: int) -> None:
         """Where a body is pinned."""
         self.axes.plot(*pin, "^", ms=10, mfc="white", mec=COLOURS[index], mew=1.6, zorder=5, gid=f"{SIDES[index]}.pivot")
-        self.drawing.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
+        self.label(pin, f"pivot of {'AB'[index]}", (0.0, -1.0), COLOURS[index], of=index)
 
     def velocity(self, place: Place, index: int, state: Vehicle, when: str, share: float) -> None:
         """The velocity before ends at the centre of mass, the one after starts there."""
@@ -260,13 +260,13 @@ class Picture:
             text += f"\nyaw {self.labels.text(abs(state.yaw_rate), 'rad/s')} {'↺' if state.yaw_rate > 0.0 else '↻'}"
         before = when == "before"
         vector: Place = (state.vx * share, state.vy * share)
-        ((start, vector),) = self.arrows.free([(beside(place, vector, -1.0) if before else place, vector)])
+        ((start, vector),) = self.free([(beside(place, vector, -1.0) if before else place, vector)])
         tip = beside(start, vector)
         style: Any = (0, (4, 2)) if before else "-"
-        self.drawing.arrow(start, tip, f"{SIDES[index]}.{when}", colour=COLOURS[index], style=style, width=2.0)
+        self.arrow(start, tip, f"{SIDES[index]}.{when}", colour=COLOURS[index], style=style, width=2.0)
         away = (0.0, -1.0) if not state.speed else (-vector[0], -vector[1]) if before else vector
         if state.speed or state.yaw_rate or not math.isinf(state.mass):
-            self.drawing.label(start if before else tip, text, away, COLOURS[index], of=index)
+            self.label(start if before else tip, text, away, COLOURS[index], of=index)
 
     def impulses(self, impact: Impact, starts: list[Place], pins: list[Place | None]) -> float:
         """Draw the impulse on both from these places, and that of each pivot; gives how much one unit of length stands for."""
@@ -274,40 +274,40 @@ class Picture:
         impulse = math.hypot(impact.normal_impulse, impact.tangential_impulse)
         pulls = [math.hypot(side.pivot_impulse_x, side.pivot_impulse_y) for side in sides]
         factor = self.labels.factor("N*s")
-        scale = _scale([impulse, *pulls], factor, 0.3 * self.arrows.size)
+        scale = _scale([impulse, *pulls], factor, 0.3 * self.size)
         if not scale:
             return 0.0
         share = factor / scale
         vectors = [(side.impulse_x * share, side.impulse_y * share) for side in sides]
         # Both are scaled alike, so that they are still seen to be equal and opposite.
-        for index, (start, vector) in enumerate(self.arrows.free(list(zip(starts, vectors, strict=True)))):
+        for index, (start, vector) in enumerate(self.free(list(zip(starts, vectors, strict=True)))):
             text = f"impulse on {'AB'[index]}\n{self.labels.text(impulse, 'N*s')}"
             self._impulse(start, vector, f"impulse.{SIDES[index]}", text, index, 2.6)
         for index, (side, pull, pin) in enumerate(zip(sides, pulls, pins, strict=True)):
             if pull > _NOTHING * impulse and pin is not None:
                 vector = side.pivot_impulse_x * share, side.pivot_impulse_y * share
-                ((start, vector),) = self.arrows.free([(pin, vector)])
+                ((start, vector),) = self.free([(pin, vector)])
                 text = f"impulse of the pivot on {'AB'[index]}\n{self.labels.text(pull, 'N*s')}"
                 self._impulse(start, vector, f"pivot_impulse.{SIDES[index]}", text, index, 1.6)
         return scale
 
     def _impulse(self, start: Place, vector: Place, gid: str, text: str, index: int, width: float) -> None:
         tip = beside(start, vector)
-        self.drawing.arrow(start, tip, gid, colour=FORCE, width=width)
-        self.drawing.label(tip, text, vector, FORCE, of=index)
+        self.arrow(start, tip, gid, colour=FORCE, width=width)
+        self.label(tip, text, vector, FORCE, of=index)
 
     def frame(self, at: Place, n: Place, marked: bool) -> None:
         """The line of impact, the normal and the tangent, and the contact point where the model has one."""
-        t, size = (-n[1], n[0]), self.arrows.size
+        t, size = (-n[1], n[0]), self.size
         styles: Any = ((n, 0.42 if marked else 0.62, "normal", (0, (6, 3))), (t, 0.28, "tangent", ":"))
         # Through both centres of mass where these lie on it.
         for vector, out, name, style in styles:
-            while self.arrows.hides(beside(at, vector, out * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
+            while self.hides(beside(at, vector, out * size), (0.06 * size * vector[0], 0.06 * size * vector[1])):
                 out += APART
             tip, tail, head = (beside(at, vector, far * size) for far in (out, -out, out + 0.06))
-            self.drawing.line(tail, tip, f"line of the {name}", color=GREY, lw=0.9, ls=style, zorder=1)
-            self.drawing.arrow(tip, head, name, colour=GREY, width=1.2)
-            self.drawing.label(head, f"{name[0]} ({name})", vector, INK)
+            self.line(tail, tip, f"line of the {name}", color=GREY, lw=0.9, ls=style, zorder=1)
+            self.arrow(tip, head, name, colour=GREY, width=1.2)
+            self.label(head, f"{name[0]} ({name})", vector, INK)
         if marked:
             self.axes.plot(*at, "X", ms=9, mfc=INK, mec="white", zorder=7, gid="contact")
-            self.drawing.label(at, "contact", (-n[0] - t[0], -n[1] - t[1]))
+            self.label(at, "contact", (-n[0] - t[0], -n[1] - t[1]))
