@@ -134,8 +134,7 @@ def force_time(impact: Impact, duration: Input, *, axes: Axes | None = None, uni
     )
 
     axes.set(xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force))
-    axes.set_xlabel(labels.label("time", "duration"))
-    axes.set_ylabel(labels.label("normal force", "N"))
+    axes.set(xlabel=labels.label("time", "duration"), ylabel=labels.label("normal force", "N"))
     ratio = "e = A2/A1" if impact.complete else "e"
     axes.set_title(f"{ratio} = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed", fontsize=10.5)
     tidy(axes)

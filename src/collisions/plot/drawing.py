@@ -36,12 +36,6 @@ class _Label(NamedTuple):
     text: Any
 
 
-class _Spot(NamedTuple):
-    x: float
-    y: float
-    cells: tuple[slice, slice]
-
-
 class Drawing:
     """The drawing on one Axes in data coordinates; labels go where there is room when it is rendered, at its size then.
 
@@ -186,16 +180,17 @@ class Drawing:
             if drawn.get_linestyle() not in ("None", "none", "", " "):
                 room.draw(path, _LINE * drawn.get_linewidth())
         areas = {index: room.within(to_points(corners)) for index, corners in self._areas.items()}
-        found: list[_Spot] = []
+        found: dict[int, Place] = {}
+        taken: dict[int, tuple[slice, slice]] = {}
         # Once more, as those placed later leave room that the earlier ones did not know of.
-        for label in 2 * self._labels:
-            if len(found) >= len(self._labels):
-                room.cost[found[-len(self._labels)].cells] -= _LABEL
+        for i, label in 2 * list(enumerate(self._labels)):
+            if i in taken:
+                room.cost[taken[i]] -= _LABEL
             # Of the text alone: the annotation's own extent asks for the place.
             size = np.array(Text.get_window_extent(label.text, renderer).size) / pixels
             foreign = [area for index, area in areas.items() if label.of not in (None, index)]
-            found.append(room.best(size, to_points(label.places), label.direction, foreign))
-        return [(spot.x * pixels, spot.y * pixels) for spot in found[len(self._labels) :]]
+            found[i], taken[i] = room.best(size, to_points(label.places), label.direction, foreign)
+        return [(x * pixels, y * pixels) for x, y in found.values()]
 
 
 class _Room:
@@ -227,8 +222,8 @@ class _Room:
             inside &= (x1 - x0) * (self.y[:, None] - y0) - (y1 - y0) * (self.x - x0) > 0.0
         return inside
 
-    def best(self, size: Any, places: Any, direction: Place, foreign: list[Any]) -> _Spot:
-        """The middle of a label of this size next to one of the places; what it covers is taken."""
+    def best(self, size: Any, places: Any, direction: Place, foreign: list[Any]) -> tuple[Place, tuple[slice, slice]]:
+        """The middle of a label of this size next to one of the places, and the cells that it covers: these are taken."""
         columns, rows = np.minimum(np.ceil((size + 2.0 * _CLEAR) / _CELL).astype(int), self.cost.shape[::-1])
         cost = _sums(self.cost, rows, columns)
         for area in foreign:
@@ -239,7 +234,7 @@ class _Room:
         # Above each other one label keeps clear of the other, not both; side by side they would read as one line.
         cells = slice(row + 1, row + rows - 1), slice(max(column - 1, 0), column + columns + 1)
         self.cost[cells] += _LABEL
-        return _Spot(float(x[column]), float(y[row]), cells)
+        return (float(x[column]), float(y[row])), cells
 
 
 def _sums(cells: Any, rows: int, columns: int) -> Any:

@@ -73,8 +73,8 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
     axes = begin(axes, (6.5, 6.2))
     factor = labels.factor("kg*m/s")
     chains = {when: [_momentum(getattr(side, when), factor) for side in sides] for when in ("before", "after")}
-    totals = {when: _sum(chain) for when, chain in chains.items()}
-    outside = totals["after"][0] - totals["before"][0], totals["after"][1] - totals["before"][1]
+    totals = {when: beside(of_a, of_b) for when, (of_a, of_b) in chains.items()}
+    outside = beside(totals["after"], totals["before"], -1.0)
     longest = max(math.hypot(*vector) for vector in (*chains["before"], *chains["after"], *totals.values()))
     open_ended = not all(takes_part) or any(side.tyre_loss or side.before.pivot is not None for side in sides)
 
@@ -119,8 +119,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
             drawing.line(place, beside(place, aside), gid, color=GREY, lw=0.8, ls=":", zorder=1)
     drawing.include((0.0, 0.0))
     axes.plot([0.0], [0.0], "o", color=GREY, ms=4, zorder=3, gid="origin")
-    axes.set_xlabel(labels.label("momentum along x", "kg*m/s"))
-    axes.set_ylabel(labels.label("momentum along y", "kg*m/s"))
+    axes.set(xlabel=labels.label("momentum along x", "kg*m/s"), ylabel=labels.label("momentum along y", "kg*m/s"))
     for axis, along in ((axes.yaxis, (0.0, 1.0)), (axes.xaxis, (1.0, 0.0))):
         # Arrows along the other axis are drawn side by side, so distances along this one mean nothing.
         axis.set_visible(across is None or math.dist(across, along) > ALONG_ONE_LINE)
@@ -144,14 +143,7 @@ def momentum(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | No
 
 def _momentum(state: Vehicle, factor: float) -> Place:
     """The momentum of a body; 0 for an infinite mass, of which only the momentum it gives is drawn."""
-    if math.isinf(state.mass):
-        return 0.0, 0.0
-    x, y = state.momentum
-    return x * factor, y * factor
-
-
-def _sum(vectors: list[Place]) -> Place:
-    return sum(vector[0] for vector in vectors), sum(vector[1] for vector in vectors)
+    return (0.0, 0.0) if math.isinf(state.mass) else beside((0.0, 0.0), state.momentum, factor)
 
 
 def _common_normal(vectors: list[Place], longest: float) -> Place | None:

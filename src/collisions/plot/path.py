@@ -74,9 +74,8 @@ def path(
         raise InputError("outline_b has no path_b to go with; give both", code="bad_option", argument="outline_b")
     given = {"a": (path_a, outline_a)} | ({} if path_b is None else {"b": (path_b, outline_b)})
     ways = {letter: _one(way, f"path_{letter}") for letter, (way, _) in given.items()}
-    stops = {letter: _stops(way) for letter, way in ways.items()}
     corners = {
-        letter: [corners_of(stop, outline, f"outline_{letter}", letter) for stop in stops[letter]]
+        letter: [corners_of(stop, outline, f"outline_{letter}", letter) for stop in _stops(ways[letter])]
         for letter, (_, outline) in given.items()
     }
     axes = begin(axes, (7.5, 6.5))

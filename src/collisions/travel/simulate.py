@@ -177,13 +177,14 @@ def simulate(
     ground = {"friction": read_friction(reader, friction, "friction")}
     areas = [] if surfaces is None else _read_surfaces(reader, surfaces)
     ground |= {f"surfaces[{i}]": mu for i, (_, mu) in enumerate(areas)}
-    each: Any = lock if (listed := isinstance(lock, (list, tuple))) else [lock]
-    braked = dict(zip(_LOCKS, each, strict=False))
-    if listed and len(each) != len(WHEELS):
-        text = f"lock is a list of {len(each)}; give one value for all wheels, or four: {', '.join(WHEELS)}"
-        reader.refuse(ShapeError(text, code="bad_shape", argument="lock"))
-    locks = [one_value(reader, value, "", name if listed else "lock", UNIT_INTERVAL) for name, value in braked.items()]
-    numbers = dict(zip(braked, locks, strict=True)) | {"steer": one_value(reader, steer, "rad", "steer")}
+    locks: Any = {"lock": lock}
+    if isinstance(lock, (list, tuple)):
+        locks = dict(zip(_LOCKS, lock, strict=False))
+        if len(lock) != len(WHEELS):
+            text = f"lock is a list of {len(lock)}; give one value for all wheels, or four: {', '.join(WHEELS)}"
+            reader.refuse(ShapeError(text, code="bad_shape", argument="lock"))
+    numbers = {name: one_value(reader, value, "", name, UNIT_INTERVAL) for name, value in locks.items()}
+    numbers["steer"] = one_value(reader, steer, "rad", "steer")
     sizes = {"wheelbase": (wheelbase, "m"), "track": (track, "m"), "cornering": (cornering, ""), "limit": (limit, "s")}
     positive = {name: one_value(reader, value, unit, name, POSITIVE_FINITE) for name, (value, unit) in sizes.items()}
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:
@@ -243,7 +244,7 @@ def _prepared(flat: dict[str, Any], corners: Sequence[Any]) -> tuple[Wheels, Any
         left=left,
         cos=np.cos(steer),
         sin=np.sin(steer),
-        lock=np.array([flat[name] if name in flat else flat[_LOCKS[0]] for name in _LOCKS]),
+        lock=np.array([flat[name] if name in flat else flat["lock"] for name in _LOCKS]),
         friction=flat["friction"],
         cornering=flat["cornering"],
         reach=reach,
