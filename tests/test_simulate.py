@@ -338,6 +338,7 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"lock": math.nan}, "bad_fraction", "lock must be from 0 to 1"),
         (CAR, {"lock": [1, 1, 1, -1]}, "bad_fraction", "lock[3] must be from 0 to 1"),
         (CAR, {"lock": [1, 1]}, "bad_shape", "lock is a list of 2; give one value for all wheels, or four: front left"),
+        (CAR, {"lock": np.ones(2), "friction": np.ones(3)}, "bad_shape", "friction (3,), lock (2,)"),
         (CAR, {"wheelbase": 0.0}, "not_positive", "wheelbase must be > 0, got 0.0"),
         (CAR, {"track": "-1 m"}, "not_positive", "track must be > 0, got '-1 m'"),
         (CAR, {"track": math.inf}, "not_finite", "track must be finite"),
