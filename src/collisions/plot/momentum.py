@@ -161,7 +161,7 @@ def _aside(drawn: list[tuple[Place, Place]], second: list[Place], longest: float
     chief = max(second, key=lambda vector: math.hypot(*vector))
     length = math.hypot(*chief)
     for step in range(_TRIED):
-        far = 0.0 if step == 0 else (step + 1) // 2 * _SIDE_BY_SIDE * longest * (-1.0) ** step
+        far = (step + 1) // 2 * _SIDE_BY_SIDE * longest * (-1.0) ** step
         moved = (-far * chief[1] / length, far * chief[0] / length) if length else (0.0, 0.0)
         if not any(covers(*arrow, *other, longest) for arrow in _chain(moved, second) for other in drawn):
             return moved

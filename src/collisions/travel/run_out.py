@@ -255,10 +255,9 @@ def path(
             found = write_locked(settle(found, named, shape, checks))
         elif not (min(gaps) > 0.0 and math.isfinite(answered)):
             raise out_of_range()
-    run = RunOut(**found)
-    _warn_of_wide_segments(turned, locks)
-    _warn_of_fast_yaw(run)
-    return in_units_of(run, texts_of(surveyed))
+        _warn_of_wide_segments(turned, locks)
+        _warn_of_fast_yaw(found["yaw_rate"], found["speed"])
+    return in_units_of(RunOut(**found), texts_of(surveyed))
 
 
 def _run_out(
@@ -355,8 +354,7 @@ def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:
 
 
 def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> None:
-    with np.errstate(over="ignore"):
-        turns = [abs(after - before) for before, after in pairwise(turned)]
+    turns = [abs(after - before) for before, after in pairwise(turned)]
     wide = [i for i, (turn, part) in enumerate(zip(turns, locks, strict=True)) if np.any((turn > _QUARTER_TURN) & (part < 1.0))]
     if wide:
         named = ", ".join(_leg(i) for i in wide)
@@ -370,9 +368,8 @@ def _warn_of_wide_segments(turned: Sequence[float], locks: Sequence[float]) -> N
         )
 
 
-def _warn_of_fast_yaw(run: RunOut) -> None:
-    with np.errstate(invalid="ignore"):
-        fast = np.greater(abs(run.yaw_rate) * _WHEEL_ARM, _MOST_YAW * run.speed)
+def _warn_of_fast_yaw(yaw_rate: Any, speed: Any) -> None:
+    fast = np.greater(abs(yaw_rate) * _WHEEL_ARM, _MOST_YAW * speed)
     if np.any(fast):
         warn(
             OutOfRangeWarning(
