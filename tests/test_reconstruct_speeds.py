@@ -873,6 +873,16 @@ def test_a_batch_is_as_its_cases(pair, rule):
     assert np.sum(np.isfinite(found[0].closing_speed)) >= 3
 
 
+def test_a_contact_that_sticks_in_a_batch_of_shares_has_each_answer_once():
+    """With a share of 1 among others, sticking and sliding with that share have the same roots."""
+    for hit, courses, contact in forward_scenes(12, 10, ("critical_fraction",)):
+        for other in ("crush", "delta_v_b", "energy_loss"):
+            known = knowledge(hit, ("speed_a", other))
+            alone, _ = attempt(solve_back, hit, courses, {**contact, "critical_fraction": 1.0}, **known)
+            many, _ = attempt(solve_back, hit, courses, {**contact, "critical_fraction": np.array([0.3, 1.0])}, **known)
+            assert sum(root.status[1] == 0 for root in many) == len(alone or ())
+
+
 def test_units_single_precision_and_records():
     """Texts and Quantities are the same numbers; float32 stays float32; a record replays."""
     (found,) = speeds(A, B, **COURSES, restitution=0.1, **CONTACT, **KNOWN)

@@ -26,7 +26,7 @@ from ..vehicle import Vehicle, missing, moved
 from ..warning import warn_of_cases, warn_of_samples
 from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
 from .restitution_roots import RestitutionOf, crossings
-from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
+from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
 
 # Above this restitution hardly any energy is lost along the normal.
@@ -202,14 +202,15 @@ def speeds(
         kind = ComponentScene if components else Scene
         known_of = numbers, inputs.rule, inputs.law or BRACH, counted(known), cases.shape or ()
 
-        def roots_of(scene: Scene) -> tuple[Scene, list[tuple[Root, Any]]]:
+        def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
+            scene = kind(*known_of, plain)
             roots = scene.roots() if function is None else _with_function(scene, function)
             return scene, _in_order(scene, roots, bool(forward_only))
 
         try:
-            scene, found = roots_of(kind(*known_of, plain=cases.shape is None and function is None))
+            scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
-            scene, found = roots_of(kind(*known_of))
+            scene, found = roots_of(False)
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
         return _answers(cases, scene, found, inputs, known, function, bool(forward_only))
 
@@ -310,18 +311,18 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
         return function(np.ravel(part.speed_unit * closing + 0.0 * e)) - e
 
     def mismatch(e: Any, case: Any) -> list[Any]:
-        part = scene.of(case)
-        return [difference(part, part.observe(LAW, *root[:2], e).closing, e) for root in part.roots(e, polish=False)]
+        part = scene.of(case, e)
+        return [difference(part, part.observe(LAW, *pair).closing, e) for _, *pair in part.candidates()]
 
     def slips(e: Any, case: Any) -> list[Any]:
-        part = scene.of(case)
-        return [part.any_slip_at(regime, e)[0] + 0.0 * e for regime in part.regimes()]
+        part = scene.of(case, e)
+        return [part.any_slip_at(regime)[0] + 0.0 * e for regime in part.regimes()]
 
     found: list[Root] = []
     of_cases = crossings(mismatch, count, function.least)
     if of_cases:
         case, candidate, restitution = map(np.array, zip(*of_cases, strict=True))
-        roots = np.stack(scene.of(case).roots(restitution, function=function))
+        roots = np.stack(scene.of(case, restitution).roots(function))
         chosen = roots[candidate, :, np.arange(case.size)]
         # Of each case the first root, then the second and so on.
         rank = np.arange(case.size) - np.searchsorted(case, case)
@@ -333,37 +334,37 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
     if not scene.kinds[0].startswith("speed"):
         for at, row, e in crossings(slips, count, function.least):
             # Any slip goes with this restitution; it is an answer if the function gives it there.
-            part, one = scene.of(np.array([at])), np.full(1, e)
-            undetermined[at] |= abs(difference(part, part.any_slip_at(part.regimes()[row], one)[1], one)[0]) <= REDUNDANT
+            part = scene.of(np.array([at]), np.full(1, e))
+            undetermined[at] |= abs(difference(part, part.any_slip_at(part.regimes()[row])[1], e)[0]) <= REDUNDANT
     scene.undetermined = undetermined.reshape(scene.shape)
     return found
 
 
 def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
-    fitting = [(root, fits, closing) for root, (fits, closing) in ((one, scene.fits(one)) for one in roots) if np.any(fits)]
-    for root, here, _ in fitting:
-        scene.undetermined = scene.undetermined | (here & scene.one_of_many(root))
+    fitting = [root for root in roots if np.any(root.closing > 0.0)]
+    for root in fitting:
+        scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
     if not fitting or np.all(scene.undetermined):
         return []
     if len(fitting) == 1 and scene.plain and not forward_only:
-        return [(fitting[0][0], np.True_)]
-    rows = [(*root[:4], here, closing) for root, here, closing in fitting]
-    *parts, fits, closing = (
-        np.stack([np.broadcast_to(part, scene.shape) for part in of_all]) for of_all in zip(*rows, strict=True)
-    )
-    fits &= ~scene.undetermined
+        return [(fitting[0], np.True_)]
+    whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
+    speeds_a, speeds_b, _, _, closing, _ = np.moveaxis(whole, 1, 0)
+
+    def sort() -> None:
+        """By closing speed in every case, those left out last."""
+        order = np.argsort(closing, axis=0, kind="stable")
+        whole[:] = np.take_along_axis(whole, order[:, np.newaxis], axis=0)
+
+    closing[np.broadcast_to(scene.undetermined, closing.shape)] = np.nan
     if forward_only:
-        fits &= np.minimum(parts[0], parts[1]) >= -ROOT_TOL * closing
-    order = np.argsort(np.where(fits, closing, np.inf), axis=0, kind="stable")
-    *values, fits, closing = (np.take_along_axis(part, order, axis=0) for part in (*parts, fits, closing))
-    for i in range(1, len(fitting)):
-        apart = sum(abs(values[k][i] - values[k][i - 1]) for k in range(2))
-        fits[i] &= ~(fits[i - 1] & (apart <= ROOT_TOL * closing[i]))
-    # Roots that fit come first in every case.
-    order = np.argsort(~fits, axis=0, kind="stable")
-    *values, fits = (np.take_along_axis(part, order, axis=0) for part in (*values, fits))
-    return [(Root(*(value[k] for value in values)), fits[k]) for k in range(len(fitting)) if np.any(fits[k])]
+        closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
+    sort()
+    apart = abs(speeds_a[1:] - speeds_a[:-1]) + abs(speeds_b[1:] - speeds_b[:-1])
+    closing[1:][apart <= ROOT_TOL * closing[1:]] = np.nan
+    sort()
+    return [(Root(*root), there) for root, there in zip(whole, closing > 0.0, strict=True) if np.any(there)]
 
 
 def _answers(
@@ -391,12 +392,11 @@ def _answers(
         e = inputs.restitution if function is None else cases.where(keep, root.restitution)
         return replace(inputs, a=bodies[0], b=bodies[1], restitution=e)
 
-    none = np.full((), np.nan)
-    nothing = Root(none, none, none, none), np.zeros(cases.shape or (), dtype=bool)
-    count: Any = sum((np.broadcast_to(there, cases.shape or ()).astype(np.int64) for _, there in found), np.int64(0))
+    nowhere = np.zeros(scene.shape, dtype=bool)
+    count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
     impacts: list[Impact] = []
-    backward, whose, turned = 0.0, "", np.zeros(cases.shape or (), dtype=bool)
-    for root, there in found or [nothing]:
+    backward, whose, turned = 0.0, "", nowhere
+    for root, there in found or [(NO_ROOT, nowhere)]:
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             raise _refusal(scene, status, known, function, forward_only)

@@ -49,20 +49,27 @@ _OBSERVED_AS = {
     "max_crush_speed_a": "absorbed_energy",
 }
 _OF_BODY = [name for name in NUMBERS if name not in ("vx", "vy")]
-# The numbers that do not change with the speeds, in the order of ``_observed``.
-_FIXED = ["spinning", *(f"{name}[{i}]" for name in ("normal", "point", "course_a", "course_b") for i in range(2))]
+# The numbers that do not change with the speeds, in the order of ``_observed``, which takes the part of spinning first.
+_FIXED = [f"{name}[{i}]" for name in ("normal", "point", "course_a", "course_b") for i in range(2)]
 _FIXED += [f"{label}.{name}" for label in "ab" for name in _OF_BODY]
 
 
 class Root(NamedTuple):
-    """A candidate solution: both speeds, their restitution and condition, and the slope of both observations."""
+    """A candidate solution: both speeds, their restitution, condition and closing speed.
+
+    The closing speed is NaN unless the law leads from these speeds to the observed values; ``one_of_many`` says whether it
+    leads there from those beside them as well.
+    """
 
     speed_a: Any
     speed_b: Any
     restitution: Any
     condition: Any
-    slope_1: Any = 0.0
-    slope_2: Any = 0.0
+    closing: Any
+    one_of_many: Any = False
+
+
+NO_ROOT = Root(*[math.nan] * 5)
 
 
 class Seen(NamedTuple):
@@ -124,7 +131,7 @@ def _observed(speed_a: Any, speed_b: Any, e: Any, bound: Any, *fixed: Any) -> Se
 @lru_cache(maxsize=16)
 def _observed_of_floats(sticks: bool, rule: str, law: str) -> Callable[[Sequence[float]], Seen | None]:
     """The same compiled for plain floats."""
-    return compile_for_floats(_observed, tuple(f"[{i}]" for i in range(4 + len(_FIXED))), (sticks, rule, law))
+    return compile_for_floats(_observed, tuple(f"[{i}]" for i in range(5 + len(_FIXED))), (sticks, rule, law))
 
 
 class Scene:
@@ -151,14 +158,12 @@ class Scene:
         masses = np.minimum(self.given["a.mass"], self.given["b.mass"])
         known = [(name, self.given[name]) for name in names]
         sizes = [np.sqrt(value) / np.sqrt(masses) if name == "energy_loss" else abs(value) for name, value in known]
-        self.mass_unit = _power_of_two(masses)
-        self.speed_unit = _power_of_two(np.maximum.reduce(np.broadcast_arrays(*sizes)))
-        if plain:
-            self.mass_unit, self.speed_unit = float(self.mass_unit), float(self.speed_unit)
+        self.mass_unit = number(_power_of_two(masses))
+        self.speed_unit = number(_power_of_two(np.maximum.reduce(np.broadcast_arrays(*sizes))))
         self.numbers = v = {name: self._in_units(name, value) for name, value in self.given.items()}
         arms = {label: np.hypot(*(v[f"point[{i}]"] - v[f"{label}.{x}"] for i, x in enumerate("xy"))) for label in "ab"}
         spinning = number(sum(abs(v[f"{label}.yaw_rate"]) * arm for label, arm in arms.items()))
-        self.fixed = [spinning if name == "spinning" else v[name] for name in _FIXED]
+        self.fixed = [spinning, *(v[name] for name in _FIXED)]
         self.e, self.bound = v["restitution"], v[rule]
         # Both observations of what is seen.
         self.both: Callable[[Seen], Any] = attrgetter(*self.kinds)
@@ -166,9 +171,11 @@ class Scene:
         # Set where any slip, or any speed, fits in a regime.
         self.undetermined: Any = np.zeros((), dtype=bool)
 
-    def of(self, cases: Any) -> Scene:
-        """The scene of some cases, by their places in the flattened batch."""
+    def of(self, cases: Any, e: Any = None) -> Scene:
+        """The scene of some cases, by their places in the flattened batch, perhaps with another restitution."""
         given = {name: self.flat(value)[cases] for name, value in self.given.items()}
+        if e is not None:
+            given["restitution"] = e
         return Scene(given, self.rule, self.law, self.names, np.shape(cases))
 
     def flat(self, value: Any) -> Any:
@@ -205,13 +212,14 @@ class Scene:
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
         return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
 
-    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e: Any) -> Seen:
+    def observe(self, regime: Any, speed_a: Any, speed_b: Any, e_step: float = 0.0) -> Seen:
         """The observations at these speeds if the contact is in this regime, or in the one that the law leads to."""
+        e = self.e + e_step if e_step else self.e
         if regime is _SHARE:
-            stuck = self.observe(STICK, speed_a, speed_b, e)
+            stuck = self.observe(STICK, speed_a, speed_b)
             shared = self.bound * stuck.tangential
             weight = (stuck.normal + shared * (stuck.coupling * stuck.effective_mass)) ** 2
-            return self.observe(shared / stuck.normal, speed_a, speed_b, e)._replace(weight=weight)
+            return self.observe(shared / stuck.normal, speed_a, speed_b)._replace(weight=weight)
         rule, bound = IMPULSE_RATIO, regime
         if isinstance(regime, str):
             rule, bound = (FRICTION, 0.0) if regime is STICK else (self.rule, self.bound)
@@ -224,7 +232,7 @@ class Scene:
     def at_unit_speeds(self, regime: Any) -> list[Seen]:
         """What is seen of vehicles that do not move, and of each moving by itself at a speed of 1."""
         zero, one = np.zeros(()), np.ones(())
-        return [self.observe(regime, *pair, self.e) for pair in ((zero, zero), (one, zero), (zero, one))]
+        return [self.observe(regime, *pair) for pair in ((zero, zero), (one, zero), (zero, one))]
 
     @cached_property
     def _linear(self) -> tuple[Seen, tuple[Any, Any], tuple[Any, Any]]:
@@ -240,31 +248,28 @@ class Scene:
         g, s = closing - rest.closing, slip - rest.slip
         return (g * sb - s * gb) / crossed, (s * ga - g * sa) / crossed
 
-    def roots(self, e: Any = None, polish: bool = True, function: RestitutionOf | None = None) -> list[Root]:
-        """The candidates of every regime, before ``fits`` checks them against the law.
-
-        ``function`` gives the restitution by the closing speed, where it is no number.
-        """
-        e = self.e if e is None else e
+    def candidates(self) -> list[tuple[Any, Any, Any]]:
+        """Regime and both speeds of every candidate, as the algebra gives them."""
         self.undetermined = np.zeros((), dtype=bool)
         find = self._on_a_line if self.kinds[0].startswith("speed") else self._crossing
-        pairs = [(regime, e, *pair) for regime in self.regimes() for pair in find(regime, e)]
-        if not polish:
-            return [Root(speed_a, speed_b, e, np.nan) for _, _, speed_a, speed_b in pairs]
-        return [root for pair in pairs if (root := self._polished_where_likely(*pair, function)) is not None]
+        return [(regime, *pair) for regime in self.regimes() for pair in find(regime)]
+
+    def roots(self, function: RestitutionOf | None = None) -> list[Root]:
+        """The candidates, polished; ``function`` gives the restitution by the closing speed, where it is no number."""
+        return [self._polished_where_likely(*candidate, function) for candidate in self.candidates()]
 
     def _with_known_speed(self, other: Any) -> tuple[Any, Any]:
         """Both speeds, where one is known."""
         known = self.targets[self.kinds[0]] + 0.0 * other
         return (known, other) if self.kinds[0] == "speed_a" else (other, known)
 
-    def _on_a_line(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
+    def _on_a_line(self, regime: Any) -> list[tuple[Any, Any]]:
         """With one speed known: the other speeds at which the observation is met."""
         fixed, kind = self.kinds
         target = self.targets[kind]
 
         def seen(x: Any) -> Seen:
-            return self.observe(regime, *self._with_known_speed(x), e)
+            return self.observe(regime, *self._with_known_speed(x))
 
         def excess(x: Any) -> Any:
             here = seen(x)
@@ -277,10 +282,10 @@ class Scene:
         xs = _roots(regime, excess, np.where(step > 0.0, step, 1.0))
         flat = [abs(getattr(part, kind) - target) <= _observation_rounding(kind, part) for part in (rest, one)]
         if np.any(flat[0] & flat[1]):
-            self.undetermined = self.undetermined | self._any_speed_fits(regime, e)
+            self.undetermined = self.undetermined | self._any_speed_fits(regime)
         return [self._with_known_speed(x) for x in xs]
 
-    def _crossing(self, regime: Any, e: Any) -> list[tuple[Any, Any]]:
+    def _crossing(self, regime: Any) -> list[tuple[Any, Any]]:
         """With two quadratic observations: their ratio depends on slip over closing speed alone."""
         (k1, c1), (k2, c2) = self.targets.items()
 
@@ -289,29 +294,29 @@ class Scene:
             return c2 * one - c1 * other
 
         # Where both observations depend on slip alike, every slip fits, or none.
-        samples = self._samples(regime, e)
+        samples = self._samples(regime)
         rounding = [c2 * _observation_rounding(k1, seen) + c1 * _observation_rounding(k2, seen) for seen in samples]
         alike = np.logical_and.reduce([abs(apart(seen)) <= least for seen, least in zip(samples, rounding, strict=True)])
         any_slip = (self._redundant(c1, c2, samples) | alike) & self._can_occur(regime) & ((c1 > 0.0) | (c2 > 0.0))
         self.undetermined = self.undetermined | any_slip
 
         def difference(ratio: Any) -> Any:
-            seen = self._per_closing(regime, ratio, e)
+            seen = self._per_closing(regime, ratio)
             return np.where(any_slip, np.nan, apart(seen) * seen.weight)
 
         pairs = []
         for ratio in _roots(regime, difference, np.ones(())):
-            one, other = self.both(self._per_closing(regime, ratio, e))
+            one, other = self.both(self._per_closing(regime, ratio))
             closing = np.sqrt(np.where(c1 > 0.0, c1 / one, c2 / other))
             pairs.append(self.speeds_at(closing, ratio * closing))
         return pairs
 
-    def _per_closing(self, regime: Any, slip: Any, e: Any) -> Seen:
+    def _per_closing(self, regime: Any, slip: Any) -> Seen:
         """The observations at unit closing speed and this slip."""
-        return self.observe(regime, *self.speeds_at(np.ones(()), slip), e)
+        return self.observe(regime, *self.speeds_at(np.ones(()), slip))
 
-    def _samples(self, regime: Any, e: Any) -> list[Seen]:
-        return [self._per_closing(regime, np.full((), slip), e) for slip in (-1.0, 0.0, 1.0)]
+    def _samples(self, regime: Any) -> list[Seen]:
+        return [self._per_closing(regime, np.full((), slip)) for slip in (-1.0, 0.0, 1.0)]
 
     def _redundant(self, p1: Any, p2: Any, samples: Sequence[Seen]) -> Any:
         """Whether both observations have the ratio p1 to p2 at every slip."""
@@ -319,20 +324,18 @@ class Scene:
         scale = sum(abs(one) + abs(other) for one, other in pairs)
         return np.logical_and.reduce([abs(one - other) <= REDUNDANT * scale for one, other in pairs])
 
-    def any_slip_at(self, regime: Any, e: Any) -> tuple[Any, Any]:
+    def any_slip_at(self, regime: Any) -> tuple[Any, Any]:
         """For two observations that depend on slip alike: their relative difference, and the closing speed."""
         c1, c2 = self.targets.values()
-        samples = self._samples(regime, e)
+        samples = self._samples(regime)
         q1, q2 = self.both(samples[1])
         of_first, of_second = c2 * q1, c1 * q2
         apart = (of_first - of_second) / (abs(of_first) + abs(of_second))
         return np.where(self._redundant(q1, q2, samples), apart, np.nan), np.sqrt(c1 / q1)
 
-    def _polished_where_likely(
-        self, regime: Any, e: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None
-    ) -> Root | None:
-        """The root polished in those cases in which the law leads to this regime, or nearly; in others NaN, of floats None."""
-        here, seen = (self.observe(which, speed_a, speed_b, e) for which in (regime, LAW))
+    def _polished_where_likely(self, regime: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None) -> Root:
+        """The root polished in those cases in which the law leads to this regime, or nearly; in others NaN."""
+        here, seen = (self.observe(which, speed_a, speed_b) for which in (regime, LAW))
         apart = abs(here.normal - seen.normal) + abs(here.tangential - seen.tangential)
         near = _UNPOLISHED * here.whole
         led = (here.closing > 0.0) & (apart <= _IMPULSE_UNPOLISHED * abs(here.normal) + here.effective_mass * near)
@@ -341,25 +344,27 @@ class Scene:
             # An energy that is rounding beside those before and after says little of where the root is.
             likely = likely | (_UNPOLISHED * here.energy_loss <= _observation_rounding("energy_loss", here))
         if self.plain:
-            return self._polished(regime, e, float(speed_a), float(speed_b), None) if likely else None
+            return self._polished(regime, float(speed_a), float(speed_b)) if likely else NO_ROOT
         cases = np.flatnonzero(self.flat(likely))
         whole = np.full((len(Root._fields), math.prod(self.shape)), np.nan)
         if cases.size:
-            e, speed_a, speed_b = (self.flat(part)[cases] for part in (e, speed_a, speed_b))
             regime = regime if isinstance(regime, str) else self.flat(regime)[cases]
-            whole[:, cases] = self.of(cases)._polished(regime, e, speed_a, speed_b, function)
+            speed_a, speed_b = (self.flat(speed)[cases] for speed in (speed_a, speed_b))
+            whole[:, cases] = np.broadcast_arrays(*self.of(cases)._polished(regime, speed_a, speed_b, function))
         return Root._make(whole.reshape(len(whole), *self.shape))
 
-    def _polished(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None) -> Root:
+    def _polished(self, regime: Any, speed_a: Any, speed_b: Any, function: RestitutionOf | None = None) -> Root:
         """Newton's method on the kernel, with central differences for its derivatives."""
-        here = self.observe(regime, speed_a, speed_b, e)
+        here = self.observe(regime, speed_a, speed_b)
         for _ in range(_NEWTON_STEPS):
-            rows = self._derivatives(regime, e, speed_a, speed_b, _STEP * (abs(speed_a) + abs(speed_b) + abs(here.closing)))
-            (j11, j12), (j21, j22) = rows
+            h = _STEP * (abs(speed_a) + abs(speed_b) + abs(here.closing))
+            by_a = self._slopes(h, *(self.observe(regime, speed_a + step, speed_b) for step in (h, -h)))
+            by_b = self._slopes(h, *(self.observe(regime, speed_a, speed_b + step) for step in (h, -h)))
+            (j11, j21), (j12, j22) = by_a, by_b
             r1, r2 = (value - target for value, target in zip(self.both(here), self.targets.values(), strict=True))
             determinant = j11 * j22 - j12 * j21
             step_a, step_b = (r1 * j22 - r2 * j12) / determinant, (r2 * j11 - r1 * j21) / determinant
-            ahead = self.observe(regime, speed_a - step_a, speed_b - step_b, e)
+            ahead = self.observe(regime, speed_a - step_a, speed_b - step_b)
             # Where two roots meet the derivative is rounding, and a step over it may lead anywhere.
             away = self._off(ahead, here) > self._off(here, here)
             usable = (step_a - step_a == 0.0) & (step_b - step_b == 0.0) & (away ^ True)
@@ -368,24 +373,22 @@ class Scene:
             if usable is False:
                 break
             here = ahead if usable is True else Seen._make(select(usable, *pair) for pair in zip(ahead, here, strict=True))
-        condition = self._condition(rows, here.closing)
+        closing = self._closing_if_led(speed_a, speed_b, [abs(one) + abs(other) for one, other in zip(by_a, by_b, strict=True)])
+        many = np.any(closing > 0.0) and self._one_of_many(speed_a, speed_b)
         if function is not None:
             # The restitution changes with the closing speed, and the observations with it.
-            after, before = (self.observe(regime, speed_a, speed_b, e + step) for step in (_STEP, -_STEP))
             e_by_closing = self.speed_unit * function.slope(self.speed_unit * here.closing)
-            changes = zip(self.both(after), self.both(before), strict=True)
-            by_e = [e_by_closing * (up - down) / (2.0 * _STEP) for up, down in changes]
-            g_a, g_b = self._linear[1]
-            whole = [(j_a + by * g_a, j_b + by * g_b) for (j_a, j_b), by in zip(rows, by_e, strict=True)]
-            condition = self._condition(whole, here.closing)
-        return Root(speed_a, speed_b, e, condition, abs(j11) + abs(j12), abs(j21) + abs(j22))
+            seen = (self.both(self.observe(regime, speed_a, speed_b, step)) for step in (_STEP, -_STEP))
+            by_closing = [e_by_closing * (up - down) / (2.0 * _STEP) for up, down in zip(*seen, strict=True)]
+            by_a, by_b = (
+                [alone + through_e * closing_by_speed for alone, through_e in zip(by_speed, by_closing, strict=True)]
+                for by_speed, closing_by_speed in zip((by_a, by_b), self._linear[1], strict=True)
+            )
+        return Root(speed_a, speed_b, self.e, self._condition(by_a, by_b, here.closing), closing, many)
 
-    def _derivatives(self, regime: Any, e: Any, speed_a: Any, speed_b: Any, size: Any) -> list[tuple[Any, Any]]:
-        """Derivatives of each observation by both speeds."""
-        by_a = (self.both(self.observe(regime, speed_a + h, speed_b, e)) for h in (size, -size))
-        by_b = (self.both(self.observe(regime, speed_a, speed_b + h, e)) for h in (size, -size))
-        both = zip(*by_a, *by_b, strict=True)
-        return [((up_a - down_a) / (2.0 * size), (up_b - down_b) / (2.0 * size)) for up_a, down_a, up_b, down_b in both]
+    def _slopes(self, step: Any, ahead: Seen, behind: Seen) -> list[Any]:
+        """Central difference of each observation."""
+        return [(up - down) / (2.0 * step) for up, down in zip(self.both(ahead), self.both(behind), strict=True)]
 
     def _off(self, seen: Seen, here: Seen) -> Any:
         """Largest relative residual of both observations; an energy loss is measured against closing speed times impulse."""
@@ -396,9 +399,9 @@ class Scene:
             offs.append(abs(getattr(seen, kind) - target) / size)
         return larger(*offs)
 
-    def _condition(self, rows: Sequence[Sequence[Any]], closing: Any) -> Any:
+    def _condition(self, by_a: Sequence[Any], by_b: Sequence[Any], closing: Any) -> Any:
         """Condition: the factor by which relative input errors grow in the speeds, taken relative to the closing speed."""
-        (j11, j12), (j21, j22) = rows
+        (j11, j21), (j12, j22) = by_a, by_b
         d1, d2 = (
             (2.0 if kind in ("squared_impulse", "absorbed_energy") else 1.0) * abs(target)
             for kind, target in self.targets.items()
@@ -406,16 +409,16 @@ class Scene:
         moved = np.maximum(abs(d1 * j22) + abs(d2 * j12), abs(d2 * j11) + abs(d1 * j21))
         return moved / abs((j11 * j22 - j12 * j21) * closing)
 
-    def fits(self, root: Root) -> tuple[Any, Any]:
-        """Whether the given law leads from these speeds to the observed values, and the closing speed.
+    def _closing_if_led(self, speed_a: Any, speed_b: Any, slopes: Sequence[Any]) -> Any:
+        """The closing speed where the given law leads from these speeds to the observed values, elsewhere NaN.
 
         The speeds of a root are themselves rounded, which moves an observation by its slope; the kernel adds the rounding of
         the parts that it sums up. What is off by more belongs to another regime than the law leads to. Near grazing rounding
         grows beyond the observation itself and tells nothing: there a part of the observation is the bound.
         """
-        seen = self.observe(LAW, root.speed_a, root.speed_b, root.restitution)
+        seen = self.observe(LAW, speed_a, speed_b)
         fits = pushed(seen)
-        for (kind, target), slope in zip(self.targets.items(), root[4:], strict=True):
+        for (kind, target), slope in zip(self.targets.items(), slopes, strict=True):
             scale = parts = seen.whole if kind.startswith("speed") else getattr(seen, kind)
             if kind == "energy_loss":
                 scale = seen.closing * seen.normal
@@ -423,7 +426,7 @@ class Scene:
                 parts = seen.lost + np.where(self.bound == 0.0, 0.0, scale)
             rounding = _KERNEL_ROUNDING * (slope * seen.whole + parts)
             fits = fits & (abs(getattr(seen, kind) - target) <= np.minimum(rounding, ROOT_TOL * scale))
-        return fits, seen.closing
+        return np.where(fits, seen.closing, np.nan)
 
     def _can_occur(self, regime: Any) -> Any:
         """Whether the law allows a regime: no sticking without friction, nor with less than the critical ratio."""
@@ -431,14 +434,14 @@ class Scene:
             return self.bound == 1.0 if self.rule == CRITICAL_FRACTION else self.bound > 0.0
         return True
 
-    def _any_speed_fits(self, regime: Any, e: Any) -> Any:
+    def _any_speed_fits(self, regime: Any) -> Any:
         """With one speed known: whether every other speed in this regime gives the same observation, and the one observed."""
         rest = self._linear[0]
         size = abs(self.targets[self.kinds[0]]) + abs(rest.closing) + abs(rest.slip)
         size = np.where(size > 0.0, size, 1.0)
         low: Any = np.full((), -np.inf)
         high: Any = np.full((), np.inf)
-        seen = (self.observe(STICK, *self._with_known_speed(x), e) for x in (-size, size))
+        seen = (self.observe(STICK, *self._with_known_speed(x)) for x in (-size, size))
         for behind, ahead in zip(*(self._conditions(regime, one) for one in seen), strict=True):
             # Each is linear in the speed, so it changes sign at one place.
             middle = size * (behind + ahead) / (behind - ahead)
@@ -449,7 +452,7 @@ class Scene:
         low, high = np.maximum(low, nearest - size), np.minimum(high, nearest + size)
         wide = high - low > ROOT_TOL * size
         places = [self._with_known_speed(low + part * (high - low)) for part in _PARTS]
-        return self._can_occur(regime) & wide & self._all_fit(e, places)
+        return self._can_occur(regime) & wide & self._all_fit(places)
 
     def _conditions(self, regime: Any, stuck: Seen) -> list[Any]:
         """The expressions that must be positive for the law to lead to a regime."""
@@ -464,9 +467,8 @@ class Scene:
             return [stuck.closing, most - across, most + across]
         return [stuck.closing, np.where(self.bound > 0.0, np.copysign(1.0, regime) * across - most, 1.0)]
 
-    def one_of_many(self, root: Root) -> Any:
+    def _one_of_many(self, speed_a: Any, speed_b: Any) -> Any:
         """Whether the speeds on one side of a root also give the observed values: a continuous range of solutions."""
-        speed_a, speed_b, e, *_ = root
         size = abs(speed_a) + abs(speed_b) + self.fixed[0]
         many: Any = False
         for side in (-_BESIDE, _BESIDE):
@@ -476,18 +478,18 @@ class Scene:
                     pairs.append((speed_a + moved, speed_b))
                 else:
                     beside = (speed_a, speed_b + moved)
-                    pairs.append(beside if self.kinds[0] == "speed_a" else self._scaled(*beside, e))
-            many = many | self._all_fit(e, pairs)
+                    pairs.append(beside if self.kinds[0] == "speed_a" else self._scaled(*beside))
+            many = many | self._all_fit(pairs)
         return many
 
-    def _scaled(self, speed_a: Any, speed_b: Any, e: Any) -> tuple[Any, Any]:
+    def _scaled(self, speed_a: Any, speed_b: Any) -> tuple[Any, Any]:
         """The speeds, scaled at the same slip per closing speed, that give the observation that is not a loss."""
         kind = self.kinds[1] if self.kinds[0] == "energy_loss" else self.kinds[0]
-        seen = self.observe(LAW, speed_a, speed_b, e)
+        seen = self.observe(LAW, speed_a, speed_b)
         factor = np.sqrt(self.targets[kind] / getattr(seen, kind))
         return self.speeds_at(factor * seen.closing, factor * seen.slip)
 
-    def _all_fit(self, e: Any, pairs: Sequence[tuple[Any, Any]]) -> Any:
+    def _all_fit(self, pairs: Sequence[tuple[Any, Any]]) -> Any:
         """Whether the law leads from all these speeds to the observed values, and to the same value from each.
 
         An energy that was given is known to the rounding of the energies that it is the difference of. What the kernel answers
@@ -496,7 +498,7 @@ class Scene:
         fit: Any = True
         first: Seen | None = None
         for pair in pairs:
-            seen = self.observe(LAW, *pair, e)
+            seen = self.observe(LAW, *pair)
             first = first or seen
             fit = fit & (seen.status <= Status.ENERGY_GAIN)
             for kind, target in self.targets.items():

@@ -52,35 +52,27 @@ class ComponentScene(Scene):
             self._axes.append((sign * (nx * ax + ny * ay), sign * (nx * ay - ny * ax)))
             self._momenta.append(self.numbers[f"{label}.mass"] * self.numbers[kind])
 
-    def roots(self, e: Any = None, polish: bool = True, function: RestitutionOf | None = None) -> list[Root]:
-        """The answer with the least misfit that the law leads to, or all that fit exactly; NaN in place of others."""
-        self.undetermined = np.zeros((), dtype=bool)
-        found, misfits, open_slip = [], [], np.full((), np.inf)
-        tried = [(regime, *self._solved(regime)) for regime in self.regimes()]
-        for regime, root, rest, stays_open in [*tried, *self._edges()]:
-            fits, _ = self.fits(root)
-            usable = fits & ~stays_open & (rest <= _CONTRADICTION * ACCURACY)
-            found.append(root._replace(speed_a=np.where(usable, root.speed_a, np.nan)))
-            misfits.append(np.where(usable, rest, np.inf))
-            pushes = self._can_occur(regime) & (root.slope_1 > 0.0)
-            open_slip = np.fmin(open_slip, np.where(stays_open & pushes, rest, np.inf))
+    def roots(self, function: RestitutionOf | None = None) -> list[Root]:
+        """The answer with the least misfit that the law leads to, or all that fit exactly; no others have a closing speed."""
+        tried = [*map(self._solved, self.regimes()), *self._edges()]
+        found, misfits, of_open_slip = zip(*tried, strict=True)
         self.misfit = np.minimum.reduce(np.broadcast_arrays(*misfits))
-        for i, (root, rest) in enumerate(zip(found, misfits, strict=True)):
-            found[i] = root._replace(speed_a=np.where(rest <= np.maximum(ROOT_TOL, self.misfit), root.speed_a, np.nan))
+        open_slip = np.fmin.reduce(np.broadcast_arrays(*of_open_slip))
         none = np.isinf(self.misfit)
         self.undetermined = (open_slip <= REDUNDANT) | (none & (open_slip <= _CONTRADICTION * ACCURACY))
         self.near_sliding = ~none & ~self.undetermined & (open_slip <= ACCURACY)
-        return found
+        best = [misfit <= np.maximum(ROOT_TOL, self.misfit) for misfit in misfits]
+        return [root._replace(closing=np.where(here, root.closing, np.nan)) for root, here in zip(found, best, strict=True)]
 
     def _solved(self, regime: Any) -> tuple[Root, Any, Any]:
-        """The least squares of a regime, what they leave relative to the impulse, and whether they leave a speed open."""
+        """The least squares of a regime."""
         rest, *moving = map(self._seen_momenta, self.at_unit_speeds(regime))
         effects = [[at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
         speeds = [self.targets.get(f"speed_{label}", 0.0) + 0.0 * rest[0] for label in "ab"]
         for _ in range(_REFINEMENTS):
-            left = self._left(self.observe(regime, speeds[0], speeds[1], self.e))
+            left = self._left(self.observe(regime, *speeds))
             for at, row in zip(self.unknown, inverse, strict=True):
                 step = sum(part * off for part, off in zip(row, left, strict=True))
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
@@ -93,9 +85,9 @@ class ComponentScene(Scene):
                     by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
                     of_row = of_row + abs(by_speed * self.targets[f"speed_{label}"])
             moved = np.maximum(moved, of_row)
-        return *self._root(regime, speeds, moved), stays_open
+        return self._judged(regime, speeds, moved, stays_open)
 
-    def _edges(self) -> list[tuple[Any, Root, Any, Any]]:
+    def _edges(self) -> list[tuple[Root, Any, Any]]:
         """With one speed known: where sticking just uses up the friction, one way or the other.
 
         The least misfit lies there where that of each regime lies beyond its end.
@@ -105,7 +97,7 @@ class ComponentScene(Scene):
         (at,) = self.unknown
         known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         of_unknown, of_known = ([speed + (1.0 if i == one else 0.0) for i, speed in enumerate(known)] for one in (at, 1 - at))
-        seen = [self.observe(STICK, speed_a, speed_b, self.e) for speed_a, speed_b in (known, of_unknown, of_known)]
+        seen = [self.observe(STICK, speed_a, speed_b) for speed_a, speed_b in (known, of_unknown, of_known)]
         found = []
         for sign in (1.0, -1.0):
             here, by_unknown, by_known = (one.tangential - sign * self.bound * one.normal for one in seen)
@@ -113,15 +105,24 @@ class ComponentScene(Scene):
             speeds = [speed + 0.0 * here for speed in known]
             speeds[at] = np.where(np.isfinite(self.bound) & (self.bound > 0.0), -here / slope, np.nan)
             moved = abs((by_known - here) / slope * known[1 - at])
-            found.append((STICK, *self._root(STICK, speeds, moved), np.zeros((), dtype=bool)))
+            found.append(self._judged(STICK, speeds, moved, False))
         return found
 
-    def _root(self, regime: Any, speeds: Sequence[Any], moved: Any) -> tuple[Root, Any]:
-        """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse."""
-        seen = self.observe(regime, speeds[0], speeds[1], self.e)
-        impulse, left = (seen.normal, seen.tangential), self._left(seen)
-        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(*impulse)
-        return Root(speeds[0], speeds[1], self.e, moved / abs(seen.closing), *impulse), misfit
+    def _judged(self, regime: Any, speeds: Sequence[Any], moved: Any, stays_open: Any) -> tuple[Root, Any, Any]:
+        """The root at these speeds, whose relative errors grow to ``moved``, and its misfit relative to the impulse.
+
+        The misfit is infinite unless the law leads from these speeds to the impulse of this regime. Last comes the misfit of a
+        regime that may have been and leaves a speed open, else infinity.
+        """
+        here, seen = (self.observe(which, *speeds) for which in (regime, LAW))
+        left = self._left(here)
+        misfit = np.maximum(*(self._of(label, left) for label in "ab")) / np.hypot(here.normal, here.tangential)
+        apart = abs(seen.normal - here.normal) + abs(seen.tangential - here.tangential)
+        fits = pushed(seen) & (apart <= ROOT_TOL * abs(here.normal))
+        usable = fits & np.logical_not(stays_open) & (misfit <= _CONTRADICTION * ACCURACY)
+        leaves_open = stays_open & self._can_occur(regime) & (here.normal > 0.0)
+        root = Root(speeds[0], speeds[1], self.e, moved / abs(here.closing), np.where(usable, seen.closing, np.nan))
+        return root, np.where(usable, misfit, np.inf), np.where(leaves_open, misfit, np.inf)
 
     def _seen_momenta(self, seen: Seen) -> list[Any]:
         return [n * seen.normal + t * seen.tangential for n, t in self._axes]
@@ -132,13 +133,6 @@ class ComponentScene(Scene):
     def _of(self, label: str, left: Sequence[Any]) -> Any:
         """The length of what remains of the components of one vehicle."""
         return np.sqrt(sum((one * one for kind, one in zip(self.components, left, strict=True) if kind[-1] == label), 0.0))
-
-    def fits(self, root: Root) -> tuple[Any, Any]:
-        """Whether the given law leads from these speeds to the impulse of the root's regime, and the closing speed."""
-        seen = self.observe(LAW, root.speed_a, root.speed_b, root.restitution)
-        normal, tangential = root[4:]
-        apart = abs(seen.normal - normal) + abs(seen.tangential - tangential)
-        return pushed(seen) & (apart <= ROOT_TOL * abs(normal)), seen.closing
 
     def warn(self, answered: Any) -> None:
         """Warn of known values that differ beyond their accuracy, of courses near one line, of a contact that may have slid."""
@@ -172,10 +166,6 @@ class ComponentScene(Scene):
                     code="may_slide",
                 )
             )
-
-    def one_of_many(self, root: Root) -> Any:
-        """No root of a linear problem of full rank has others beside it."""
-        return False
 
 
 def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[list[list[Any]], Any]:
