@@ -15,7 +15,7 @@ from ..errors import (
     Status,
 )
 from ..hints import hinted
-from ..inputs import body_numbers, read_inputs
+from ..inputs import Inputs, body_numbers, read_inputs
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..kernels.elementwise import either_infinite, not_about_pivot, rounding
 from ..solving import error_of, warn_of_refusals
@@ -211,49 +211,47 @@ def _observe(bodies: dict[str, Any], normal: Any, point: Any, purpose: str) -> t
     wrong = [not_a_vehicle(label, body) for label, body in bodies.items() if not isinstance(body, Vehicle)]
     motions = (number for body in bodies.values() if isinstance(body, Vehicle) for number in numbers_of(body).values())
     read = read_inputs("solve", (_ANY, _ANY, 0.0, normal, point, (0.0, None, None), BRACH), wrong, motions)
-    contact = read.point
-    used = {label: _numbers_at(body, contact, label, purpose) for label, body in bodies.items()}
+    for label, body in bodies.items():
+        _check_position(label, body, read.point, purpose)
     given = {f"{label}.{name}": value for label, body in bodies.items() for name, value in numbers_of(body).items()}
     numbers = {"normal[0]": read.normal[0], "normal[1]": read.normal[1], **given}
-    numbers |= {f"point[{i}]": part for i, part in enumerate(contact or ())}
+    numbers |= {f"point[{i}]": part for i, part in enumerate(read.point or ())}
     cases = Cases.of(numbers)
-    pinned = {label: body.pivot is not None for label, body in bodies.items()}
     with np.errstate(all="ignore"):
-        before, after = (
-            _moment(read.normal, contact or (0.0, 0.0), used[a], used[b], pinned[a], pinned[b])
-            for a, b in (("a_before", "b_before"), ("a_after", "b_after"))
-        )
+        before, after = (_moment(read, bodies[f"a_{when}"], bodies[f"b_{when}"]) for when in ("before", "after"))
         faults = [
             *input_faults(numbers),
             *(fault for body in bodies.values() for fault in _pivot_faults(body, cases.eps)),
-            *_changed_bodies(given, contact, cases),
+            *_changed_bodies(given, read.point, cases),
             (before.closing_speed < 0.0, Status.SEPARATING),
             (before.closing_speed == 0.0, Status.NO_CLOSING),
         ]
     return cases, before, after, faults
 
 
-def _moment(normal: Any, contact: Any, a: dict[str, Any], b: dict[str, Any], *pinned: bool) -> _Moment:
-    n, (px, py) = tuple(map(np.asarray, normal)), map(np.asarray, contact)
-    a, b = ({name: np.asarray(value, dtype=np.float64) for name, value in body.items()} for body in (a, b))
+def _check_position(label: str, body: Vehicle, contact: Any, purpose: str) -> None:
+    """Raise for a body that turns if the contact point or the position of the body was not given."""
+    if without_turning(body.yaw_rate):
+        return
+    if contact is None:
+        raise MissingInputError(
+            f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
+        )
+    for name in ("x", "y"):
+        needed(body, name, purpose, label)
+
+
+def _moment(read: Inputs, *bodies: Vehicle) -> _Moment:
+    n, (px, py) = tuple(map(np.asarray, read.normal)), map(np.asarray, read.point or (0.0, 0.0))
+    numbers = ([np.asarray(number, dtype=np.float64) for number in body_numbers(body, read.point)] for body in bodies)
+    a, b = (dict(zip(NUMBERS, of_body, strict=True)) for of_body in numbers)
+    pinned = (body.pivot is not None for body in bodies)
     raw = forward(np.zeros(()), *n, np.zeros(()), px, py, *a.values(), *b.values(), FRICTION, BRACH, *pinned)
     speeds: Any = 0.0
     for body in (a, b):
         lever = abs(px - body["x"]) + abs(py - body["y"])
         speeds = speeds + abs(body["vx"]) + abs(body["vy"]) + abs(body["yaw_rate"]) * lever
     return _Moment(a, b, n, raw.closing_speed, speeds)
-
-
-def _numbers_at(body: Vehicle, contact: Any, label: str, purpose: str) -> dict[str, Any]:
-    """The numbers of one body by name; one that turns needs its position, and the contact point."""
-    turns = not without_turning(body.yaw_rate)
-    if turns and contact is None:
-        raise MissingInputError(
-            f"{label} turns, so {purpose} needs the contact point; give point=(x, y)", code="missing_point", argument="point"
-        )
-    for name in ("x", "y") if turns else ():
-        needed(body, name, purpose, label)
-    return dict(zip(NUMBERS, body_numbers(body, contact), strict=True))
 
 
 def _pivot_faults(body: Vehicle, eps: float) -> _Faults:
