@@ -18,9 +18,8 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
-from collisions.kernels.buffers import carved
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import Replay, record
+from collisions.kernels.replay import carved, record, replay
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000
@@ -61,6 +60,6 @@ if __name__ == "__main__":
     for length in (8192, 65536):
         ways[f"blocks of {length}"] = partial(run, given, outputs, length, as_it_is)
     for length in (1024, 8192, 65536):
-        ways[f"blocks of {length}, replayed"] = partial(run, given, outputs, length, Replay(program, length))
+        ways[f"blocks of {length}, replayed"] = partial(run, given, outputs, length, partial(replay, program))
     print(f"{CASES} cases, of whole arrays:")
     compare(ways, "whole arrays", rounds=3)

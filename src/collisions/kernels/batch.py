@@ -1,13 +1,12 @@
 """Many cases at once: kernels run in blocks that stay in the cache, on one thread or several.
 
 Every case is worked out by itself. A refused one is NaN in every output and carries its status; it cannot touch its neighbours.
-Where the cases have models of their own, those of a block are put in the order of their models, worked out, and put back.
+Where the cases have models of their own, those of a part of the batch are gathered by model, worked out, and put back.
 """
 
 from __future__ import annotations
 
 import math
-import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, lru_cache, partial
 from itertools import chain
@@ -15,14 +14,15 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from .buffers import Program, large_arrays
 from .elementwise import first_status
 from .floats import compile_for_floats
 from .model_error import ECCENTRIC, least_model
-from .replay import Replay, input_kind, record
+from .replay import Program, input_kind, large_arrays, record, replay
 from .status import Answer, Status
 
 BLOCK = 8192
+# Of cases with models of their own, so many are looked at together: of each model several blocks, and all still in a cache.
+_PART = 8 * BLOCK
 # Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take longer than their arithmetic.
 FEW = 24
 # Of all threads together, in bytes; a longer block gains nothing.
@@ -48,9 +48,6 @@ LATER = ("status", *(name for name in Answer._fields if name not in FIRST))
 _SMALL, _LARGE = 1e-18, 1e6
 _TINY, _HUGE = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
-# Runs one block: reads the inputs and writes the outputs; an output that is not wanted is None.
-# It gives whether all its cases are fine.
-Run: TypeAlias = Callable[[Sequence[Any], Sequence[Any]], bool]
 Progress: TypeAlias = Callable[[int, int], None]
 T = TypeVar("T")
 R = TypeVar("R")
@@ -114,7 +111,7 @@ def solve_cases(works: Sequence[Work], which: Any, cases: Cases, progress: Progr
     ``which`` has the number of each case's work, None where there is but one. ``progress(done, total)`` is called after every
     block, from the calling thread.
     """
-    solve = partial(_solved, works, which, cases)
+    solve = partial(_solved, works[0], cases) if which is None else partial(_by_model, works, which, cases)
     if cases.size > FEW:
         return BatchAnswer(solve, solve(_first_names(chain(*(work.inputs for work in works)), cases.dtype), progress))
     return Answer(**solve(Answer._fields, progress))
@@ -143,9 +140,11 @@ def least_models(
                 error[wrong] = np.nan
 
     kinds = np.dtype(np.uint8), np.dtype(cases.dtype), np.dtype(cases.dtype)
-    works = [Work(least_model, settings, inputs)]
-    outputs = large_arrays(cases.size, kinds)
-    _in_blocks(works, _programs(works, kinds, cases), None, outputs, cases, refuse, progress)
+    work = Work(least_model, settings, inputs)
+    program, outputs = _program(work, kinds, cases), large_arrays(cases.size, kinds)
+    for at, value in {} if program is None else program.outputs.items():
+        outputs[at].fill(value)
+    _in_blocks(work, program, outputs, cases, refuse, progress)
     which, linear, oblique = (output.reshape(cases.shape) for output in outputs)
     return which, linear, oblique
 
@@ -186,20 +185,44 @@ class BatchAnswer:
         return Answer, tuple(self)
 
 
-def _solved(
+def _by_model(
     works: Sequence[Work], which: Any, cases: Cases, names: Sequence[str], progress: Progress | None = None
 ) -> dict[str, Any]:
+    """These outputs where cases have models of their own: in each part of the batch, those of one model are solved together."""
+    checks, shape, dtype, threads = cases
+    values = {id(value): value for value in chain(*(work.inputs for work in works), *(check.values for check in checks))}
+    columns = {key: value if isinstance(value, float) else flat(value, shape) for key, value in values.items()}
+    numbers = flat(which, shape)
+    kinds = {name: kind for name, kind in zip(Answer._fields, _kinds(tuple(names), np.dtype(dtype)), strict=True) if kind}
+    found = dict(zip(kinds, large_arrays(cases.size, list(kinds.values())), strict=True))
+
+    def solve(start: int) -> int:
+        part = numbers[start : start + _PART]
+        for number, (kernel, settings, inputs) in enumerate(works):
+            chosen = np.flatnonzero(part == number) + start
+            if chosen.size:
+                taken = {key: column if isinstance(column, float) else column[chosen] for key, column in columns.items()}
+                own = [check._replace(values=tuple(taken[id(value)] for value in check.values)) for check in checks]
+                work = Work(kernel, settings, tuple(taken[id(value)] for value in inputs))
+                for name, output in _solved(work, Cases(own, chosen.shape, dtype), names).items():
+                    found[name][chosen] = output
+        return len(part)
+
+    each_block(solve, range(0, cases.size, _PART), cases.size, threads, progress)
+    return _shaped(found, shape)
+
+
+def _solved(work: Work, cases: Cases, names: Sequence[str], progress: Progress | None = None) -> dict[str, Any]:
     """The outputs of these names, the status always included; locked."""
     dtype, size = np.dtype(cases.dtype), cases.size
     kinds = _kinds(tuple(names), dtype)
-    programs = _programs(works, kinds, cases)
-    program = programs[0] if which is None else None
+    program = _program(work, kinds, cases)
     same = {} if program is None else program.outputs
     outputs: list[Any] = [None] * len(kinds)
     computed = {at: kind for at, kind in enumerate(kinds) if kind is not None and at not in same}
     for at, output in zip(computed, large_arrays(size, list(computed.values())), strict=True):
         outputs[at] = output
-    _in_blocks(works, programs, which, outputs, cases, blank, progress)
+    _in_blocks(work, program, outputs, cases, blank, progress)
     if dtype == np.float32:
         _refuse_beyond(outputs)
     if same:
@@ -209,8 +232,12 @@ def _solved(
         for at, value in same.items():
             number, none = (np.array(one, kinds[at]) for one in (value, math.nan if kinds[at] == dtype else False))
             outputs[at] = np.where(refused, none, number) if some else np.broadcast_to(number, size)
-    named = zip(Answer._fields, outputs, strict=True)
-    found = {name: output.reshape(cases.shape) for name, output in named if output is not None}
+    return _shaped(dict(zip(Answer._fields, outputs, strict=True)), cases.shape)
+
+
+def _shaped(outputs: dict[str, Any], shape: tuple[int, ...]) -> dict[str, Any]:
+    """The outputs that there are, in the shape of the batch; locked."""
+    found = {name: output.reshape(shape) for name, output in outputs.items() if output is not None}
     for output in found.values():
         output.setflags(write=False)
     return found
@@ -252,66 +279,38 @@ def blank(faults: Sequence[Any], answers: Sequence[Any]) -> None:
 
 
 def _in_blocks(
-    works: Sequence[Work],
-    programs: Sequence[Program | None],
-    which: Any,
+    work: Work,
+    program: Program | None,
     outputs: Sequence[Any],
     cases: Cases,
     refuse: Callable[[Sequence[Any], Sequence[Any]], None],
     progress: Progress | None,
 ) -> None:
-    """Run the kernels over all cases into these arrays; ``refuse`` gets the faults and outputs of each block."""
+    """Run the kernel over all cases into these arrays; ``refuse`` gets the faults and outputs of each block."""
     checks, shape, dtype, threads = cases
     size = cases.size
     # By the id of a value, the flat view its blocks are cut from: an array that is read more than once is cut once.
-    values = {id(value): value for value in chain(*(work.inputs for work in works), *(check.values for check in checks))}
+    values = {id(value): value for value in chain(work.inputs, *(check.values for check in checks))}
     plain = {key: value for key, value in values.items() if isinstance(value, float)}
     columns = {key: flat(value, shape) for key, value in values.items() if key not in plain}
-    taken = [list(map(id, work.inputs)) for work in works]
-    numbers = None if which is None else flat(which, shape)
-    # Scratch per thread: that of every model, with several models one set of outputs, and the inputs of one block.
-    gathered = 0 if which is None else len(columns) + len(works)
-    scratch = sum(program.scratch for program in programs if program is not None) + gathered * np.dtype(dtype).itemsize
-    length = min(block_length(size, threads, scratch), size or 1)
-    per_block = length * len(works)
+    length = min(block_length(size, threads, 0 if program is None else program.scratch), size or 1)
     # What the kernel reads to find out whether a case is fine.
-    program = programs[0] if which is None else None
-    judged = set() if program is None else {id(works[0].inputs[at]) for at in program.judged}
+    judged = set() if program is None else {id(work.inputs[at]) for at in program.judged}
     open_checks = [check for check in checks if not (check.implied and judged.issuperset(map(id, check.values)))]
-    mine = threading.local()
-    replays: list[Replay] = []
-
-    def run_of(work: Work, program: Program | None) -> Run:
-        if program is None:
-            return partial(run_one_by_one, work.kernel, work.settings)
-        replays.append(Replay(program, length))
-        return replays[-1]
 
     def solve(start: int) -> int:
-        block = slice(start, min(start + per_block, size))
-        if not hasattr(mine, "runs"):
-            mine.runs = [run_of(work, program) for work, program in zip(works, programs, strict=True)]
-            mine.room = None if which is None else np.empty(min(per_block, size))
+        block = slice(start, min(start + length, size))
         cut = plain | {key: column[block].astype(dtype, copy=False) for key, column in columns.items()}
-        inputs = [[cut[key] for key in keys] for keys in taken]
+        inputs = [cut[id(value)] for value in work.inputs]
         answers = [None if output is None else output[block] for output in outputs]
         with np.errstate(all="ignore"):
-            if numbers is None:
-                fine = mine.runs[0](inputs[0], answers)
-                faults = _faults(open_checks if fine else checks, cut)
-            else:
-                # Before gathering: the checks read the inputs in the order of the cases, which brings them into the cache.
-                fine, faults = False, _faults(checks, cut)
-                _run_by_model(mine.runs, inputs, numbers[block], answers, length, mine.room)
+            fine = run_one_by_one(work, inputs, answers) if program is None else replay(program, inputs, answers)
+            faults = _faults(open_checks if fine else checks, cut)
         if faults or not fine:
             refuse(faults, answers)
         return block.stop - block.start
 
-    try:
-        each_block(solve, range(0, size, per_block), size, threads, progress)
-    finally:
-        for replay in replays:
-            replay.close()
+    each_block(solve, range(0, size, length), size, threads, progress)
 
 
 def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
@@ -324,54 +323,19 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     return found
 
 
-def _run_by_model(
-    runs: Sequence[Run], inputs: Sequence[Sequence[Any]], numbers: Any, answers: Sequence[Any], length: int, room: Any
-) -> None:
-    """Gather the cases of each model, solve them in blocks, and scatter the results in the order of the cases."""
-    chosen = [np.flatnonzero(numbers == number) for number in range(len(runs))]
-    order = np.concatenate(chosen)
-    in_order = bool(np.all(order[1:] > order[:-1]))
-    at = 0
-    for run, given, cases in zip(runs, inputs, chosen, strict=True):
-        for some in np.array_split(cases, math.ceil(cases.size / length) or 1):
-            here = slice(at, at + some.size)
-            at += some.size
-            if some.size:
-                wanted = here if in_order else some
-                run([_gathered(column, wanted) for column in given], [None if one is None else one[here] for one in answers])
-    if not in_order:
-        place = np.empty_like(order)
-        place[order] = np.arange(order.size)
-        for answer in answers:
-            if answer is not None:
-                moved = room.view(answer.dtype)[: answer.size]
-                answer[...] = answer.take(place, out=moved, mode="clip")
-
-
-def _gathered(column: Any, some: Any) -> Any:
-    """The elements of a block at these indices, all valid: letting numpy check them takes as long as gathering them."""
-    if isinstance(column, float):
-        return column
-    return column[some] if isinstance(some, slice) else column.take(some, mode="clip")
-
-
-def _programs(works: Sequence[Work], kinds: tuple[Any, ...], cases: Cases) -> list[Program | None]:
-    """The kernels recorded for inputs and outputs of these kinds; None for a few cases."""
+def _program(work: Work, kinds: tuple[Any, ...], cases: Cases) -> Program | None:
+    """The kernel recorded for inputs and outputs of these kinds; None for a few cases."""
     dtype = np.dtype(cases.dtype)
     few = cases.size <= FEW and dtype == np.float64
-    return [
-        None if few else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds) for work in works
-    ]
+    return None if few else record(work.kernel, work.settings, tuple(map(input_kind, work.inputs)), dtype, kinds)
 
 
-def run_one_by_one(
-    kernel: Callable[..., tuple[Any, ...]], settings: tuple[Any, ...], inputs: Sequence[Any], outputs: Sequence[Any]
-) -> bool:
+def run_one_by_one(work: Work, inputs: Sequence[Any], outputs: Sequence[Any]) -> bool:
     """Answer each case by the kernel compiled for floats; all by the kernel itself if one of them is not plainly fine."""
-    count, function = len(outputs[0]), _for_floats(kernel, settings, len(inputs))
+    count, function = len(outputs[0]), _for_floats(work.kernel, work.settings, len(inputs))
     columns = [[value] * count if isinstance(value, float) else value.tolist() for value in inputs]
     answers = [*map(function, zip(*columns, strict=True))]
-    found = kernel(*inputs, *settings) if None in answers else zip(*answers, strict=True)
+    found = work.kernel(*inputs, *work.settings) if None in answers else zip(*answers, strict=True)
     for output, answer in zip(outputs, found, strict=True):
         if output is not None:
             output[...] = answer
