@@ -21,8 +21,8 @@ from .replay import Program, input_kind, large_arrays, record, replay
 from .status import Answer, Status
 
 BLOCK = 8192
-# Of cases with models of their own, so many are looked at together: of each model several blocks, and all still in a cache.
-_PART = 8 * BLOCK
+# Of cases with models of their own, so many are looked at together: about a block of each of three models.
+_PART = 3 * BLOCK
 # Up to so many cases in float64 are answered one by one, as single cases are: numpy's calls take longer than their arithmetic.
 FEW = 24
 # Of all threads together, in bytes; a longer block gains nothing.
