@@ -195,6 +195,9 @@ class Summarized:
         """
         return self._summary(cells(units, self._texts()))
 
+    def __repr__(self) -> str:
+        return str(self.summary())
+
     def _summary(self, numbers: Cells) -> Summary:
         raise NotImplementedError
 

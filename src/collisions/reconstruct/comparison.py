@@ -55,9 +55,6 @@ class Comparison(Summarized):
         written: dict[str, Any] = strict({name: getattr(self, name) for name in plain} | {"log_bayes_factors": factors})
         return written
 
-    def __repr__(self) -> str:
-        return str(self.summary())
-
     def _summary(self, numbers: Cells) -> Summary:
         rows = [
             (name, f"{value:.3g} ± {self.probability_error[name]:.1g}", f"{self.prior[name]:.3g}")

@@ -95,7 +95,7 @@ def crush_energy(
         )
     angle = Angle(*reader.angle(force_angle, "force_angle"))
     cosine = angle.direction[0]
-    if isinstance(cosine, float) and not (cosine > _RIGHT_ANGLE or math.isnan(cosine)):
+    if isinstance(cosine, float) and cosine <= _RIGHT_ANGLE:
         reader.refuse(
             InputError(
                 f"force_angle must be less than 90 deg from the perpendicular of the damaged side, got {shown(force_angle)}",

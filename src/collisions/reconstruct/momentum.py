@@ -175,17 +175,16 @@ def _share(given: dict[str, Any], kind: str) -> Any:
     found = [given[name] for name in names if name in given]
     if not found:
         return False
-    unlike: Any = False
-    if len(found) == 2:
-        unlike = np.logical_not(_same_course(*found)) if kind == "course" else np.not_equal(*found)
-        if np.ndim(unlike) == 0 and unlike:
-            both = " and ".join(show(value.radians.item() if isinstance(value, Angle) else value) for value in found)
-            raise InputError(
-                f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together cannot; give one of them",
-                code="contradictory",
-                argument=names[1],
-            )
-    given.update(dict.fromkeys(names, found[0]))
+    one, other = found[0], found[-1]
+    unlike: Any = np.logical_not(_same_course(one, other)) if kind == "course" else np.not_equal(one, other)
+    if np.ndim(unlike) == 0 and unlike:
+        both = " and ".join(show(value.radians.item() if isinstance(value, Angle) else value) for value in found)
+        raise InputError(
+            f"{names[0]} and {names[1]} differ ({both}), which vehicles that leave together cannot; give one of them",
+            code="contradictory",
+            argument=names[1],
+        )
+    given.update(dict.fromkeys(names, one))
     return unlike
 
 

@@ -216,9 +216,6 @@ class Posterior(Summarized):
         written: dict[str, Any] = strict(record | {name: getattr(self, name) for name in plain})
         return written
 
-    def __repr__(self) -> str:
-        return str(self.summary())
-
     def _summary(self, numbers: Cells) -> Summary:
         observed = [(name, str(one), f"{self.residuals[name].over_sigma:+.2f}") for name, one in self.observed.items()]
         parts = [
