@@ -112,10 +112,8 @@ class Answers:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything in plain values for other tools: each result as the record at the end of a report."""
-        from . import __version__
-
         results = [
-            result.to_dict() if isinstance(result, Posterior) else json.loads(record(result, __version__, {}, self.propagation))
+            result.to_dict() if isinstance(result, Posterior) else json.loads(record(result, {}, self.propagation))
             for result in self.results
         ]
         ranges = None if self.propagation is None else self._made(self.propagation.to_dict, {}, "propagate")

@@ -12,7 +12,6 @@ from inspect import signature
 from typing import Any, Literal, TypeAlias, get_args
 
 from .. import plot
-from ..contact_effects import left_out
 from ..derivation.evidence import fit, momentum_inputs
 from ..derivation.explain import NOT_EXPLAINED, about_ranges, explain, impact_inputs, no_uncertainty
 from ..diagnostics import diagnose
@@ -160,8 +159,7 @@ def report(
     if isinstance(impact, Impact):
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, options, by_input)
-        found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
-        sections.assumptions(sheet, impact, found, outlines, options["limits"], by_input)
+        sections.assumptions(sheet, impact, options, outlines, by_input)
         sections.results(sheet, impact, options["share_a"])
     elif isinstance(impact, MomentumSolution):
         sections.gain(sheet, impact, impact.translational_energy_loss)
@@ -197,7 +195,7 @@ def report(
     sheet.say(f"Calculated with collisions {__version__}.")
     sheet.heading("Record")
     unusual = {name: value for name, value in options.items() if not _is_usual(name, value)}
-    sheet.record(record(impact, __version__, unusual, uncertainty))
+    sheet.record(record(impact, unusual, uncertainty))
     return Document(sheet.whole(__version__), form)
 
 

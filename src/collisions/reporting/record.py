@@ -49,13 +49,12 @@ _SENTENCES = ("choice.reason",)
 
 
 def record(
-    impact: Impact | MomentumSolution | Fit | Posterior,
-    version: str,
-    options: Mapping[str, Any],
-    uncertainty: Propagation | None,
+    impact: Impact | MomentumSolution | Fit | Posterior, options: Mapping[str, Any], uncertainty: Propagation | None
 ) -> str:
     """The record: result, inputs as given, and options of the report, as JSON."""
-    whole: dict[str, Any] = {"format": _FORMAT, "version": version, "options": strict(options)}
+    from .. import __version__
+
+    whole: dict[str, Any] = {"format": _FORMAT, "version": __version__, "options": strict(options)}
     if uncertainty is not None:
         whole["uncertainty"] = {name: getattr(uncertainty, name) for name in ("method", "samples", "seed")}
     if isinstance(impact, Impact):

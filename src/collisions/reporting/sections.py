@@ -9,7 +9,7 @@ from operator import attrgetter
 from typing import Any
 
 from .. import reference
-from ..contact_effects import LeftOut, LeftOutSide
+from ..contact_effects import LeftOutSide, left_out
 from ..derivation import reverse
 from ..derivation.evidence import momentum_answers, momentum_inputs
 from ..derivation.explain import impact_answers, impact_inputs
@@ -89,7 +89,7 @@ def inputs(sheet: Sheet, impact: Impact, options: Mapping[str, Any], notes: Mapp
         texts = (impact.inputs.given if vehicle is None else vehicle.given) or {}
         name = f"{of} ({plain(vehicle.name)})" if vehicle is not None and vehicle.name not in ("", of) else of
         note = notes.get(key_of(of, names))
-        value = _input(sheet, impact, vehicle, names, numbers, kind, texts)
+        value = _input(sheet, impact, vehicle, dict(zip(names, numbers, strict=True)), kind, texts)
         rows.append((name, quantity, _with(value, note)))
         rows += [(name, what, text) for what, text in _published(impact, names[0])]
         if vehicle is not None and quantity == "mass":
@@ -157,26 +157,20 @@ def _short(value: reference.Published | reference.Fit) -> str:
 
 
 def _input(
-    sheet: Sheet,
-    impact: Impact,
-    vehicle: Vehicle | None,
-    names: Sequence[str],
-    numbers: Sequence[float],
-    kind: str,
-    texts: Mapping[str, Any],
+    sheet: Sheet, impact: Impact, vehicle: Vehicle | None, numbers: Mapping[str, float], kind: str, texts: Mapping[str, Any]
 ) -> str:
     """One number or both of a place, and how they were given."""
-    value = ", ".join(sheet.number(number, kind) for number in numbers)
-    written = [texts[name] for name in names if isinstance(texts.get(name), str)]
-    if len(written) == len(names):
+    value = ", ".join(sheet.number(number, kind) for number in numbers.values())
+    written = [texts[name] for name in numbers if isinstance(texts.get(name), str)]
+    if len(written) == len(numbers):
         return given_as(value, ", ".join(written))
     if kind == "speed" and vehicle is not None and vehicle.pivot is not None:
         return f"{value}, worked out from yaw rate and pivot"
     if kind == "speed" and texts.keys() & {"speed", "course"}:
         return f"{value}, worked out from speed and course"
-    if "normal" in names and impact.inputs.bare_normal is not None:
+    if "normal" in numbers and impact.inputs.bare_normal is not None:
         return f"{value}, given as {impact.inputs.bare_normal:.6g} without a unit"
-    each = [sheet.as_given(float(number), kind, texts.get(name)) for name, number in zip(names, numbers, strict=True)]
+    each = [sheet.as_given(float(number), kind, texts.get(name)) for name, number in numbers.items()]
     return "; ".join(f"{axis}: {part}" for axis, part in zip("xy", each, strict=True)) if written else ", ".join(each)
 
 
@@ -288,14 +282,10 @@ def _damage(sheet: Sheet, options: Mapping[str, Any]) -> Iterator[tuple[str, str
 
 
 def assumptions(
-    sheet: Sheet,
-    impact: Impact,
-    found: LeftOut | None,
-    outlines: Mapping[str, Any],
-    limits: Mapping[str, Any] | None,
-    notes: Mapping[str, str],
+    sheet: Sheet, impact: Impact, options: Mapping[str, Any], outlines: Mapping[str, Any], notes: Mapping[str, str]
 ) -> None:
     """Write the model and its law, the conventions, and numbers for what an impulse neglects, or how the contact passed."""
+    found = left_out(impact, duration=options["duration"], drag=options["drag"]) if impact.pulse is None else None
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
     if impact.model != "linear_central":
@@ -321,7 +311,7 @@ def assumptions(
     for label, corners in outlines.items():
         outline = _outline(sheet, [(float(ahead), float(left)) for ahead, left in corners])
         lines.append((f"Outline of {label.upper()}:", f"{outline}. {notes.get(f'outline_{label}', '')}".rstrip()))
-    for code, value in read_limits(limits, ArgumentReader()).items():
+    for code, value in read_limits(options["limits"], ArgumentReader()).items():
         if value is not None and value != LIMITS[code].default:
             lines.append(
                 (f"Limit of {label_of(code)}:", f"{sheet.number(value, KIND_OF[LIMITS[code].unit])}, set for this report.")
