@@ -182,12 +182,12 @@ def scale_of(kind: str, system: str) -> float:
     return 1.0 if inside == label else float(to_quantity(1.0, inside).m_as(label))
 
 
-def bad_system(units: Any) -> InputError | None:
-    """The refusal of an argument ``units`` that names none of the systems."""
-    if isinstance(units, str) and units in SYSTEMS:
-        return None
-    return InputError(
-        f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what is printed, not those of the inputs",
-        code="bad_option",
-        argument="units",
-    )
+def check_system(units: Any) -> None:
+    """Refuse an argument ``units`` that names none of the systems."""
+    if not isinstance(units, str) or units not in SYSTEMS:
+        raise InputError(
+            f"units must be 'si', 'metric' or 'us', got {shown(units)}; they are those of what is printed, not those of the "
+            f"inputs",
+            code="bad_option",
+            argument="units",
+        )

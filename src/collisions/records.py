@@ -31,7 +31,7 @@ FORMAT = "collisions impact 2"
 _LABELS = ("model", "rule", "law")
 _OPTIONS = ("geometry", "steps", "incomplete")
 # The arguments that not every solver takes, and what stands for one that it does not take.
-_OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes if name not in RULES)
+OF_SOME = dict.fromkeys(name for takes in ARGUMENTS.values() for name in takes if name not in RULES)
 _LEFT_OUT = {"incomplete": False}
 _CHOICE = ("model", "reason", "errors", "missing", "tolerance")
 _NOTHING = dict.fromkeys(NAMES)
@@ -113,7 +113,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             raise bad_record(f"its model is {shown(model)} and its rule {shown(rule)}")
         if model not in ARGUMENTS:
             raise bad_record(f"its model is {shown(model)}; known are {', '.join(ARGUMENTS)}")
-        stray = [name for name in _OF_SOME if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)]
+        stray = [name for name in OF_SOME if name not in ARGUMENTS[model] and found[name] is not _LEFT_OUT.get(name)]
         if stray:
             raise bad_record(f"{model} takes no {stray[0]}")
         status = record["results"]["status"]

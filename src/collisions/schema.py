@@ -16,7 +16,7 @@ from .models import BY_NAME
 from .provenance import Reconstruction
 from .pulse import Pulse
 from .quantities import attributes, unit_of
-from .records import FORMAT
+from .records import FORMAT, OF_SOME
 from .side import Side
 from .vehicle import DOMAINS, Vehicle
 
@@ -116,10 +116,9 @@ def _inputs() -> dict[str, Any]:
 
 def _of_solver(name: str, takes: tuple[str, ...]) -> dict[str, Any]:
     """The inputs of one solver: none that it does not take, and those that it needs."""
-    others = {argument for every in ARGUMENTS.values() for argument in every if argument not in (*takes, *RULES)}
     needed = {"law": _TEXT} if "law" in takes else {}
     needed |= {"point": {"type": "array"}} if name in PLACED else {}
-    properties = {argument: {"enum": [None, False]} for argument in sorted(others)} | needed
+    properties = {argument: {"enum": [None, False]} for argument in sorted(OF_SOME.keys() - takes)} | needed
     return {"if": {"properties": {"model": {"const": name}}}, "then": {"properties": properties}}
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .formatting import KIND_OF, Numbers, bad_system, clock, in_words, number_with_unit
+from .formatting import KIND_OF, Numbers, check_system, clock, in_words, number_with_unit
 from .units import system_given
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
@@ -105,9 +105,7 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
     """How a table writes its numbers: in the system named or, for None, in that of the texts the inputs were given as."""
     if units is None:
         return Cells(system_given(text for text in texts if isinstance(text, str)))
-    problem = bad_system(units)
-    if problem is not None:
-        raise problem
+    check_system(units)
     return Cells(units)
 
 

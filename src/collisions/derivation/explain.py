@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from ..document import Document
 from ..errors import InputError, ShapeError, Status
-from ..formatting import SI_UNITS, UnitSystem, bad_system
+from ..formatting import SI_UNITS, UnitSystem, check_system
 from ..impact import Impact
 from ..inputs import PLACED
 from ..kernels.contact_laws import RULES
@@ -165,9 +165,7 @@ def explain(
         = (16.667 - 7.8283) / (22.222 - 0)
         = 0.3977
     """
-    problem = bad_system(units)
-    if problem is not None:
-        raise problem
+    check_system(units)
     if not isinstance(form, str) or form not in get_args(Form):
         raise InputError(
             f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}", code="bad_option", argument="form"

@@ -10,7 +10,7 @@ from typing import Any, cast
 from ..contact_effects import left_out
 from ..drag import USUAL_DURATION, read_drag, read_duration
 from ..errors import InputError, MissingInputError
-from ..formatting import UnitSystem, bad_system
+from ..formatting import UnitSystem, check_system
 from ..impact import Impact
 from ..kernels.elementwise import UNCHECKED
 from ..outlines import read_outline
@@ -134,8 +134,9 @@ def diagnose(
         }
         if units is None:
             units = cast(UnitSystem, spoken_system(impact._texts()))
-        problem = bad_system(units)
-        if problem is not None:
+        try:
+            check_system(units)
+        except InputError as problem:
             reader.refuse(problem)
         allowed = read_limits(limits, reader)
         if crush_energy is not None:
