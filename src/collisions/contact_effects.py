@@ -201,13 +201,8 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
         )
         reader.refuse(InputError(text, code="takes_time", argument="impact"))
     elif not isinstance(impact, Impact):
-        reader.refuse(
-            InputError(
-                f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))",
-                code="not_an_impact",
-                argument="impact",
-            )
-        )
+        text = f"impact must be an Impact, got {type(impact).__name__}; write left_out(collisions.eccentric(...))"
+        reader.refuse(InputError(text, code="not_an_impact", argument="impact"))
     with callers_options():
         time = read_duration(reader, duration)
         pull = read_drag(reader, drag, "drag")

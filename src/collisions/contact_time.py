@@ -65,7 +65,8 @@ def read_contact_time(
     found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
     found = _SIZES | found
     arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
-    inputs = read_inputs("time_resolved", arguments, reader.problems, _numbers(found))
+    beside = [part for name in DOMAINS for part in (found[name] if isinstance(found[name], tuple) else (found[name],))]
+    inputs = read_inputs("time_resolved", arguments, reader.problems, beside)
     given = {**(inputs.given or {}), **reader.texts} or None
     return replace(inputs, given=given, **found)
 
@@ -121,10 +122,6 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
         reader.number(part, unit, f"{name}[{at}]", domain)
         for at, (part, unit, domain) in enumerate(zip(value, CRUSH_UNITS, DOMAINS[name], strict=True))
     )
-
-
-def _numbers(found: dict[str, Any]) -> list[Any]:
-    return [part for name in DOMAINS for part in (found[name] if isinstance(found[name], tuple) else (found[name],))]
 
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:

@@ -167,9 +167,8 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
         try:
             return part_of(value, take)
         except InputError as error:
-            raise type(error)(
-                f"{with_name(label, value)}: {error}", code=error.code, **{**error.fields, "vehicle": label}
-            ) from None
+            named = error.fields | {"vehicle": label}
+            raise type(error)(f"{with_name(label, value)}: {error}", code=error.code, **named) from None
 
     return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 
@@ -346,17 +345,11 @@ def missing_numbers(a: Any, b: Any, point: Any, model: str = "eccentric") -> Seq
 
 def _pinned(model: str, a: Any, b: Any) -> Sequence[InputError]:
     """One error for each pinned body, which the central models cannot represent."""
+    cure = "use eccentric, which needs yaw_inertia, x, y and point"
+    if model == "time_resolved":
+        cure = "give an infinite mass at the pivot, with the yaw inertia about it, or use eccentric"
     return [
-        InputError(
-            f"{label} has a pivot, which {model} cannot hold; "
-            + (
-                "give an infinite mass at the pivot, with the yaw inertia about it, or use eccentric"
-                if model == "time_resolved"
-                else "use eccentric, which needs yaw_inertia, x, y and point"
-            ),
-            code="pinned",
-            argument="pivot",
-        )
+        InputError(f"{label} has a pivot, which {model} cannot hold; {cure}", code="pinned", argument="pivot")
         for label, vehicle in (("a", a), ("b", b))
         if getattr(vehicle, "pivot", None) is not None
     ]
@@ -382,12 +375,8 @@ def _tangential(reader: ArgumentReader, values: tuple[Any, ...]) -> tuple[str, A
         rule, value = given[0]
         return rule.name, reader.number(value, "", rule.name, rule.domain)
     found = "none" if not given else " and ".join(f"{rule.name}=" for rule, _ in given)
-    reader.refuse(
-        InputError(
-            f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There is no default, because it "
-            f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips",
-            code="one_tangential",
-            argument="friction",
-        )
+    text = (
+        f"give exactly one of {', '.join(f'{rule.name}=' for rule in taken)}; got {found}. There is no default, because it "
+        f"decides cases: friction=0 is a frictionless contact, friction=inf one that never slips"
     )
-    return FRICTION, math.nan
+    return FRICTION, reader.refuse(InputError(text, code="one_tangential", argument="friction"))

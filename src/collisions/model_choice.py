@@ -63,7 +63,7 @@ class ByModel(Mapping[str, Any]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mapping):
             return NotImplemented
-        return same(dict(self), dict(other))
+        return same(self, other)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ByModel, (self._values, self._unit)

@@ -172,13 +172,12 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     unknown = found and type(e) is float and e != e
     contact = 0.0 if unknown else e, inputs.normal, inputs.point
     more = {name: getattr(inputs, name) for name in ("incomplete", *OUTSIDE)}
+    arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
             extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
             again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
-            return replace(again, given={**(again.given or {}), **(inputs.given or {})} or None)
-        arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
-        if inputs.model == "solve":
+        elif inputs.model == "solve":
             again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, **more)
         else:
             again = read_inputs(inputs.model, arguments, **more)

@@ -107,16 +107,14 @@ def check_options(on_failure: Any, threads: Any = 1, progress: Any = None) -> No
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
         raise InputError(f"threads must be a whole number from 1, got {shown(threads)}", code="bad_option", argument="threads")
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        raise InputError(
-            f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}",
-            code="bad_option",
-            argument="progress",
-        )
+        text = f"progress must be a function of (done, total), or True for a bar, got {type(progress).__name__}"
+        raise InputError(text, code="bad_option", argument="progress")
 
 
 def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
     """The error for a refused single case."""
-    for side, body in (("a", inputs.a), ("b", inputs.b)):
+    bodies = (("a", inputs.a), ("b", inputs.b))
+    for side, body in bodies:
         for name in DOMAINS:
             if getattr(body, name) != getattr(body, name):
                 return InputError(
@@ -124,7 +122,6 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
                 )
     status: Status = raw.status
     nx, ny = inputs.normal
-    bodies = (("a", inputs.a), ("b", inputs.b))
     values: dict[str, Any] = {"closing_speed": raw.closing_speed, "model": inputs.model}
     values |= {"rule": inputs.rule, "value": inputs.rule_value}
     values |= {"nx": nx, "ny": ny, "opposite_x": 0.0 - nx, "opposite_y": 0.0 - ny}

@@ -152,15 +152,14 @@ def results(impact: Impact, given: Mapping[str, Any]) -> dict[str, Any]:
 def _body(vehicle: Vehicle, label: str, given: Mapping[str, Any]) -> Vehicle:
     """The vehicle with the values of its sliders."""
     changed = {name: given[f"{name}_{label}"] for name in _BODY if f"{name}_{label}" in given}
-    body = SimpleNamespace(**{name: getattr(vehicle, name) for name in NAMES} | changed)
+    body: Any = SimpleNamespace(**{name: getattr(vehicle, name) for name in NAMES} | changed)
     if changed.keys() & {"speed", "course"}:
         cx, cy = from_degrees(changed["course"]) if "course" in changed else _heading_for(vehicle)
         speed = changed.get("speed", vehicle.speed)
         body.vx, body.vy = speed * cx, speed * cy
     if "heading" in changed:
         body.heading = changed["heading"] * (math.pi / 180.0)
-    made: Any = body
-    return moved(made, body.vx, body.vy, body.yaw_rate)
+    return moved(body, body.vx, body.vy, body.yaw_rate)
 
 
 def _heading_for(vehicle: Vehicle) -> tuple[Any, Any]:

@@ -117,8 +117,8 @@ def time_resolved(
     )
     start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
-    passing = Passing(*(none if name == "sticks" else none ^ True if name == "active" else zero for name in Passing._fields))
-    moving: Moving = start[0], start[1], passing._replace(c=1.0 + zero)
+    passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
+    moving: Moving = start[0], start[1], passing
     converged: Any = True
     if settings.geometry == "maximum_engagement":
         (contact, a, b), converged = _start(spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
