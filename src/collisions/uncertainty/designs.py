@@ -63,13 +63,9 @@ def latin_hypercube(dimensions: int, seed: int, length: int) -> Design:
         return np.minimum((ranks + within) / size, np.nextafter((ranks + 1) / size, 0.0)).transpose(0, 2, 1)
 
     def points(start: int, stop: int) -> Any:
-        parts = []
-        while start < stop:
-            number, first = divmod(start, size)
-            last = min(size, first + stop - start)
-            parts.append(sheet(number)[:, first:last])
-            start += last - first
-        return np.concatenate(parts, axis=1) if parts else np.empty((dimensions, 0, REPLICATES))
+        first, last = start // size, (max(stop, start + 1) - 1) // size
+        sheets = np.concatenate([sheet(number) for number in range(first, last + 1)], axis=1)
+        return sheets[:, start - first * size : stop - first * size]
 
     return points
 

@@ -49,8 +49,8 @@ class Stated:
     _range: tuple[float, float, float] | None
     _derive: Callable[..., None]
 
-    def _make(self, unit: str, **parts: Any) -> None:
-        self._set(unit=unit, _parts=parts, _range=None)
+    def _make(self, unit: str, given_range: tuple[float, float, float] | None = None, **parts: Any) -> None:
+        self._set(unit=unit, _parts=parts, _range=given_range)
         self._derive(**parts)
 
     def _set(self, **values: Any) -> None:
@@ -207,8 +207,7 @@ def from_numbers(
 ) -> T:
     """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
-    made._make(unit, **parts)
-    made._set(_range=given_range)
+    made._make(unit, given_range, **parts)
     return made
 
 

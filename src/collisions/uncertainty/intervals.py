@@ -156,18 +156,19 @@ class _Places:
 def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, effort: _Effort) -> tuple[Any, float]:
     """The point of the least figure (greatest for a sign of -1) and the figure there, from the best of the grid."""
     best = int(np.nanargmin(sign * judged))
-    place, value, size = grid[best], sign * float(judged[best]), 0.5
+    place, value = grid[best], sign * float(judged[best])
+    size, smallest = 0.5, 0.5**effort.halvings
     steps = _steps(grid.shape[1], effort)
-    halvings = 0
     for _ in range(_PATIENCE * effort.halvings):
         around = np.clip(place + size * steps, 0.0, 1.0)
         beside = sign * judge(around)
-        if not np.isnan(beside).all() and np.nanmin(beside) < value:
-            place, value = around[int(np.nanargmin(beside))], float(np.nanmin(beside))
+        least = int(np.argmin(np.where(np.isnan(beside), math.inf, beside)))
+        if beside[least] < value:
+            place, value = around[least], float(beside[least])
+        elif size == smallest:
+            break
         else:
-            size, halvings = 0.5 * size, halvings + 1
-            if halvings == effort.halvings:
-                break
+            size *= 0.5
     return place, sign * value
 
 

@@ -50,6 +50,8 @@ class NormalFamily(Distribution):
     truncate: tuple[float | None, float | None] | None
     # Of the probability before truncation: below the lower bound, between both, and above the upper one.
     _split: tuple[float, float, float] | None
+    # Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is linear in the score.
+    _steepness: float = 0.0
 
     # Mean and standard deviation, before truncation, for which two values have the scores -score and +score.
     _spanning: Callable[[float, float, float], tuple[float, float]]
@@ -74,7 +76,11 @@ class NormalFamily(Distribution):
             _, apart, unit = mean.partition(" ")
             text = f"{mean.removesuffix(apart + unit)} ± {sd}"
         ends = zip(("at least", "at most"), self.truncate or (), strict=False)
-        return typeset(", ".join([text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)]))
+        parts = [text, *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None)]
+        # A mean ± a deviation alone is taken to be of a normal distribution.
+        if self._range is not None or self._steepness:
+            parts.append(self._words)
+        return typeset(", ".join(parts))
 
     @classmethod
     def between(cls, low: Input, high: Input, coverage: Input, *, truncate: Truncation | None = None) -> Self:
@@ -157,11 +163,6 @@ class NormalFamily(Distribution):
         self._set(_split=(cdf(start), left.share, survival(end)))
         self._describe(*self._moved(anchor, left), left.skewness, left.kurtosis, (low, high))
 
-    @property
-    def _steepness(self) -> float:
-        """Derivative of the quantity's logarithm with respect to the score; 0 for Normal, which is linear in the score."""
-        return 0.0
-
     def _score(self, value: float) -> float:
         """The score of a value in the distribution before truncation, where the mean scores half the steepness."""
         return self._between(self.given_mean, value) + 0.5 * self._steepness
@@ -217,8 +218,7 @@ class Normal(NormalFamily):
 
     __slots__ = ()
 
-    def __str__(self) -> str:
-        return super().__str__() if self._range is None else f"{super().__str__()}, normal"
+    _words = "normal"
 
     @staticmethod
     def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
@@ -264,13 +264,11 @@ class LogNormal(NormalFamily):
     673067
     """
 
-    __slots__ = ("_median", "_scale")
+    __slots__ = ("_median", "_steepness")
 
-    def __str__(self) -> str:
-        return f"{super().__str__()}, log-normal"
+    _words = "log-normal"
 
     _median: float
-    _scale: float
 
     @staticmethod
     def _spanning(low: float, high: float, score: float) -> tuple[float, float]:
@@ -292,23 +290,19 @@ class LogNormal(NormalFamily):
             )
         growth = 1.0 + relative * relative
         scale = math.sqrt(math.log1p(relative * relative)) if relative > 1e-8 else relative
-        self._set(_median=mean / math.sqrt(growth), _scale=scale)
+        self._set(_median=mean / math.sqrt(growth), _steepness=scale)
         kurtosis = growth * growth * (growth * growth + 2.0 * growth + 3.0) - 3.0
         return mean, sd, relative * (growth + 2.0), kurtosis, (0.0, math.inf)
 
-    @property
-    def _steepness(self) -> float:
-        return self._scale
-
     def _value(self, score: Any) -> Any:
         with np.errstate(over="ignore"):
-            return self._median * np.exp(self._scale * score)
+            return self._median * np.exp(self._steepness * score)
 
     def _between(self, start: float, end: float) -> float:
         if end <= 0.0:
             return -math.inf
         near = 0.5 * start <= end <= 2.0 * start
-        return (math.log1p((end - start) / start) if near else math.log(end) - math.log(start)) / self._scale
+        return (math.log1p((end - start) / start) if near else math.log(end) - math.log(start)) / self._steepness
 
     def _moved(self, anchor: float, left: Moments) -> tuple[float, float]:
         return anchor * (1.0 + left.mean), anchor * left.sd

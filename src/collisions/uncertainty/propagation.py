@@ -47,7 +47,6 @@ class Run:
     interrupted: bool = False
     unreached: bool = False
     wrapped: tuple[str, ...] = ()
-    unanswered: tuple[str, ...] = ()
     differing: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -180,7 +179,7 @@ def propagate(
     samples_run = sum(one.samples for one in runs)
     outputs: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
-        cases = [one.outputs[name] for one in runs if name not in one.unanswered]
+        cases = [one.outputs[name] for one in runs if not math.isnan(one.outputs[name].mean)]
         if not cases:
             raise NoSolutionError(
                 f"the model has no answer for {name!r} in any of {samples_run} cases; call it with the mean of the inputs "
@@ -279,7 +278,6 @@ def _local(method: str, joint: Joint, model: Model, report: Report | None) -> Ru
     with np.errstate(all="ignore"):
         found, count = slopes(model, joint, second)
         outputs = {name: local_output(name, model.units[name], joint, slope, second) for name, slope in found.items()}
-        # Always the same points: a local result is not random.
         differing, failed = differences(model, _evenly_drawn(joint, 0, PROBES), outputs)
     return Run(outputs, count + PROBES, failed, differing=differing)
 
@@ -314,8 +312,7 @@ def _sampled(
     shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
     outputs = {name: Sampled(name, model.units[name], values, shares) for name, values in sample.outputs.items()}
     wrapped = tuple(name for name, output in outputs.items() if output.may_wrap())
-    unanswered = tuple(name for name, output in outputs.items() if output.failed == sample.done)
-    return Run(outputs, sample.done, count_failed(sample.outputs), sample.interrupted, unreached, wrapped, unanswered)
+    return Run(outputs, sample.done, count_failed(sample.outputs), sample.interrupted, unreached, wrapped)
 
 
 def enough(sample: Sample, units: Mapping[str, str | None], tolerances: Mapping[str, float]) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -92,10 +94,9 @@ class Joint:
         matrix = np.eye(len(self.inputs))
         order = {name: i for i, name in enumerate(self.inputs)}
         for group in self.rows:
-            for k, one in enumerate(group):
-                for other in group[:k]:
-                    i, j = order[one], order[other]
-                    matrix[i, j] = matrix[j, i] = self._correlation(group, one, other)
+            for other, one in combinations(group, 2):
+                i, j = order[one], order[other]
+                matrix[i, j] = matrix[j, i] = self._correlation(group, one, other)
         return matrix
 
     def _correlation(self, group: tuple[str, ...], one: str, other: str) -> float:
@@ -180,17 +181,17 @@ def _factor(group: Sequence[str], pairs: Mapping[frozenset[str], float]) -> Any:
     return factor
 
 
+@dataclass
 class Sample:
     """The finished cases of a run: ``outputs`` by name, one value per case, NaN where there is no answer."""
 
-    def __init__(self, model: Model, joint: Joint, design: Design, threads: int) -> None:
-        self.model = model
-        self.joint = joint
-        self.design = design
-        self.threads = threads
-        self.done = 0
-        self.interrupted = False
-        self.outputs: dict[str, Any] = {}
+    model: Model
+    joint: Joint
+    design: Design
+    threads: int
+    done: int = 0
+    interrupted: bool = False
+    outputs: dict[str, Any] = field(default_factory=dict)
 
     def extend(self, samples: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Go on to this many cases in all; on a KeyboardInterrupt keep the cases up to the first that is missing."""
