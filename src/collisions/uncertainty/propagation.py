@@ -163,8 +163,8 @@ def propagate(
             code="too_many_inputs",
             argument="inputs",
         )
-    # The points that a local method is compared at are always the same: its result is not random.
-    seed = int(seed) if seed is not None else 0 if method in LOCAL else secrets.randbits(64)
+    # The points by which a local method is judged are always the same: its result is not random, and reports no seed.
+    seed = 0 if method in LOCAL else secrets.randbits(64) if seed is None else int(seed)
     run: Callable[[Model, Report | None], Run] = (
         partial(_local, method, joint)
         if method in LOCAL
