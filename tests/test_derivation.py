@@ -794,6 +794,13 @@ def test_an_uncertainty_of_nothing_known_is_refused(known, kind, code, said):
     assert code in (None, caught.value.code)
 
 
+def test_all_deviations_that_are_many_are_named_at_once():
+    """As other wrong arguments are."""
+    known = dict.fromkeys(("energy_loss", "a.delta_v"), np.array([1.0, 2.0]))
+    with pytest.raises(col.ShapeError, match=r"^2 arguments.*\n.*of energy_loss must be one number\n.*of a.delta_v must be"):
+        explain(example_2(), uncertainty=known)
+
+
 def test_an_energy_gain_comes_first():
     """Before anything that was given, and of the size of the result's own."""
     with pytest.warns(col.EnergyGainWarning):

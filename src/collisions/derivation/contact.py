@@ -26,6 +26,18 @@ class Mobility(NamedTuple):
     push: tuple[Expression, Expression] = (ZERO, ZERO)
 
 
+def normal(page: Page, s: Symbols) -> None:
+    """The components of the normal, which the formulas need unless it is the x axis."""
+    if s.impact.normal == (1.0, 0.0):
+        return
+    if 0.0 in s.impact.normal:
+        page.say(f"Components of the normal: {page.shown(s.nx)} and {page.shown(s.ny)}.")
+        return
+    phi = Symbol(r"\varphi", s.impact.normal_angle, "angle")
+    page.equation(f"Normal along x, from its direction {page.symbol(phi)}", s.nx, Function("cos", phi))
+    page.equation("Normal along y", s.ny, Function("sin", phi))
+
+
 def velocity_before(page: Page, body: Body, s: Symbols) -> None:
     """The velocity of the centre of mass before, along n and t."""
     n, t, x, y = (body.along(direction) for direction in "ntxy")

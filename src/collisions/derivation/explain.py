@@ -8,25 +8,25 @@ from operator import attrgetter
 from typing import Any, Literal, TypeAlias, get_args
 
 from ..document import Document
-from ..errors import InputError, ShapeError, Status
+from ..errors import InputError, Status
 from ..formatting import SI_UNITS, UnitSystem, check_system
 from ..impact import Impact
 from ..inputs import PLACED
 from ..kernels.contact_laws import RULES
-from ..reading import ArgumentReader, at_least_zero, need_one_case
+from ..reading import ArgumentReader, at_least_zero, need_one_case, single_number
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..settings import callers_options, computing
 from ..solving import error_of
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..units import shown
-from .contact import motions
+from .contact import motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
-from .expressions import Function, System
+from .expressions import System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
 from .reverse import state_before, why_this_model
-from .symbols import Symbol, Symbols
+from .symbols import Symbols
 
 Form: TypeAlias = Literal["markdown", "text"]
 _Ranges: TypeAlias = dict[str, tuple[float, float]]
@@ -60,6 +60,10 @@ _VEHICLE = {
     "heading": ("heading", "angle"),
 }
 _SIDE = {
+    "before.vx": ("velocity before, along x", "speed"),
+    "before.vy": ("velocity before, along y", "speed"),
+    "before.speed": ("speed before", "speed"),
+    "before.yaw_rate": ("yaw rate before", "yaw rate"),
     "after.vx": ("velocity after, along x", "speed"),
     "after.vy": ("velocity after, along y", "speed"),
     "after.speed": ("speed after", "speed"),
@@ -76,12 +80,6 @@ _SIDE = {
     "pivot_impulse_x": ("impulse of the pivot, along x", "impulse"),
     "pivot_impulse_y": ("impulse of the pivot, along y", "impulse"),
 }
-_BEFORE = {
-    "before.vx": ("velocity before, along x", "speed"),
-    "before.vy": ("velocity before, along y", "speed"),
-    "before.speed": ("speed before", "speed"),
-    "before.yaw_rate": ("yaw rate before", "yaw rate"),
-}
 _CONTACT = {
     "closing_speed": ("closing speed", "speed"),
     "separation_speed": ("separation speed", "speed"),
@@ -96,7 +94,7 @@ _CONTACT = {
 }
 _OF_FRICTION = ("slip_before", "slip_after", "tangential_impulse", "impulse_ratio")
 # The results of an impact: vehicle or contact, description and kind.
-_IMPACT_ANSWERS = {f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in (_BEFORE | _SIDE).items()}
+_IMPACT_ANSWERS = {f"{label}.{name}": (label.upper(), *row) for label in "ab" for name, row in _SIDE.items()}
 _IMPACT_ANSWERS |= {name: ("contact", *row) for name, row in _CONTACT.items()}
 
 
@@ -219,7 +217,7 @@ def _impact(page: Page, impact: Impact) -> None:
     s = Symbols(impact)
     page.heading("Given" if impact.reconstruction is None else "What was given and found")
     _inputs(page, impact)
-    _normal(page, s)
+    normal(page, s)
     why_this_model(page, impact)
     state_before(page, s)
     _MODELS[impact.model](page, s)
@@ -271,18 +269,6 @@ def _inputs(page: Page, impact: Impact) -> None:
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", impact.law.title()))
     page.table(rows)
-
-
-def _normal(page: Page, s: Symbols) -> None:
-    """Write the components of the normal, which the formulas need unless it is the x axis."""
-    if s.impact.normal == (1.0, 0.0):
-        return
-    if 0.0 in s.impact.normal:
-        page.say(f"Components of the normal: {page.shown(s.nx)} and {page.shown(s.ny)}.")
-        return
-    phi = Symbol(r"\varphi", s.impact.normal_angle, "angle")
-    page.equation(f"Normal along x, from its direction {page.symbol(phi)}", s.nx, Function("cos", phi))
-    page.equation("Normal along y", s.ny, Function("sin", phi))
 
 
 def impact_answers(page: Page, impact: Impact) -> Iterator[tuple[str, str, str]]:
@@ -408,11 +394,9 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
     found = {}
     for name, value in uncertainty.items():
         read = reader.number(value, SI_UNITS[kinds[known[name]]], name)
+        read = single_number(reader, read, f"the standard deviation of {name}", "must be one number", name)
         found[known[name]] = at_least_zero(reader, read, value, name, "negative_deviation", "give the standard deviation")
     reader.close()
-    for name, value in found.items():
-        if not isinstance(value, float) or not math.isfinite(value):
-            raise ShapeError(f"the standard deviation of {name} must be one number", code="bad_shape", argument=name)
     return found, {}
 
 
