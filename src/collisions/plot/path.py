@@ -94,9 +94,7 @@ def path(
                 picture.include(*_places(x[slid], y[slid]))
         *passed, at_rest = ([picture.scaled(corner) for corner in outline] for outline in corners[letter])
         for outline in filter(None, passed):
-            picture.include(*outline)
             picture.outline(index, outline, f"{letter}.passing outline", 0.0, 0.7)
-        picture.include(*at_rest)
         axes.plot(*line[0], "os"[index], ms=5, mfc=colour, mec=colour, zorder=6, gid=f"{letter}.separation")
         back = line[0][0] - line[-1][0], line[0][1] - line[-1][1]
         picture.label(line[0], f"{name} at separation", back, colour, of=index)

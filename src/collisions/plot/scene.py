@@ -140,8 +140,7 @@ def scene(
     note = "not all positions given: a sketch, places not to scale\n" if sketched else ""
     note += "arrows that would hide each other are drawn side by side\n" if picture.moved else ""
     x, y = (name if sketched else labels.label(name, "m") for name in "xy")
-    axes.set_xlabel(f"{x}\n{note}{stated and f'arrows: {stated}'}".rstrip())
-    axes.set_ylabel(y)
+    axes.set(xlabel=f"{x}\n{note}{stated and f'arrows: {stated}'}".rstrip(), ylabel=y)
     axes.set_title(_TITLES[moment], fontsize=10.5)
     if sketched:
         axes.set(xticks=[], yticks=[])
@@ -244,6 +243,7 @@ class Picture(Drawing):
         from matplotlib.colors import to_rgba
 
         colour = COLOURS[index]
+        self.include(*corners)
         self.axes.fill(*zip(*corners, strict=True), fc=to_rgba(colour, filled), ec=colour, lw=width, zorder=2, gid=gid)
         front: Any = {"color": colour, "lw": 3.0 * width, "solid_capstyle": "butt", "zorder": 3}
         self.axes.plot(*zip(*corners[:2], strict=True), **front, gid=gid.replace("outline", "front"))
