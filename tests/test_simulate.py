@@ -342,6 +342,7 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"wheelbase": 0.0}, "not_positive", "wheelbase must be > 0, got 0.0"),
         (CAR, {"track": "-1 m"}, "not_positive", "track must be > 0, got '-1 m'"),
         (CAR, {"track": math.inf}, "not_finite", "track must be finite"),
+        (CAR, {"track": -math.inf}, "not_positive", "track must be > 0, got -inf"),
         (CAR, {"steer": math.nan}, "not_finite", "steer is NaN"),
         (CAR, {"cornering": 0}, "not_positive", "cornering must be > 0"),
         (CAR, {"limit": "5 m"}, "bad_units", "limit"),
