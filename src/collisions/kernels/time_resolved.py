@@ -197,7 +197,7 @@ def time_resolved(
 def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
     closing, duration, length, newton = units
-    on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note]).T)
+    on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T)
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
         force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
