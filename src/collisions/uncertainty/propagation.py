@@ -179,7 +179,7 @@ def propagate(
     samples_run = sum(one.samples for one in runs)
     outputs: dict[str, Output] = {}
     for name, output in runs[0].outputs.items():
-        cases = [one.outputs[name] for one in runs if not math.isnan(one.outputs[name].mean)]
+        cases = [one.outputs[name] for one in runs if not (one.failed and math.isnan(one.outputs[name].mean))]
         if not cases:
             raise NoSolutionError(
                 f"the model has no answer for {name!r} in any of {samples_run} cases; call it with the mean of the inputs "
