@@ -18,8 +18,9 @@ from functools import partial
 import numpy as np
 from measuring import QUICK, batch_speed, compare
 
+from collisions.kernels.buffers import carved
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import carved, record, replay
+from collisions.kernels.replay import record, replay
 from collisions.kernels.status import EPS, Answer
 
 CASES = 20_000 if QUICK else 1_000_000

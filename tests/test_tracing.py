@@ -10,10 +10,11 @@ import pytest
 
 import collisions as col
 from collisions.kernels.batch import BLOCK, block_length
+from collisions.kernels.buffers import carved
 from collisions.kernels.central import linear_central, oblique_central
 from collisions.kernels.contact_laws import BRACH, FRICTION, KUDLICH_SLIBAR, LAWS, RULES
 from collisions.kernels.eccentric import eccentric
-from collisions.kernels.replay import carved, input_kind, record, replay
+from collisions.kernels.replay import input_kind, record, replay
 from collisions.kernels.status import Answer
 
 ODD = (0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324, 1e308)

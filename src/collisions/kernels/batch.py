@@ -14,10 +14,11 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
+from .buffers import Program, large_arrays
 from .elementwise import first_status
 from .floats import compile_for_floats
 from .model_error import ECCENTRIC, least_model
-from .replay import Program, input_kind, large_arrays, record, replay
+from .replay import input_kind, record, replay
 from .status import Answer, Status
 
 BLOCK = 8192
@@ -64,10 +65,6 @@ class Check(NamedTuple):
     values: tuple[Any, ...]
     passes: Callable[..., bool] | None = None
     implied: bool = False
-
-    def fault(self, *values: Any) -> Any:
-        """The status of each case, 0 if nothing is wrong."""
-        return first_status(*((fault(*values), code) for fault, code in self.faults))
 
 
 class Work(NamedTuple):
@@ -319,7 +316,7 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     for check in checks:
         values = [cut[id(value)] for value in check.values]
         if check.passes is None or not check.passes(*values):
-            found.append(check.fault(*values))
+            found.append(first_status(*((fault(*values), code) for fault, code in check.faults)))
     return found
 
 
