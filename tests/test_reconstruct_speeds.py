@@ -546,6 +546,7 @@ REFUSED = [
     ("pinned", col.InputError, {"b": B.replace(pivot=(3.0, 0.0))}, "b has a pivot, so its velocity has no course of its own; use planar"),
     ("bad_shape", col.ShapeError, {"course_a": (0.0, 1.0)}, "course_a is a tuple, and a course is an angle; many angles go in a numpy array"),
     ("bad_shape", col.ShapeError, {"course_b": [0.0, 1.0]}, "course_b is a list, and a course is an angle; many angles go in a numpy array"),
+    ("bad_option", col.InputError, {"forward_only": np.array([True, False])}, "forward_only must be True or False, got array"),
     ("infinite_mass", col.NoSolutionError, {"b": col.Vehicle.barrier(), "course_b": None, "speed_a": None, "speed_b": 0.0}, "delta_v_b is that of an infinite mass, whose motion tells nothing of the impact; give delta_v_a"),
     ("contradictory", col.NoSolutionError, {"course_a": math.pi, "course_b": math.pi / 2}, "check the courses, and the normal, which must point from A into B"),
     ("contradictory", col.NoSolutionError, {"friction": None, "impulse_ratio": 50.0}, "with this restitution, impulse_ratio and geometry"),

@@ -287,7 +287,7 @@ def read_inputs(
     for label, vehicle in (("a", a), ("b", b)):
         if not isinstance(vehicle, Vehicle):
             reader.refuse(not_a_vehicle(label, vehicle))
-    check_incomplete(reader, incomplete)
+    check_flag(reader, "incomplete", incomplete)
     e = reader.number(restitution, "", "restitution", restitution_domain(incomplete))
     contact = None if point is None else reader.pair(point, "m", "point")
     rule, value = _tangential(reader, tangential)
@@ -311,11 +311,10 @@ def read_inputs(
     return Inputs(model, a, b, e, unit, rule, value, law if lawful else None, contact, given or None, **more)
 
 
-def check_incomplete(reader: ArgumentReader, incomplete: Any) -> None:
-    """Refuse an option ``incomplete`` that is no bool."""
-    if not isinstance(incomplete, bool):
-        text = f"incomplete must be True or False, got {shown(incomplete)}"
-        reader.refuse(InputError(text, code="bad_option", argument="incomplete"))
+def check_flag(reader: ArgumentReader, name: str, given: Any) -> None:
+    """Refuse an option that is no bool."""
+    if not isinstance(given, bool):
+        reader.refuse(InputError(f"{name} must be True or False, got {shown(given)}", code="bad_option", argument=name))
 
 
 def lacking(a: Any, b: Any) -> list[tuple[str, str]]:

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, CollisionsError
 from ..hints import hinted
 from ..impact import Impact
-from ..inputs import Inputs, OnFailure, check_incomplete
+from ..inputs import Inputs, OnFailure, check_flag
 from ..kernels.central import shares
 from ..kernels.contact_laws import FRICTION
 from ..kernels.elementwise import restitution_domain
@@ -127,7 +127,7 @@ def central(
             numbers[name] = reader.number(value, "", name, restitution_domain(incomplete))
         else:
             numbers |= read_amounts(reader, {name: value})
-    check_incomplete(reader, incomplete)
+    check_flag(reader, "incomplete", incomplete)
     reader.close()
     with np.errstate(all="ignore"):
         return _answer(Cases.of(numbers), numbers, tuple(given), reader.texts, on_failure, incomplete)

@@ -90,8 +90,7 @@ def inline_closing_speed(
     kind = next(iter(given))
     reader = ArgumentReader()
     numbers = read_masses(reader, mass_a, mass_b) | read_amounts(reader, given)
-    if not callable(restitution):
-        numbers["restitution"] = reader.number(restitution, "", "restitution", RESTITUTION)
+    numbers["restitution"] = reader.number(0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION)
     reader.close()
     cases = Cases.of(numbers)
     if callable(restitution):
@@ -142,7 +141,7 @@ def _with_number(cases: Cases, kind: str, numbers: dict[str, Any], found: Any = 
 
 def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: RestitutionOf) -> Value:
     if cases.shape is None:
-        _with_number(cases, kind, {**numbers, "restitution": 0.0})  # refuses inputs that are wrong whatever the restitution
+        _with_number(cases, kind, numbers)  # refuses inputs that are wrong whatever the restitution
     shape = cases.shape or ()
     flat = {name: np.broadcast_to(np.asarray(value, dtype=np.float64), shape).reshape(-1) for name, value in numbers.items()}
 
@@ -162,7 +161,7 @@ def _with_function(cases: Cases, kind: str, numbers: dict[str, Any], function: R
         alone = np.array([answers[0] if answers else np.nan for answers in each]).reshape(shape)
         several = np.array([len(answers) > 1 for answers in each], dtype=bool).reshape(shape)
         faults = (several, Status.AMBIGUOUS), (np.isnan(alone), Status.CONTRADICTORY)
-        return _with_number(cases, kind, {**numbers, "restitution": 0.0}, alone, faults)
+        return _with_number(cases, kind, numbers, alone, faults)
     (answers,) = each
     if not answers:
         function.complain()

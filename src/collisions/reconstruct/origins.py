@@ -194,11 +194,12 @@ class End:
             return [self._along("given", self.bound)]
         frictionless = np.where(self.bound == 0.0, 0.0, np.nan)
         if self.rule == FRICTION:
-            without = self._along("frictionless", frictionless)
-            return [without, *self.slides, self._sticking("sticking", self.may_stick)]
-        shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
-        ratios = [frictionless, *shared]
-        return [*(self._along("given", ratio) for ratio in ratios), self._sticking("given", self.may_stick)]
+            found = [self._along("frictionless", frictionless), *self.slides]
+        else:
+            shared = [np.where((self.bound > 0.0) & (self.bound < 1.0), ratio, np.nan) for ratio in self._shared_ratios()]
+            found = [self._along("given", ratio) for ratio in (frictionless, *shared)]
+        # Under "brach" a contact that sticks keeps no trace of the slip before.
+        return found if self.law == BRACH else [*found, self._sticking()]
 
     def _slip_change(self, normal: Any, tangential: Any) -> Any:
         """What an impulse adds to the slip."""
@@ -234,11 +235,8 @@ class End:
         velocity = closing, self.slip - self._slip_change(normal, tangential)
         return self._origin(regime, normal, tangential, e, condition, velocity, resistance > 0.0)
 
-    def _sticking(self, regime: str, possible: Any) -> Origin:
+    def _sticking(self) -> Origin:
         """The origin of a contact that does not slip under "kudlich-slibar", which returns the whole velocity times e."""
-        if self.law == BRACH:
-            nothing = np.full((), np.nan)
-            return self._origin(regime, nothing, nothing, nothing, nothing, (nothing, nothing), False)
         if self.kind == "energy_loss":
             stored = self.stopping[0] * self.separation + self.stopping[1] * self.slip
             inverse = np.copysign(np.sqrt(1.0 + 2.0 * self.known / stored), self.separation)
@@ -249,8 +247,9 @@ class End:
         factor = 1.0 + inverse
         closing = self.known if self.kind == "closing_speed" else self.separation * inverse
         parts = abs(self.separation) if self.incomplete else self.separation
-        possible = possible & ~self.at_rest & (parts > self.rounding)
+        possible = self.may_stick & ~self.at_rest & (parts > self.rounding)
         impulse = factor * self.stopping[0], factor * self.stopping[1]
+        regime = "sticking" if self.rule == FRICTION else "given"
         return self._origin(regime, *impulse, 1.0 / inverse, abs(factor), (closing, 0.0 - self.slip * inverse), possible)
 
     def _shared_ratios(self) -> tuple[Any, Any]:

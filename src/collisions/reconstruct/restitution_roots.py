@@ -132,25 +132,25 @@ class RestitutionOf:
         """Restitution at each closing speed; NaN where the function has none."""
         if self.takes_arrays is None:
             self.takes_arrays = self._same_in_arrays(closing)
-        if self.takes_arrays:
-            with quietly():
-                e = np.array(self.function(closing), dtype=np.float64)
-            return np.where((closing > 0.0) & self._is_one(e), e, np.nan)
-        return np.array([self._one(float(speed)) for speed in closing])
+        return self._of_array(closing) if self.takes_arrays else self._of_each(closing)
 
     def _same_in_arrays(self, closing: Any) -> bool:
         """Whether the function answers an array element by element."""
         try:
-            with quietly():
-                e = np.array(self.function(closing), dtype=np.float64)
+            e = self._of_array(closing)
         except Exception:
             return False
-        if e.shape != closing.shape:
-            return False
         some = np.flatnonzero(np.isfinite(closing))[:: max(1, closing.size // _COMPARED)]
-        alone = np.array([self._one(float(speed)) for speed in closing[some]])
-        usable = np.where((closing[some] > 0.0) & self._is_one(e[some]), e[some], np.nan)
-        return bool(np.allclose(usable, alone, rtol=1e-12, atol=0.0, equal_nan=True))
+        same = e.shape == closing.shape and np.allclose(e[some], self._of_each(closing[some]), 1e-12, 0.0, equal_nan=True)
+        return bool(same)
+
+    def _of_array(self, closing: Any) -> Any:
+        with quietly():
+            e = np.array(self.function(closing), dtype=np.float64)
+        return np.where((closing > 0.0) & self._is_one(e), e, np.nan)
+
+    def _of_each(self, closing: Any) -> Any:
+        return np.array([self._one(float(speed)) for speed in closing])
 
     def slope(self, closing: Any) -> Any:
         """Derivative of the restitution by closing speed, one-sided where the function ends; NaN where it has no value."""

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..directions import Angle, course
 from ..errors import CollisionsError, InputError, MissingInputError, OutOfRangeWarning
 from ..hints import hinted
 from ..impact import Impact
-from ..inputs import Inputs, Law, read_inputs
+from ..inputs import Inputs, Law, check_flag, read_inputs
 from ..kernels.contact_laws import BRACH, LAWS
 from ..kernels.status import EPS, Status
 from ..quantities import show
@@ -24,11 +25,25 @@ from ..summary import said
 from ..units import Input, Pair
 from ..vehicle import Vehicle, missing, moved
 from ..warning import warn_of_cases, warn_of_samples
-from .common import ASK_ALONE, Cases, counted, exactly, input_faults, numbers_by_name, read_amounts, run_forward, split_texts
+from .common import (
+    ASK_ALONE,
+    PAIRS,
+    Cases,
+    counted,
+    exactly,
+    input_faults,
+    numbers_by_name,
+    read_amounts,
+    run_forward,
+    split_texts,
+)
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene, shares_critical
 from .speeds_components import ComponentScene
 
+# What may be known: any two, or else components of delta-V, with speeds or without.
+_TWO_OF = ("speed_a", "speed_b", "delta_v_a", "delta_v_b", "energy_loss", *chain.from_iterable(PAIRS.items()))
+_COMPONENTS = tuple(f"delta_v_{part}_{label}" for label in "ab" for part in ("forward", "left"))
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are apart.
@@ -158,27 +173,9 @@ def speeds(
     >>> [round(3.6 * side.before.speed, 1) for side in (found.a, found.b)]
     [49.9, 39.8]
     """
-    components = {
-        "delta_v_forward_a": delta_v_forward_a,
-        "delta_v_left_a": delta_v_left_a,
-        "delta_v_forward_b": delta_v_forward_b,
-        "delta_v_left_b": delta_v_left_b,
-    }
-    components = {name: value for name, value in components.items() if value is not None}
-    others = _known_beside(
-        components,
-        {
-            "speed_a": speed_a,
-            "speed_b": speed_b,
-            "delta_v_a": delta_v_a,
-            "delta_v_b": delta_v_b,
-            "energy_loss": energy_loss,
-            "ees_a": ees_a,
-            "ees_b": ees_b,
-            "max_crush_speed_a": max_crush_speed_a,
-            "max_crush_speed_b": max_crush_speed_b,
-        },
-    )
+    given = dict(locals())
+    components = {name: given[name] for name in _COMPONENTS if given[name] is not None}
+    others = _known_beside(components, {name: given[name] for name in _TWO_OF})
     reader = ArgumentReader()
     known = read_amounts(reader, others)
     known |= {name: reader.number(value, "m/s", name) for name, value in components.items()}
@@ -186,6 +183,7 @@ def speeds(
         label: _course(reader, label, body, angle, known.get(f"speed_{label}", np.nan), components)
         for label, body, angle in (("a", a, course_a), ("b", b, course_b))
     }
+    check_flag(reader, "forward_only", forward_only)
     e = 0.0 if callable(restitution) else restitution
     arguments = a, b, e, normal, point, (friction, impulse_ratio, critical_fraction), law
     beside = (*known.values(), *(angle.value for angle in courses.values()))
@@ -205,14 +203,14 @@ def speeds(
         def roots_of(plain: bool) -> tuple[Scene, list[tuple[Root, Any]]]:
             scene = kind(*known_of, plain)
             roots = scene.roots() if function is None else _with_function(scene, function)
-            return scene, _in_order(scene, roots, bool(forward_only))
+            return scene, _in_order(scene, roots, forward_only)
 
         try:
             scene, found = roots_of(cases.shape is None and function is None)
         except ArithmeticError:  # of plain floats, which arrays answer with inf or NaN
             scene, found = roots_of(False)
         inputs = replace(inputs, given={**reader.texts, **(inputs.given or {})} or None)
-        return _answers(cases, scene, found, inputs, known, function, bool(forward_only))
+        return _answers(cases, scene, found, inputs, known, function, forward_only)
 
 
 def _known_beside(components: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
@@ -326,10 +324,9 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
         chosen = roots[candidate, :, np.arange(case.size)]
         # Of each case the first root, then the second and so on.
         rank = np.arange(case.size) - np.searchsorted(case, case)
-        for k in range(rank.max() + 1):
-            whole = np.full((count, len(Root._fields)), np.nan)
-            whole[case[rank == k]] = chosen[rank == k]
-            found.append(Root._make(whole.T.reshape(-1, *scene.shape)))
+        whole = np.full((rank.max() + 1, count, len(Root._fields)), np.nan)
+        whole[rank, case] = chosen
+        found = [Root._make(one.T.reshape(-1, *scene.shape)) for one in whole]
     undetermined = np.zeros(count, dtype=bool)
     if not scene.kinds[0].startswith("speed"):
         for at, row, e in crossings(slips, count, function.least):
@@ -342,7 +339,7 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
 
 def _in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
-    fitting = [root for root in roots if np.any(root.closing > 0.0)]
+    fitting = [root for root in roots if root is not NO_ROOT and np.any(root.closing > 0.0)]
     for root in fitting:
         scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
     if not fitting or np.all(scene.undetermined):
@@ -425,8 +422,7 @@ def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> N
     if len(found) < 2:
         return
     (one, _), (other, both) = found[:2]
-    gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)
-    gap = np.broadcast_to(gap, np.shape(count))[np.broadcast_to(both, np.shape(count))]
+    gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)[both]
     if gap.size and (np.any(np.less(count, 2)) or gap.min() < _NEAR_FOLD * gap.max()):
         warn_of_samples(
             OutOfRangeWarning(

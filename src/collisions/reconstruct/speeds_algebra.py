@@ -143,13 +143,7 @@ class Scene:
     """
 
     def __init__(
-        self,
-        given: dict[str, Any],
-        rule: str,
-        law: str,
-        names: tuple[str, ...],
-        shape: tuple[int, ...],
-        plain: bool = False,
+        self, given: dict[str, Any], rule: str, law: str, names: tuple[str, ...], shape: tuple[int, ...], plain: bool = False
     ) -> None:
         self.rule, self.law, self.names, self.shape, self.plain = rule, law, names, shape, plain
         self.kinds = tuple(_OBSERVED_AS.get(name, name) for name in names)
@@ -204,11 +198,8 @@ class Scene:
         if self.rule == IMPULSE_RATIO:
             return [self.bound]
         if self.rule == CRITICAL_FRACTION:
-            return [
-                np.where(self.bound == 0.0, 0.0, np.nan),
-                STICK,
-                *([_SHARE] if shares_critical(self.rule, self.bound) else []),
-            ]
+            shares = [_SHARE] if shares_critical(self.rule, self.bound) else []
+            return [np.where(self.bound == 0.0, 0.0, np.nan), STICK, *shares]
         finite = select(abs(self.bound) == np.inf, np.nan, self.bound)
         return [finite, select(self.bound > 0.0, -finite, np.nan), STICK]
 
@@ -469,18 +460,16 @@ class Scene:
 
     def _one_of_many(self, speed_a: Any, speed_b: Any) -> Any:
         """Whether the speeds on one side of a root also give the observed values: a continuous range of solutions."""
-        size = abs(speed_a) + abs(speed_b) + self.fixed[0]
-        many: Any = False
-        for side in (-_BESIDE, _BESIDE):
-            pairs = [(speed_a, speed_b)]
-            for moved in (0.5 * side * size, side * size):
-                if self.kinds[0] == "speed_b":
-                    pairs.append((speed_a + moved, speed_b))
-                else:
-                    beside = (speed_a, speed_b + moved)
-                    pairs.append(beside if self.kinds[0] == "speed_a" else self._scaled(*beside))
-            many = many | self._all_fit(pairs)
-        return many
+
+        def moved(step: Any) -> tuple[Any, Any]:
+            if self.kinds[0] == "speed_b":
+                return speed_a + step, speed_b
+            beside = speed_a, speed_b + step
+            return beside if self.kinds[0] == "speed_a" else self._scaled(*beside)
+
+        far = _BESIDE * (abs(speed_a) + abs(speed_b) + self.fixed[0])
+        slower, faster = ([(speed_a, speed_b), moved(0.5 * step), moved(step)] for step in (-far, far))
+        return self._all_fit(slower) | self._all_fit(faster)
 
     def _scaled(self, speed_a: Any, speed_b: Any) -> tuple[Any, Any]:
         """The speeds, scaled at the same slip per closing speed, that give the observation that is not a loss."""

@@ -40,6 +40,8 @@ class ComponentScene(Scene):
         super().__init__(given, rule, law, names, shape)
         self.components = [name for name in names if name.startswith("delta_v")]
         self.unknown = [at for at, label in enumerate("ab") if f"speed_{label}" not in names]
+        # 0 in place of unknown ones.
+        self.known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
         self.misfit: Any = np.full((), np.nan)
         self.near_sliding: Any = np.zeros((), dtype=bool)
         nx, ny = self.given["normal[0]"], self.given["normal[1]"]
@@ -70,21 +72,18 @@ class ComponentScene(Scene):
         effects = [[at - still for at, still in zip(momenta, rest, strict=True)] for momenta in moving]
         columns = [effects[at] for at in self.unknown]
         inverse, stays_open = _inverse(columns, [abs(part) for effect in effects for part in effect])
-        speeds = [self.targets.get(f"speed_{label}", 0.0) + 0.0 * rest[0] for label in "ab"]
+        speeds = [speed + 0.0 * rest[0] for speed in self.known]
         for _ in range(_REFINEMENTS):
             left = self._left(self.observe(regime, *speeds))
             for at, row in zip(self.unknown, inverse, strict=True):
-                step = sum(part * off for part, off in zip(row, left, strict=True))
+                step = _dot(row, left)
                 speeds[at] = speeds[at] + np.where(np.isfinite(step), step, 0.0)
-        # A known speed enters by what it takes off the momenta.
         moved: Any = 0.0
         for row in inverse:
-            of_row = sum(abs(part * momentum) for part, momentum in zip(row, self._momenta, strict=True))
-            for at, label in enumerate("ab"):
-                if at not in self.unknown:
-                    by_speed = sum(part * effect for part, effect in zip(row, effects[at], strict=True))
-                    of_row = of_row + abs(by_speed * self.targets[f"speed_{label}"])
-            moved = np.maximum(moved, of_row)
+            by_momenta = sum(abs(part * momentum) for part, momentum in zip(row, self._momenta, strict=True))
+            # A known speed enters by what it takes off the momenta.
+            by_speeds = sum(abs(_dot(row, effect) * speed) for effect, speed in zip(effects, self.known, strict=True))
+            moved = np.maximum(moved, by_momenta + by_speeds)
         return self._judged(regime, speeds, moved, stays_open)
 
     def _edges(self) -> list[tuple[Root, Any, Any]]:
@@ -95,7 +94,7 @@ class ComponentScene(Scene):
         if self.rule != FRICTION or len(self.unknown) > 1:
             return []
         (at,) = self.unknown
-        known = [self.targets.get(f"speed_{label}", np.zeros(())) for label in "ab"]
+        known = self.known
         of_unknown, of_known = ([speed + (1.0 if i == one else 0.0) for i, speed in enumerate(known)] for one in (at, 1 - at))
         seen = [self.observe(STICK, speed_a, speed_b) for speed_a, speed_b in (known, of_unknown, of_known)]
         found = []
@@ -168,25 +167,25 @@ class ComponentScene(Scene):
             )
 
 
+def _dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
+    return sum(a * b for a, b in zip(one, other, strict=True))
+
+
 def _inverse(columns: Sequence[Sequence[Any]], sizes: Sequence[Any]) -> tuple[list[list[Any]], Any]:
     """The rows of the pseudoinverse of one or two columns, by their orthogonal parts, and where these have no full rank.
 
     Without full rank they are those of the longer column alone.
     """
-
-    def dot(one: Sequence[Any], other: Sequence[Any]) -> Any:
-        return sum(a * b for a, b in zip(one, other, strict=True))
-
     least = (_NO_EFFECT * np.maximum.reduce(np.broadcast_arrays(*sizes))) ** 2
-    squares = [dot(column, column) for column in columns]
+    squares = [_dot(column, column) for column in columns]
     if len(columns) == 1:
         return [[part / squares[0] for part in columns[0]]], ~(squares[0] > least)
     swapped = squares[1] > squares[0]
     first, second = ([np.where(swapped, b, a) for a, b in zip(*pair, strict=True)] for pair in (columns, columns[::-1]))
     square = np.maximum(*squares)
-    along = dot(first, second) / square
+    along = _dot(first, second) / square
     across = [b - along * a for a, b in zip(first, second, strict=True)]
-    crossed = dot(across, across)
+    crossed = _dot(across, across)
     flat = ~(crossed > np.maximum(_NO_EFFECT**2 * square, 0.0))
     of_second = [np.where(flat, 0.0, part / crossed) for part in across]
     of_first = [part / square - along * other for part, other in zip(first, of_second, strict=True)]
