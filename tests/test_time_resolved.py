@@ -849,6 +849,13 @@ def test_refused_contacts():
         t_bone(duration=np.array([0.1, -0.1]), on_failure="raise")
     with pytest.warns(col.CollisionsWarning, match="1 of 3 cases were refused and are NaN .1 negative_size."):
         t_bone(drag=np.array([0.1, -0.1, 0.2]))
+    # Of a batch by the same names as of a single case.
+    endless = np.array([1e6, -math.inf, math.inf, math.nan])
+    found = t_bone(duration=None, stiffness=endless, on_failure="nan").status
+    for stiffness, status in zip(endless[1:], found[1:], strict=True):
+        with pytest.raises(col.InputError) as caught:
+            t_bone(duration=None, stiffness=stiffness)
+        assert caught.value.code == col.Status(status).label
 
 
 def test_a_batch_without_friction_or_slip_is_frictionless():

@@ -490,6 +490,9 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
     }
     assert found[0] == pytest.approx(travel.speed(10, drag=0.7), rel=2 * EPS)
     assert np.isnan(found[1:]).all()
+    # Locked, as it is without refused cases.
+    assert not found.flags.writeable
+    assert not travel.speed(d[:1], drag=f[:1]).flags.writeable
     with pytest.warns(col.CollisionsWarning, match="5 of 6"):
         assert np.isnan(travel.time(d, drag=f)).tolist() == [False, *[True] * 5]
 

@@ -12,17 +12,7 @@ from typing import Any
 import numpy as np
 
 from .errors import CollisionsError, InputError, ShapeError, Status, SuspectUnitsWarning, UnitsError
-from .kernels.elementwise import (
-    AT_LEAST_ZERO,
-    FINITE,
-    INCOMPLETE,
-    NOT_NEGATIVE,
-    POSITIVE,
-    POSITIVE_FINITE,
-    RESTITUTION,
-    UNIT_INTERVAL,
-    Domain,
-)
+from .kernels.elementwise import AT_LEAST_ZERO, FINITE, INCOMPLETE, NOT_NEGATIVE, POSITIVE, RESTITUTION, UNIT_INTERVAL, Domain
 from .settings import Default, units_required
 from .units import (
     Texts,
@@ -364,8 +354,6 @@ def _outside(value: float, domain: Domain, argument: str, given: Any) -> InputEr
 
 def _out_of_domain(value: float, domain: Domain, status: Status, argument: str, given: Any) -> InputError:
     must, hint = domain.name, f": {status.sentence}"
-    if domain is POSITIVE_FINITE and value == -math.inf:
-        status = Status.NOT_POSITIVE
     if status is Status.NOT_FINITE and domain is not AT_LEAST_ZERO:
         if math.isnan(value):
             return InputError(f"{argument} is NaN; give a number", code=status.label, argument=argument)

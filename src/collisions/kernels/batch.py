@@ -66,6 +66,10 @@ class Check(NamedTuple):
     passes: Callable[..., bool] | None = None
     implied: bool = False
 
+    def fault(self, *values: Any) -> Any:
+        """The status of each case, 0 if nothing is wrong."""
+        return first_status(*((fault(*values), code) for fault, code in self.faults))
+
 
 class Work(NamedTuple):
     """A kernel, its settings and its inputs."""
@@ -316,7 +320,7 @@ def _faults(checks: Sequence[Check], cut: dict[int, Any]) -> list[Any]:
     for check in checks:
         values = [cut[id(value)] for value in check.values]
         if check.passes is None or not check.passes(*values):
-            found.append(first_status(*((fault(*values), code) for fault, code in check.faults)))
+            found.append(check.fault(*values))
     return found
 
 

@@ -126,7 +126,7 @@ NOT_NEGATIVE = Domain(
     ((lambda value: (value < 0.0) | (value != value), Status.BAD_FRICTION),),
     lambda values: bool(np.minimum.reduce(values) >= 0.0),
 )
-POSITIVE_FINITE = Domain("positive and finite", (*FINITE.faults, *POSITIVE.faults[1:]), lambda values: False)
+POSITIVE_FINITE = Domain("positive and finite", (*POSITIVE.faults, *FINITE.faults), lambda values: False)
 AT_LEAST_ZERO = Domain(
     "at least 0 and finite", (*FINITE.faults, (lambda value: value < 0.0, Status.NEGATIVE_SIZE)), lambda values: False
 )

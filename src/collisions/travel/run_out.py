@@ -17,7 +17,6 @@ from ..errors import InputError, OutOfRangeWarning
 from ..hints import hinted
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, in_units_of, numeric
-from ..quantities import lock as write_locked
 from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader, at_least_zero, warn_if_large
 from ..units import Input, Pair, Texts, Value, shown, texts_of
@@ -252,7 +251,7 @@ def path(
             checks += [("contradictory", np.isnan(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.isinf(answer)) for answer in (*gaps, answered)]
             checks += [("out_of_range", np.less_equal(gap, 0.0)) for gap in gaps]
-            found = write_locked(settle(found, named, shape, checks))
+            found = settle(found, named, shape, checks)
         elif not (min(gaps) > 0.0 and math.isfinite(answered)):
             raise out_of_range()
         _warn_of_wide_segments(turned, locks)

@@ -11,7 +11,7 @@ import numpy as np
 from ..drag import GRAVITY, one_value
 from ..errors import CollisionsError, CollisionsWarning, InputError, NoSolutionError, ShapeError
 from ..kernels.elementwise import select
-from ..quantities import hypot, numeric
+from ..quantities import hypot, lock, numeric
 from ..reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
 from ..units import Input
 from ..warning import warn_of_cases
@@ -155,7 +155,7 @@ def out_of_range() -> InputError:
 
 
 def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks: Iterable[tuple[str, Any]]) -> Any:
-    """A batch, or a dict or tuple of some, NaN where an argument is refused or a check holds; one warning counts why."""
+    """A locked batch, or a dict or tuple of some, NaN where an argument is refused or a check holds; one warning counts why."""
     reasons = [("not_finite", ~np.isfinite(value)) for value in named.values()]
     for name, value in named.items():
         code = _BELOW_ZERO.get(name.partition("[")[0])
@@ -187,4 +187,4 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
             return tuple(map(settled, answer))
         return select(answered, answer, np.nan) if counts else np.broadcast_to(answer, shape)
 
-    return settled(found)
+    return lock(settled(found))
