@@ -56,6 +56,12 @@ def test_copies_and_pickles_are_equal_and_locked():
         assert not twin.vx.flags.writeable
 
 
+@pytest.mark.parametrize("place", [{}, {"x": 1.0}, {"y": -0.0}, {"x": 1.0, "y": 2.0}, {"x": 1e308, "y": 1e308}])
+def test_plain_floats_were_not_given_as_texts(place):
+    """With one coordinate as with both or none."""
+    assert col.Vehicle(mass=1.0, **place).given is None
+
+
 @pytest.mark.parametrize("field", ["mass", "yaw_inertia"])
 @pytest.mark.parametrize("value", [0, -1.0, -INF, "-5 kg", "0 kg*m**2"])
 def test_masses_and_inertias_are_positive(field, value):

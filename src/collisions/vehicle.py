@@ -110,7 +110,8 @@ class Vehicle(_AsGiven):
             and _isfinite(vx + vy)
             and -20.0 < yaw_rate < 20.0
             and (yaw_inertia is None or (type(yaw_inertia) is float and yaw_inertia > 0.0))
-            and (x is y is None or (type(x) is type(y) is float and _isfinite(x + y)))
+            and (x is None or (type(x) is float and _isfinite(x)))
+            and (y is None or (type(y) is float and _isfinite(y)))
             and (heading is None or (type(heading) is float and -6.0 < heading < 6.0))
             and pivot is None
             and type(name) is str
