@@ -350,7 +350,6 @@ def test_a_vehicle_that_lacks_something_is_named():
     ]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("distance", ['"-12 m"', '"12 kg"', '"5 m .. 4 m"'])
 def test_what_is_wrong_inside_a_function_is_named_with_its_table(distance):
     """Whether it shows when the file is read or when the case is solved."""
@@ -361,6 +360,7 @@ def test_what_is_wrong_inside_a_function_is_named_with_its_table(distance):
     assert line.startswith("reconstruct.momentum.speed_a_after.travel.speed.distance: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_example_3", "intersection_with_recorder", "us_units", "run_out"])
 def test_each_example_makes_its_report(name, tmp_path, capsys):
     """From a file to a report in one command; the record in it is that of the result."""

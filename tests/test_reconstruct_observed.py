@@ -504,6 +504,10 @@ def test_a_function_in_a_batch_of_inline_impacts():
         for i in (0, 7, 255, 256, 299):
             alone = solve(1000, float(np.linspace(900, 1400, 300)[i]), function, delta_v_a=float(many[i]))
             assert found[i] == pytest.approx(alone, rel=1e-12)
+    # A function that answers an array by one number, which is right for the cases asked first, is asked of each case.
+    many = np.append(np.full(256, 1.0), [0.9, 1.5, 2.0, 2.5])
+    found = solve(1000, 1000, lambda v: 0.3 if np.all(v < 3) else 0.1, delta_v_a=many)
+    assert found[256:].tolist() == [solve(1000, 1000, two_steps, delta_v_a=dv) for dv in many[256:]]
     assert solve(1000, 1000, two_steps, delta_v_a=np.zeros(0)).shape == (0,)
     assert solve(1000, 1000, two_steps, delta_v_a=np.array([1.0], dtype=np.float32)).dtype == np.float32
 
@@ -798,6 +802,15 @@ def test_a_coordinate_nothing_needs_still_says_how_many_cases():
     listed = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, y=np.zeros(3))
     found = reconstruct.restitution(a, listed, a.replace(vx=-1.0), wall, normal=0.0, point=(0.0, 0.0))
     assert found.tolist() == [0.1, 0.1, 0.1]
+
+
+@pytest.mark.parametrize("size", [(), (2,)])
+def test_a_body_that_does_not_turn_may_be_anywhere(size):
+    """Its distance from the contact would be beyond the largest number."""
+    far = {"yaw_inertia": 2000.0, "x": np.full(size, -1e308)[()], "y": 0.0}
+    a, b = col.Vehicle(mass=1500.0, vx=10.0, **far), col.Vehicle(mass=1500.0)
+    found = reconstruct.restitution(a, b, a.replace(vx=4.0), b.replace(vx=6.0), normal=0.0, point=(1e308, 1e308))
+    assert np.array_equal(found, np.full(size, 0.2))
 
 
 @pytest.mark.parametrize(

@@ -493,6 +493,10 @@ def test_cases_without_an_answer_are_nan_and_counted_once():
     # Locked, as it is without refused cases.
     assert not found.flags.writeable
     assert not travel.speed(d[:1], drag=f[:1]).flags.writeable
+    # Arrays of their own, where one number is that of every case.
+    same = travel.path([(0.0, 0.0), (5.0, 0.5)], [0.1, 0.2], friction=np.array([0.5, 0.6]), lock=1.0)
+    assert same.distance.flags.c_contiguous
+    assert not same.distance.flags.writeable
     with pytest.warns(col.CollisionsWarning, match="5 of 6"):
         assert np.isnan(travel.time(d, drag=f)).tolist() == [False, *[True] * 5]
 

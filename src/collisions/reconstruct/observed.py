@@ -243,9 +243,14 @@ def _check_position(label: str, body: Vehicle, contact: Any, purpose: str) -> No
 
 def _moment(read: Inputs, *bodies: Vehicle) -> _Moment:
     n, (px, py) = tuple(map(np.asarray, read.normal)), map(np.asarray, read.point or (0.0, 0.0))
-    numbers = ([np.asarray(number, dtype=np.float64) for number in body_numbers(body, read.point)] for body in bodies)
-    a, b = (dict(zip(NUMBERS, of_body, strict=True)) for of_body in numbers)
-    pinned = (body.pivot is not None for body in bodies)
+    turning = [not without_turning(body.yaw_rate) for body in bodies]
+    a, b = (
+        # A body that does not turn moves alike everywhere; at the contact no lever of it overflows.
+        {name: np.asarray(value, dtype=np.float64) for name, value in zip(NUMBERS, body_numbers(body, read.point), strict=True)}
+        | ({} if turns else {"x": px, "y": py})
+        for body, turns in zip(bodies, turning, strict=True)
+    )
+    pinned = (turns and body.pivot is not None for body, turns in zip(bodies, turning, strict=True))
     raw = forward(np.zeros(()), *n, np.zeros(()), px, py, *a.values(), *b.values(), FRICTION, BRACH, *pinned)
     speeds: Any = 0.0
     for body in (a, b):

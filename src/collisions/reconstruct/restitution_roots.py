@@ -132,7 +132,7 @@ class RestitutionOf:
         """Restitution at each closing speed; NaN where the function has none."""
         if self.takes_arrays is None:
             self.takes_arrays = self._same_in_arrays(closing)
-        return self._of_array(closing) if self.takes_arrays else self._of_each(closing)
+        return self._usable(closing, self._of_array(closing)) if self.takes_arrays else self._of_each(closing)
 
     def _same_in_arrays(self, closing: Any) -> bool:
         """Whether the function answers an array element by element."""
@@ -140,13 +140,18 @@ class RestitutionOf:
             e = self._of_array(closing)
         except Exception:
             return False
+        # One answer for all may be right for these, and not for those of the next array.
+        if e.shape != closing.shape:
+            return False
         some = np.flatnonzero(np.isfinite(closing))[:: max(1, closing.size // _COMPARED)]
-        same = e.shape == closing.shape and np.allclose(e[some], self._of_each(closing[some]), 1e-12, 0.0, equal_nan=True)
-        return bool(same)
+        usable = self._usable(closing[some], e[some])
+        return bool(np.allclose(usable, self._of_each(closing[some]), rtol=1e-12, atol=0.0, equal_nan=True))
 
     def _of_array(self, closing: Any) -> Any:
         with quietly():
-            e = np.array(self.function(closing), dtype=np.float64)
+            return np.array(self.function(closing), dtype=np.float64)
+
+    def _usable(self, closing: Any, e: Any) -> Any:
         return np.where((closing > 0.0) & self._is_one(e), e, np.nan)
 
     def _of_each(self, closing: Any) -> Any:

@@ -185,6 +185,6 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
             return {name: settled(part) for name, part in answer.items()}
         if isinstance(answer, tuple):
             return tuple(map(settled, answer))
-        return select(answered, answer, np.nan) if counts else np.broadcast_to(answer, shape)
+        return select(answered, answer, np.nan) if counts else np.array(np.broadcast_to(answer, shape))
 
     return lock(settled(found))
