@@ -274,6 +274,23 @@ def test_arrays_in_one_piece_of_memory(length):
     assert carved(length + 4096, dtypes, memory)[0] is not memory
 
 
+def test_spare_memory_that_another_thread_has_just_taken(monkeypatch):
+    """A list that was not empty a moment ago, as it can be without a global lock, is empty when it is taken from."""
+
+    class Emptied(list):
+        def __bool__(self):
+            return True
+
+        def __len__(self):
+            return 1
+
+    monkeypatch.setattr("collisions.kernels.replay._SPARE", Emptied())
+    program = record(lambda x, y: (x + y, x * y * x), (), (None, None), np.float64, (np.dtype(float),) * 2)
+    inputs, outputs = numbers(2, 30, np.float64, np.random.default_rng(3), odd=False), [np.empty(30), np.empty(30)]
+    replay(program, inputs, outputs)
+    np.testing.assert_array_equal(outputs, [inputs[0] + inputs[1], inputs[0] * inputs[1] * inputs[0]])
+
+
 def test_outputs_are_scratch_until_they_are_written():
     """Values between stand in them: half of the buffers are saved."""
     program = record(eccentric, (FRICTION, BRACH, False, False, 2.0**-52), (None,) * 24, np.float64, kinds(np.float64))

@@ -59,9 +59,11 @@ def replay(program: Program, inputs: Sequence[Any], outputs: Sequence[Any]) -> b
 
     Gives whether all its cases are fine.
     """
-    # Taking from a list and putting back is safe between threads, and in a call within a call.
-    spare: Any = _SPARE.pop() if _SPARE else (None, 0, None, [])
-    owner, length, memory, buffers = spare
+    # Taking from a list and putting back is safe between threads, and in a call within a call; to look first would not be.
+    try:
+        owner, length, memory, buffers = _SPARE.pop()
+    except IndexError:
+        owner, length, memory, buffers = None, 0, None, []
     if owner is not program or length != len(outputs[0]):
         length = len(outputs[0])
         memory, buffers = carved(length, program.buffers, memory)
