@@ -725,6 +725,14 @@ def test_an_output_in_another_unit_is_no_answer_of_its_name():
         explain(impact, uncertainty=alone)
 
 
+def test_a_deviation_of_rounding_alone_is_not_printed():
+    """It would ask for every digit of the answer."""
+    inputs = {"v": uncertainty.Normal(20.0, 1e-9)}
+    spread = uncertainty.propagate(lambda v: {"b_after_vx": v / 2.0}, inputs, method="first_order")
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
+    assert answer(explain(impact, form="text", uncertainty=spread), "B", "velocity after, along x") == "10.00 m/s"
+
+
 @pytest.mark.parametrize("units", UNITS)
 @pytest.mark.parametrize("friction", [0.05, 0.3, math.inf])
 @pytest.mark.parametrize("solver", [col.oblique_central, col.eccentric])
