@@ -185,6 +185,9 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
             return {name: settled(part) for name, part in answer.items()}
         if isinstance(answer, tuple):
             return tuple(map(settled, answer))
-        return select(answered, answer, np.nan) if counts else np.array(np.broadcast_to(answer, shape))
+        if counts:
+            return select(answered, answer, np.nan)
+        # A large batch has most answers in its shape already, and a second copy of them would take as much memory again.
+        return answer if np.shape(answer) == shape else np.array(np.broadcast_to(answer, shape))
 
     return lock(settled(found))
