@@ -483,7 +483,12 @@ def test_conditions_that_are_none(condition):
 
 @pytest.mark.parametrize(
     ("prior", "reading"),
-    [(Normal(0.0, 1.0), 1e3), (Normal(0.0, 1.0), -1e9), (Normal(0.0, 1.0), 1e151), (Uniform(1.8e151, 2.7e151), 20.0)],
+    [
+        pytest.param(Normal(0.0, 1.0), 1e3, marks=pytest.mark.slow),
+        pytest.param(Normal(0.0, 1.0), -1e9, marks=pytest.mark.slow),
+        (Normal(0.0, 1.0), 1e151),
+        (Uniform(1.8e151, 2.7e151), 20.0),
+    ],
 )
 def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
     """So many deviations away the samples crept on without end, or stayed where they were, as likely as one another."""
@@ -492,6 +497,7 @@ def test_evidence_out_of_all_reach_is_refused_soon(prior, reading):
     assert caught.value.code == "contradictory"
 
 
+@pytest.mark.slow
 def test_evidence_that_would_take_thousands_of_stages_is_refused_soon():
     """Each of its stages got twenty times as far as where the samples creep, from a likelihood of 1e-250 on."""
     calls = []

@@ -634,11 +634,9 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
 EVERY_RUN = (
     "oblique_central, friction",
     "eccentric, friction, brach",
-    "eccentric, critical_fraction, kudlich-slibar",
     "eccentric, pinned, friction",
     "solve, friction, 0.3",
     "planar, friction, brach, restitution",
-    "planar, friction, kudlich-slibar, closing_speed",
     "speeds, friction, speed_b, delta_v_a",
 )
 LONG = ("oblique_central, ", "eccentric, ", "solve, ", "planar, ", "speeds, ", "simulate", "time_resolved")

@@ -1275,6 +1275,7 @@ def test_inputs_and_answers_of_planar_momentum_are_shown():
     assert "A: speed before" in Page(page).of("caption")
 
 
+@pytest.mark.slow
 def test_samples_drawn_together_are_told_without_shares():
     """A joint group has all variance; bare numbers are SI, and in the unit of the page where their input is the impact's."""
     impact = crash(golf(vx=15.0))

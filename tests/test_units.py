@@ -21,9 +21,9 @@ from collisions.units import si_unit
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def ureg():
-    """A registry of its own, not the application's."""
+    """A registry of its own, not the application's; a test that changes one makes it itself."""
     return pint.UnitRegistry()
 
 
@@ -144,8 +144,9 @@ def test_quantities_of_several_registries_mix(ureg):
     assert vehicle.vx == pytest.approx(30 * EXACT["mph"], rel=1e-15)
 
 
-def test_registries_that_define_a_unit_differently_stay_apart(ureg):
+def test_registries_that_define_a_unit_differently_stay_apart():
     """A factor kept for one registry is not used for another in which the same name means something else."""
+    ureg = pint.UnitRegistry()
     other = pint.UnitRegistry()
     ureg.define("stein = 6 kg")
     other.define("stein = 7 kg")
@@ -153,8 +154,9 @@ def test_registries_that_define_a_unit_differently_stay_apart(ureg):
     assert col.Vehicle(mass=other.Quantity(1, "stein")).mass == 7.0
 
 
-def test_a_context_is_obeyed_and_forgotten(ureg):
+def test_a_context_is_obeyed_and_forgotten():
     """A unit redefined inside a context counts only there."""
+    ureg = pint.UnitRegistry()
     ureg.define("stein = 6 kg")
     context = pint.Context()
     context.redefine("stein = 8 kg")
@@ -351,8 +353,9 @@ def test_a_kilopond_is_never_a_thousand():
         assert col.Vehicle(mass=1500, vx="10 kilopond*s/kg").vx == pytest.approx(98.0665, rel=1e-15)
 
 
-def test_a_mil_of_the_caller(ureg):
+def test_a_mil_of_the_caller():
     """One who gives it a name of its own, and says how many go to the turn, is understood."""
+    ureg = pint.UnitRegistry()
     ureg.define("artillery_mil = turn / 6400")
     car = col.Vehicle(mass=1500, heading=ureg.Quantity(1600, "artillery_mil"))
     assert car.heading == pytest.approx(math.pi / 2, rel=1e-14)
