@@ -37,6 +37,9 @@ VOID = {"meta", "br", "hr", "img", "link", "input"}
 # A name that tries to be markup, in HTML, in Markdown, in a formula and in an SVG file.
 EVIL = '<script>alert("1")</script> | `x` **b** $\\frac$ & </pre> id="z" [l](http://x)'
 
+HOLDS_ITSELF: list = []
+HOLDS_ITSELF.append(HOLDS_ITSELF)
+
 
 def golf(**changes):
     given = {"mass": "1500 kg", "yaw_inertia": 2600, "vx": "54 km/h", "x": -2.2, "y": 0.0, "heading": "0 deg", "name": "Golf"}
@@ -891,6 +894,8 @@ def test_damage_that_contradicts_stands_on_the_page():
         ({"crush_energy": -1.0}, "negative_energy"),
         ({"damage_pdof_a": "3 m"}, "bad_units"),
         ({"damage_delta_v_b": [1.0]}, "bad_shape"),
+        ({"drag": HOLDS_ITSELF}, "bad_shape"),
+        ({"damage_delta_v_b": (HOLDS_ITSELF, HOLDS_ITSELF)}, "bad_shape"),
     ],
 )
 def test_evidence_is_refused_as_by_diagnose(change, code):

@@ -90,7 +90,7 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
 def _number(value: Any, unit: str, name: str) -> Any:
     """A number as a float, or as its text if that reads as the same number here; of several a list."""
     if isinstance(value, (tuple, list)):
-        return [_number(part, unit, name) for part in value]
+        return [part if isinstance(part, (tuple, list)) else _number(part, unit, name) for part in value]
     if value is None or isinstance(value, str):
         return value
     reader = ArgumentReader(trusted=(name,))
