@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -24,14 +24,26 @@ COUNT = 100
 FLAT_COUNT = 40
 GROUPS = [(family, law, rule) for family in FAMILIES for law in LAWS for rule in (*RULES, NEAR_JAMMING, INCOMPLETE, PUSHED)]
 GROUPS += [(family, "stronge", rule) for family in FAMILIES for rule in ("friction", INCOMPLETE, PUSHED)]
-# Friction in every family, and every rule in traffic, are for every run; the rest is slow, and so is "stronge" elsewhere.
+
+
+def _slow_unless(every_run: bool) -> Any:
+    return () if every_run else pytest.mark.slow
+
+
+# Friction under "brach" in every family, and all in traffic, are for every run; the rest is slow.
 group = pytest.mark.parametrize(
     ("family", "law", "rule"),
-    [
-        pytest.param(*one, marks=() if one[0] == "traffic" or (one[2] == "friction" and one[1] in LAWS) else pytest.mark.slow)
-        for one in GROUPS
-    ],
+    [pytest.param(*one, marks=_slow_unless(one[0] == "traffic" or one[1:] == ("brach", "friction"))) for one in GROUPS],
 )
+rules = pytest.mark.parametrize("rule", [pytest.param(rule, marks=_slow_unless(rule == "friction")) for rule in RULES])
+
+
+def families(names: Sequence[str]) -> Any:
+    """These families under each law, as is the rest of a group."""
+    pairs = [pytest.param(name, law, marks=_slow_unless(name == "traffic" or law == "brach")) for name in names for law in LAWS]
+    return pytest.mark.parametrize(("family", "law"), pairs)
+
+
 way = pytest.mark.parametrize("way", ["alone", "in a batch"])
 
 _READ = (
@@ -266,8 +278,7 @@ def test_eccentric_keeps_its_promises(family: str, law: str, rule: str, way: str
     check(_answers("eccentric", family, law, rule, way), measure)
 
 
-@pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize("law", LAWS)
+@families(FAMILIES)
 @way
 def test_slip_after_is_exact_where_the_contact_sticks(family: str, law: str, way: str) -> None:
     """A sticking contact ends with a slip of exactly 0 ("brach") or exactly -e times the initial one ("kudlich-slibar")."""
@@ -283,9 +294,8 @@ def test_slip_after_is_exact_where_the_contact_sticks(family: str, law: str, way
 FLAT_FAMILIES = [family for family in FAMILIES if "pinned" not in family and family not in ("levers 1e-9 or 1e9", "map grid")]
 
 
-@pytest.mark.parametrize("family", FLAT_FAMILIES)
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("rule", [pytest.param(rule, marks=() if rule == "friction" else pytest.mark.slow) for rule in RULES])
+@families(FLAT_FAMILIES)
+@rules
 @way
 def test_oblique_central_keeps_its_promises(family: str, law: str, rule: str, way: str) -> None:
     """The oblique central model is within the planar promises, whose kappa is 1 for bodies that do not turn."""
@@ -508,9 +518,8 @@ def test_sixty_digits_are_enough(family: str, law: str) -> None:
                 assert abs(got - wanted) <= 1e-6 * EPS * scale, scene
 
 
-@pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("rule", RULES)
+@families(FAMILIES)
+@rules
 def test_kelvin_gives_the_kinetic_energy_difference(family: str, law: str, rule: str) -> None:
     """In the reference eq 7 (energy before minus after) equals (1-e) g Pn/2 - Pt (s+s')/2, as section 1 says."""
     for scene, answer in cases(family, law, rule, COUNT)[:20]:

@@ -630,16 +630,24 @@ def check(name: str, chosen: Sequence[int], found: Any, shape: tuple[int, ...]) 
     return answered, refused
 
 
-# Of the many ways to call a planar solver these are for every run; the rest is slow.
+# Of the many ways to call a solver these are for every run; the rest is slow.
 EVERY_RUN = (
+    "linear_central",
     "oblique_central, friction",
     "eccentric, friction, brach",
     "eccentric, pinned, friction",
     "solve, friction, 0.3",
     "planar, friction, brach, restitution",
     "speeds, friction, speed_b, delta_v_a",
+    "central, va, vb, restitution",
+    "central, va, va_after, energy_loss",
+    "restitution",
+    "friction",
 )
-LONG = ("oblique_central, ", "eccentric, ", "solve, ", "planar, ", "speeds, ", "simulate", "time_resolved")
+LONG = (
+    "linear_central", "oblique_central", "eccentric", "solve", "planar", "speeds", "central", "restitution", "friction", "simulate",
+    "time_resolved",
+)  # fmt: skip
 every_call = pytest.mark.parametrize(
     "name",
     [pytest.param(name, marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else ()) for name in CALLS],
