@@ -120,6 +120,12 @@ def brief(make: Any) -> Any:
 
 
 @cache
+def other_registry() -> Any:
+    """A plain registry beside the application's, made once, as each takes time; nothing may be defined in it."""
+    return pint.UnitRegistry()
+
+
+@cache
 def registries() -> tuple[Any, ...]:
     """Registries a caller may bring along, made once: the application's, one of its own, one that counts in Decimal."""
     return (

@@ -112,7 +112,9 @@ def test_single_precision_angles_in_degrees():
     assert col.Impact.from_dict(impact.to_dict()) == impact
 
 
-@pytest.mark.parametrize("law", ["brach", "kudlich-slibar", "stronge"])
+@pytest.mark.parametrize(
+    "law", ["brach", *(pytest.param(law, marks=pytest.mark.slow) for law in ("kudlich-slibar", "stronge"))]
+)
 @pytest.mark.parametrize("refusing", [False, True])
 def test_few_cases_and_many_have_the_same_bits(law, refusing):
     """A few are answered one by one, many by recorded calls of numpy, a few with a refused one among them by the kernel itself.

@@ -7,7 +7,6 @@ import warnings
 from dataclasses import replace
 
 import numpy as np
-import pint
 import pytest
 
 import collisions as col
@@ -19,6 +18,7 @@ from collisions.derivation.symbols import Symbol
 from collisions.impact import build
 from collisions.kernels.contact_laws import LAWS, RULES, Law, Rule
 from collisions.kernels.elementwise import FINITE
+from strategies import other_registry
 
 # Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred operations of 2**-53.
 SAME = 1e-12
@@ -710,7 +710,7 @@ def test_a_propagation_tells_the_uncertainty():
 
 def test_an_output_in_another_unit_is_no_answer_of_its_name():
     """A speed that is named like the energy lost, which would be its spread in J."""
-    ureg = pint.UnitRegistry()
+    ureg = other_registry()
 
     def model(v):
         return {"energy_loss": ureg.Quantity(v / 2.0, "m/s"), "b_after_vx": ureg.Quantity(3.6 * v / 2.0, "km/h")}

@@ -143,6 +143,7 @@ def test_a_mutated_file_is_answered_or_refused_by_key():
     assert min(answered, refused) >= len(seeds()) // 50, (answered, refused)
 
 
+@pytest.mark.slow
 def test_the_unchanged_files_are_answered():
     """What is mutated would else be refused for reasons of its own."""
     for text in (*FILES, POSTERIOR):

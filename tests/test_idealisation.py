@@ -17,6 +17,7 @@ import pytest
 import collisions as col
 from collisions.contact_effects import LeftOut, LeftOutSide
 from collisions.travel import GRAVITY
+from strategies import other_registry
 
 ROOT = Path(__file__).resolve().parent.parent
 MOST = 0.7 * GRAVITY * 0.1
@@ -345,7 +346,7 @@ def test_tyres_shift_the_velocities_first(friction):
 
 def test_units_of_every_kind():
     """Texts and Quantities of another registry; a deceleration for the drag."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     wanted = numbers(col.left_out(t_bone(), duration=0.08, drag=0.6))
     for arguments in (
         {"duration": "80 ms", "drag": "60 %"},

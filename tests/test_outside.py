@@ -70,7 +70,9 @@ def test_what_parts_them_before_is_refused(law, push):
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("family", ["traffic", "barrier", "A pinned", "B pinned"])
+@pytest.mark.parametrize(
+    "family", ["traffic", *(pytest.param(name, marks=pytest.mark.slow) for name in ("barrier", "A pinned", "B pinned"))]
+)
 def test_momentum_and_energy_balance_with_their_share(family, law):
     """Kinetic energy before and the work from outside are that after and the loss; momentum with both impulses."""
     for scene, _ in cases(family, law, PUSHED, 100):

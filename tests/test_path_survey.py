@@ -42,6 +42,7 @@ def off(run):
     return np.sqrt([np.mean((getattr(run, name) - truth) ** 2) for name, truth in zip(NAMES, TRUTH, strict=True)])
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:the yaw alone")
 def test_a_denser_survey_is_never_worse(body):
     """Three points at 0.8 m give the course to 10 degrees, least squares over 7 m to 1.9; denser is better still.

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-import pint
 import pytest
 
 mpl.use("agg")
@@ -26,12 +25,12 @@ import collisions as col
 from collisions import plot, reconstruct, travel, uncertainty
 from collisions.plot.canvas import Units, number
 from scenes import cases, solved
-from strategies import Nasty
+from strategies import Nasty, other_registry
 
 ROOT = Path(__file__).resolve().parent.parent
 SYSTEMS = ("si", "metric", "us")
 # What one SI unit is in the units of the labels, by pint's definitions and not by the package.
-UREG = pint.UnitRegistry()
+UREG = other_registry()
 SHOWN = {
     "si": {"speed": "m/s", "length": "m", "impulse": "N*s", "energy": "J", "force": "N", "time": "s"},
     "metric": {"speed": "km/h", "length": "m", "impulse": "kN*s", "energy": "kJ", "force": "kN", "time": "ms"},
@@ -846,6 +845,7 @@ FIGURES = ((4.5, 4.0), (6.0, 5.0), (7.5, 6.5), (11.0, 5.0))
 OUTLINES = {"outline_a": (4.4, 1.8), "outline_b": (4.2, 1.75)}
 
 
+@pytest.mark.slow
 def test_labels_leave_outlines_fronts_arrows_and_each_other_alone():
     """Also after the figure has changed its size, when they are placed anew."""
     figure = Figure((11.0, 5.0), layout="constrained")
@@ -1485,6 +1485,7 @@ def test_what_does_not_vary_has_no_variance_to_share():
 HALF = "\ud800"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["energy", "momentum", "scene"])
 def test_half_a_letter_in_a_name_is_drawn_as_a_sign(name):
     """No font has it, and matplotlib cannot be given it."""

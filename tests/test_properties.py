@@ -13,7 +13,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-import pint
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -32,6 +31,7 @@ from scenes import (
     solved,
     solved_together,
 )
+from strategies import other_registry
 
 # The same examples in every run; as many for a property as for one crossed with every model, law and constraint together.
 physics = settings(deadline=None, max_examples=100, derandomize=True, database=None)
@@ -477,7 +477,7 @@ def test_one_case_equals_the_same_case_in_a_batch(model: str, constraint: str, l
 
 # --- Units ------------------------------------------------------------------------------------------------------------------------
 
-FOREIGN = pint.UnitRegistry()
+FOREIGN = other_registry()
 US = {
     "mass": ("lb", Fraction("0.45359237")),
     "yaw_inertia": ("lb*ft**2", Fraction("0.45359237") * Fraction("0.3048") ** 2),

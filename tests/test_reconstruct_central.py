@@ -18,11 +18,11 @@ from typing import Any
 
 import mpmath
 import numpy as np
-import pint
 import pytest
 
 import collisions as col
 from collisions import reconstruct
+from strategies import other_registry
 
 EPS = 2.0**-52
 INF = math.inf
@@ -665,7 +665,7 @@ def test_published_impacts_backwards():
 
 def test_units_of_arguments():
     """Texts, Quantities of another registry and bare SI numbers are one question."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     plain = reconstruct.central(1000.0, 1500.0, va=20.0, vb=0.0, energy_loss=50e3)
     for known in (
         {"va": "72 km/h", "vb": "0 mph", "energy_loss": "50 kJ"},

@@ -21,6 +21,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct
 from collisions.kernels.status import EPS
+from strategies import other_registry
 
 mp = mpmath.MPContext()
 mp.dps = 50
@@ -894,7 +895,7 @@ def test_single_precision():
 
 def test_units_of_arguments():
     """Quantities of another registry and texts are the same numbers."""
-    ureg = pint.UnitRegistry()
+    ureg = other_registry()
     found = crossing(
         mass_a=ureg.Quantity(1500.0 / 0.45359237, "lb"), mass_b="1.2 t", course_b=ureg.Quantity(90.0, "deg"),
         course_a_after=f"{math.degrees(0.9)!r} deg", speed_a_after="32.4 km/h", speed_b_after=ureg.Quantity(8.0 / 0.44704, "mph"),

@@ -20,6 +20,7 @@ import collisions as col
 from collisions import reconstruct
 from reference import EPS, evaluate
 from scenes import FAMILIES, cases, solved
+from strategies import other_registry
 
 INF = math.inf
 MPH = 0.44704
@@ -609,7 +610,7 @@ def test_inline_batches():
     single = solve(1000.0, 1000.0, 0.1, delta_v_a=np.ones(2, np.float32))
     assert single.dtype == np.float32
     assert not single.flags.writeable
-    other = pint.UnitRegistry()
+    other = other_registry()
     assert solve("1 t", other.Quantity(1000.0, "kg"), 0.1, delta_v_a=other.Quantity(3.6, "km/h")) == pytest.approx(
         2 / 1.1, rel=4 * EPS
     )

@@ -10,13 +10,13 @@ from dataclasses import replace
 
 import mpmath
 import numpy as np
-import pint
 import pytest
 
 import collisions as col
 from collisions.reconstruct import planar
 from reference import EPS
 from scenes import LAWS, RULES, cases, draw, solved, solved_together
+from strategies import other_registry
 
 KNOWN = ("restitution", "closing_speed", "energy_loss")
 PLACED = ("traffic", "barrier", "A pinned", "B pinned", "both pinned")
@@ -430,7 +430,7 @@ def test_units_single_precision_and_records():
     given = {**APART, "point": ("160 cm", "0.3 m"), "normal": "0 deg"}
     assert distance(planar(**given), found) < 1e-12
     del given["restitution"]
-    closing = pint.UnitRegistry().Quantity(END.closing_speed * 3.6, "km/h")
+    closing = other_registry().Quantity(END.closing_speed * 3.6, "km/h")
     assert distance(planar(**given, closing_speed=closing), found) < 1e-12
     assert distance(planar(**given, energy_loss=f"{END.energy_loss / 1e3!r} kJ"), found) < 1e-11
     assert found.a.before.name == "Golf"

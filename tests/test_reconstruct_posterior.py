@@ -386,6 +386,7 @@ def side(speed, offset):
 SIDE = ({"speed": Uniform(0, 30), "offset": Normal(0.3, 0.2)}, {"v": (14.0, 1.0), "w": (4.0, 0.5)})
 
 
+@pytest.mark.slow
 def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
     one = posterior(side, *SIDE, samples=1024, seed=7)
     for threads in (1, 2, 5):

@@ -27,12 +27,13 @@ from collisions.formatting import typeset
 from collisions.reporting import options, replay, report
 from collisions.schema import impact_schema
 from collisions.summary import label_of
+from strategies import other_registry
 
 mpl = pytest.importorskip("matplotlib")
 mpl.use("agg")
 
 ROOT = Path(__file__).resolve().parent.parent
-UREG = pint.UnitRegistry()
+UREG = other_registry()
 VOID = {"meta", "br", "hr", "img", "link", "input"}
 # A name that tries to be markup, in HTML, in Markdown, in a formula and in an SVG file.
 EVIL = '<script>alert("1")</script> | `x` **b** $\\frac$ & </pre> id="z" [l](http://x)'
@@ -417,6 +418,7 @@ def sideswipes():
             continue
 
 
+@pytest.mark.slow
 def test_no_text_prints_a_bare_nan():
     """Where left_out has no answer for the geometry the report says so and why; so do the findings and the tables."""
     undefined = 0
@@ -561,6 +563,7 @@ def test_every_letter_of_a_figure_can_be_read(name, impacts):
     assert not set("".join(printed)) & set("$\\{}")
 
 
+@pytest.mark.slow
 def test_figures_leave_nothing_open_and_the_least_are_two(impacts):
     import matplotlib.pyplot as plt
 
@@ -981,7 +984,8 @@ def test_intervals_alone_have_no_mean():
     assert "95 percent" not in part
 
 
-@pytest.mark.parametrize("method", [pytest.param("quasi_random", marks=pytest.mark.slow), "monte_carlo", "first_order"])
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["quasi_random", "monte_carlo", "first_order"])
 def test_rounding_is_no_deviation(method):
     """Of a ratio that is always the friction: no dust for digits, no shares of nothing, and no alarm."""
     options = {} if method == "first_order" else {"samples": 64, "seed": 1}

@@ -578,6 +578,7 @@ def test_a_large_batch_takes_no_copies_of_its_arrays():
     assert most - kept < 8 * 2**20
 
 
+@pytest.mark.slow
 def test_two_threads_share_the_scratch_that_a_batch_may_take():
     """Each has that of all three models, and the inputs and answers of a block: 8 MiB together, as on one thread."""
     a, b, contact = large(80 * BLOCK)

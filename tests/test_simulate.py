@@ -211,6 +211,7 @@ def test_mass_does_not_matter_but_its_share_in_the_inertia_does():
 # What comes out
 
 
+@pytest.mark.slow
 def test_marks_are_left_where_a_tyre_slides():
     """Locked wheels mark all their way, at their places; free ones only where they slide across."""
     path = travel.simulate(CAR, friction=0.7, lock=[1, 0.05, 0.05, 0.05])

@@ -22,6 +22,7 @@ import collisions as col
 from collisions import reconstruct, reference, travel
 from collisions.kernels.status import Answer
 from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
+from strategies import other_registry
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia=2400.0, vx="50 km/h", x=-2.0, y=0.4, heading=0.0, name="A")
 B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
@@ -237,7 +238,7 @@ def at_once(count, task):
         return list(executor.map(started, range(count)))
 
 
-@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("threads", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_eight_threads_find_the_same_bits(threads):
     """The same batch at once, also where every call has threads of its own."""
     rng = np.random.default_rng(3)
@@ -248,6 +249,7 @@ def test_eight_threads_find_the_same_bits(threads):
             np.testing.assert_array_equal(mine, other)
 
 
+@pytest.mark.slow
 def test_one_answer_may_be_read_in_eight_threads():
     """What is worked out when first read is the same for all who read at once."""
     names = ("regime", "kind", "impulse_ratio", "a.after.speed", "b.pdof", "a.delta_v", "energy_absorbed", "q.b.delta_v")
@@ -260,6 +262,7 @@ def test_one_answer_may_be_read_in_eight_threads():
 FORWARD_MANY = col.eccentric(MANY, B.replace(heading=0.0), 0.1, on_failure="nan", **SCENE)
 
 
+@pytest.mark.slow
 def test_no_warning_is_lost_between_threads():
     """Every call warns of its own refused cases, also while others are silent because they count their cases themselves."""
     calls = 25
@@ -280,6 +283,7 @@ def test_no_warning_is_lost_between_threads():
     assert len(refused) == 4 * calls
 
 
+@pytest.mark.slow
 def test_the_first_unit_may_appear_in_several_threads():
     """Units are learnt once a registry; eight threads that read the same one for the first time agree."""
     registry = pint.UnitRegistry()
@@ -523,7 +527,7 @@ def silent(call):
 def test_each_input_stands_in_a_record_once_as_it_was_given():
     """As its text, or as its number; speed and course in place of vx and vy; its number in SI stands in the results."""
     a = col.Vehicle.from_speed(mass="1100 kg", speed="80 km/h", course=0.3, x=-1, y="0 in", yaw_inertia=1800.0, name="A")
-    pound = pint.UnitRegistry().Quantity(2000.0, "lb")
+    pound = other_registry().Quantity(2000.0, "lb")
     b = silent(lambda: col.Vehicle(mass=pound, x=1.0, y=0.0, yaw_inertia=1500.0, yaw_rate=25.0, pivot=("3 m", 0.0)))
     impact = silent(lambda: col.eccentric(a, b, "10 %", normal="10 deg", point=("1 in", 0.0), friction=math.inf))
     inputs = strict(impact)["inputs"]
@@ -576,7 +580,7 @@ def in_own_units(a=None, b=None, **contact):
 
 
 @pytest.mark.parametrize(
-    "what", [name if name in ("a.vx", "normal") else pytest.param(name, marks=pytest.mark.slow) for name in IN_OWN_UNITS]
+    "what", [name if name == "a.vx" else pytest.param(name, marks=pytest.mark.slow) for name in IN_OWN_UNITS]
 )
 def test_a_unit_that_has_changed_since_the_record_was_written_is_refused(what):
     """A text would read as another number than the one that was solved; a record must never do that without a word."""

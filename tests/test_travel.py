@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 import collisions as col
 from collisions import travel
+from strategies import other_registry
 
 EPS = 2.0**-52
 MPH, FOOT = 0.44704, 0.3048
@@ -186,6 +187,7 @@ def test_there_and_back(d, f, g, end):
     assert back == pytest.approx(d, abs=8 * EPS * (d + start**2 / (2 * travel.GRAVITY * (f + g))))
 
 
+@pytest.mark.slow
 @run_often
 @given(st.floats(1.0, 100.0), st.floats(0.01, 0.99), drags, st.floats(0.0, 0.3), speeds)
 def test_a_segment_cut_in_two_is_the_same_segment(d, share, f, g, end):
@@ -298,7 +300,7 @@ def test_nothing_happens_over_no_distance():
 
 def test_units_of_every_kind():
     """US units, percent, decelerations, and Quantities of another registry give the same floats; 4 eps for the factors."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     wanted = travel.speed(60 * FOOT, drag=0.62, grade=-0.05, end_speed=30 * MPH)
     for arguments in (
         {"distance": "60 ft", "drag": "62 %", "grade": "-5 %", "end_speed": "30 mph"},
@@ -781,7 +783,7 @@ def test_refused_paths_of_a_batch_leave_their_neighbours():
 
 def test_paths_in_units_of_every_kind():
     """Texts, arrays and Quantities of another registry, whole or part by part."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     points, headings = [(0, 0), (20, -5), (40, -8)], [0, 70, 130]
     metres = [(x * FOOT, y * FOOT) for x, y in points]
     wanted = travel.path(metres, [f"{h} deg" for h in headings], friction=0.7, lock=0.2, end_speed=5 * MPH)

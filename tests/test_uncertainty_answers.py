@@ -18,6 +18,7 @@ import collisions as col
 from collisions import travel
 from collisions.uncertainty import Interval, Normal, Samples, Uniform, angles, propagate, propagation, sampling
 from fuzzing import Case
+from strategies import other_registry
 from uncertain_scenes import SCENES
 
 METHODS = ("quasi_random", "latin_hypercube", "monte_carlo")
@@ -490,7 +491,7 @@ def test_quantities(chained):
 
 def test_other_units_are_turned_into_si():
     """Whatever unit and registry the model answers in."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     found = propagate(lambda v: {"v": other.Quantity(v, "km/h")}, {"v": Normal(36.0, 3.6)}, method="first_order")["v"]
     assert (found.unit, found.mean) == ("m/s", pytest.approx(10.0))
 

@@ -17,6 +17,7 @@ import collisions as col
 from collisions.quantities import unit_of
 from collisions.uncertainty.model import read_input
 from collisions.units import si_unit
+from strategies import other_registry
 
 EXACT = {"mph": 0.44704, "km/h": 1 / 3.6, "lb": 0.45359237, "ft": 0.3048}
 
@@ -138,7 +139,7 @@ def test_a_quantity_is_never_stripped(ureg):
 
 def test_quantities_of_several_registries_mix(ureg):
     """Two registries in one call, each converted by its own."""
-    other = pint.UnitRegistry()
+    other = other_registry()
     vehicle = col.Vehicle(mass=ureg.Quantity(2000, "lb"), vx=other.Quantity(30, "mph"))
     assert vehicle.mass == pytest.approx(2000 * EXACT["lb"], rel=1e-15)
     assert vehicle.vx == pytest.approx(30 * EXACT["mph"], rel=1e-15)

@@ -129,9 +129,14 @@ def test_without_angles_the_bits_are_those_of_python(which):
     [
         IMPACT,
         col.eccentric(A, B, 0.1, friction=0.5, outside_a=(-400.0, 100.0, 50.0), **SCENE),
-        col.eccentric(A, B, 0.1, friction=0.5, incomplete=True, **SCENE),
-        *(col.eccentric(A, B, 0.1, friction=0.5, law=law, **SCENE) for law in LAWS),
-        col.solve(A, B, 0.1, friction=0.5, tolerance=0.5, **SCENE),
+        *(
+            pytest.param(impact, marks=pytest.mark.slow)
+            for impact in (
+                col.eccentric(A, B, 0.1, friction=0.5, incomplete=True, **SCENE),
+                *(col.eccentric(A, B, 0.1, friction=0.5, law=law, **SCENE) for law in LAWS),
+                col.solve(A, B, 0.1, friction=0.5, tolerance=0.5, **SCENE),
+            )
+        ),
         col.reconstruct.speeds(A, B, course_a=0.0, course_b="90 deg", delta_v_a=6.0, speed_b=10.0, restitution=0.1, friction=0.5, **SCENE)[0],
         col.reconstruct.planar(IMPACT.a.after, IMPACT.b.after, restitution=0.1, friction=0.5, **SCENE),
     ],
