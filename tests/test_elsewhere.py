@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collisions.kernels.central import linear_central
+from collisions.kernels.central import linear_central, oblique_central
 from collisions.kernels.eccentric import eccentric
 from collisions.kernels.status import Answer
-from test_tracing import numbers, programs
+from test_tracing import LAW_RULES, numbers, programs
 
 PAGE = Path(__file__).parents[1] / "docs" / "kernels_elsewhere.md"
 KERNELS = [
@@ -91,6 +91,101 @@ def test_derivatives(jax):
             ]
             # A central difference errs by its step squared and by rounding over its step.
             assert slopes[at] == pytest.approx((ends[1] - ends[0]) / (2 * step), rel=1e-6, abs=1e-9 * abs(ends[0]) / step)
+
+
+def scenes(rule, rng, count=40):
+    """Inputs of ``eccentric`` [SI] of any impact, one row each; a fifth against a barrier, a third without slip of the masses."""
+    angle = rng.uniform(-np.pi, np.pi, count) * rng.choice([0.0, 1.0], count)
+    value = {
+        "friction": np.where(rng.random(count) < 0.3, rng.choice([0.0, 1.0, np.inf], count), rng.uniform(0.0, 2.0, count)),
+        "impulse_ratio": rng.uniform(-0.5, 0.5, count),
+        "critical_fraction": rng.uniform(0.0, 0.99, count),
+    }[rule]
+    found = [rng.uniform(0.0, 1.0, count), np.cos(angle), np.sin(angle), value, np.zeros(count), np.zeros(count)]
+    for sign in (-1.0, 1.0):
+        mass = rng.uniform(800.0, 2500.0, count)
+        fixed = (rng.random(count) < 0.2) & (sign > 0.0)
+        ahead, left = sign * rng.uniform(0.5, 2.2, count), rng.uniform(-1.0, 1.0, count)
+        along, across = (
+            -sign * rng.uniform(2.0, 14.0, count),
+            rng.uniform(-9.0, 9.0, count) * rng.choice([0.0, 1.0, 1.0], count),
+        )
+        turned = [(u * found[1] - v * found[2], u * found[2] + v * found[1]) for u, v in ((along, across), (ahead, left))]
+        inertia = np.where(fixed, np.inf, mass * rng.uniform(0.3, 2.0, count))
+        spin = rng.uniform(-2.0, 2.0, count) * rng.choice([0.0, 1.0], count)
+        found += [np.where(fixed, np.inf, mass), inertia, *turned[0], spin, *turned[1], np.zeros(count), np.zeros(count)]
+    return np.array(found).T
+
+
+@pytest.mark.parametrize(
+    ("rule", "law"),
+    [
+        ("friction", "brach"),
+        ("friction", "stronge"),
+        *(
+            pytest.param(rule, law, marks=pytest.mark.slow)
+            for rule, law in LAW_RULES
+            if (rule, law) not in (("friction", "brach"), ("friction", "stronge"))
+        ),
+    ],
+)
+@pytest.mark.parametrize("central", [False, True])
+def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, central):
+    """Of all outputs by all inputs, infinite friction and barriers among them, against differences of the kernel of floats.
+
+    Differences are taken where the cases on both sides slide or stick alike, off the kinks.
+    """
+    cases = scenes(rule, np.random.default_rng(5))
+    kernel, settings = (oblique_central, (rule, law, True)) if central else (eccentric, (rule, law, False, False))
+    if central:
+        cases = cases[:, [0, 1, 2, 3, 6, 8, 9, 10, 15, 17, 18, 19]]
+    names = [name for name in Answer._fields if name not in ("status", "sticks")]
+
+    def outputs(x):
+        answer = kernel(*x, *settings)
+        return jax.numpy.stack([jax.numpy.asarray(getattr(answer, name), float) for name in names])
+
+    with np.errstate(all="ignore"):
+        answered = np.broadcast_to(kernel(*cases.T, *settings).status, len(cases)) == 0
+    cases = cases[answered]
+    assert len(cases) > 20
+    compared = 0
+    for derivative in (jax.jacfwd, jax.jacrev):
+        found = np.asarray(jax.vmap(derivative(outputs))(jax.numpy.asarray(cases)))
+        assert np.all(np.isfinite(found))
+    for case, slopes in zip(cases[:12], found, strict=False):
+        middle = kernel(*case.tolist(), *settings)
+        for at in np.flatnonzero(np.isfinite(case)):
+            step = 1e-6 * max(1.0, abs(case[at]))
+            beside = [kernel(*(case + side * step * (np.arange(len(case)) == at)).tolist(), *settings) for side in (-1.0, 1.0)]
+            kinds = {(one.status, one.sticks, one.tangential_impulse > 0.0, one.slip_after > 0.0) for one in (middle, *beside)}
+            if len(kinds) > 1 or 0.0 in (case[at], middle.slip_before):
+                continue
+            for name, slope in zip(names, slopes[:, at], strict=True):
+                ends = [getattr(one, name) for one in beside]
+                if np.isfinite(ends).all():
+                    size = max(map(abs, ends))
+                    wanted = pytest.approx((ends[1] - ends[0]) / (2 * step), rel=1e-4, abs=1e-8 * size / step + 1e-9)
+                    assert slope == wanted, (name, at, case)
+                    compared += 1
+    assert compared > 500
+
+
+def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
+    """Sticking, "stronge" goes smoothly through a slip of 0."""
+    body_a = (1500.0, 2400.0, 14.0, 0.0, 0.0, -2.0, 0.4, 0.0, 0.0)
+    body_b = (1200.0, 1700.0, 0.0, 0.0, 0.0, 0.8, -0.2, 0.0, 0.0)
+
+    def solve(vy_b):
+        b = (*body_b[:3], vy_b, *body_b[4:])
+        return eccentric(0.3, 1.0, 0.0, 0.9, 0.0, 0.0, *body_a, *b, "friction", "stronge", False, False)
+
+    assert solve(0.0).slip_before == 0.0
+    assert solve(0.0).sticks
+    for output in ("delta_vy_b", "normal_impulse", "energy_loss"):
+        ends = [getattr(solve(side * 1e-4), output) for side in (-1.0, 1.0)]
+        slope = float(jax.grad(lambda vy, output=output: getattr(solve(vy), output))(0.0))
+        assert slope == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-4)
 
 
 def test_the_page_shows_what_comes_out(jax):

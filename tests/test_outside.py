@@ -398,6 +398,63 @@ def test_an_impulse_from_outside_beyond_all_measure_is_refused_under_stronge():
         col.eccentric(a, b, 0.38, outside_a=(-33.0, 1e200), **contact)
 
 
+def low_speed(law, count, seed, e):
+    """Two cars that close slowly, under impulses from outside that often part them or press them together; arrays."""
+    rng = np.random.default_rng(seed)
+
+    def between(low, high):
+        return rng.uniform(low, high, count)
+
+    a = {"mass": between(800, 2500), "yaw_inertia": between(1000, 4000), "vx": between(0, 4), "vy": between(-1.5, 1.5)}
+    b = {"mass": between(800, 2500), "yaw_inertia": between(1000, 4000), "vx": between(-2, 0), "vy": between(-1, 1)}
+    a |= {"x": between(-2.5, -1), "y": between(-1, 1)}
+    b |= {"x": between(1, 2.5), "y": between(-1, 1)}
+    friction = np.where(rng.random(count) < 0.3, math.inf, between(0, 1))
+    pushes = {f"outside_{label}": (between(-4000, 4000), between(-4000, 4000)) for label in "ab"}
+    return a, b, between(*e), {"friction": friction, **pushes}, {"law": law, "normal": 0.0, "point": (0.0, 0.0)}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("e", [(0.0, 1.0), (-0.9, 0.0)])
+def test_a_case_by_itself_ends_as_in_a_batch(law, e):
+    """Also where less is left closing than e times what closed before, or nothing, or where they are only pressed together."""
+    count = 300
+    a, b, restitution, arrays, rest = low_speed(law, count, 12, e)
+
+    def solve(take, on_failure):
+        bodies = [col.Vehicle(**{name: take(value) for name, value in body.items()}) for body in (a, b)]
+        given = {name: tuple(map(take, value)) if isinstance(value, tuple) else take(value) for name, value in arrays.items()}
+        return col.eccentric(*bodies, take(restitution), **given, **rest, incomplete=e[0] < 0.0, on_failure=on_failure)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.EnergyGainWarning)
+        many = solve(lambda value: value, "nan")
+    for at in range(count):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", col.EnergyGainWarning)
+                one = solve(lambda value, at=at: float(value[at]), None)
+            assert one.status == many.status[at]
+            assert one.b.delta_v == pytest.approx(many.b.delta_v[at], rel=1e-9)
+        except col.CollisionsError as refused:
+            assert refused.code == col.Status(many.status[at]).label
+    assert count / 20 < np.count_nonzero(many.status > col.Status.ENERGY_GAIN) < count / 2
+
+
+def test_what_impulses_from_outside_leave_of_the_compression_decides_under_stronge():
+    """Up to where they alone stop the approach it parts at e c, however little closes; beyond, the work to give back is none."""
+    contact = {"friction": 0.0, "law": "stronge", **IN_LINE}
+    for push in (8000.0, 9999.0, 9999.999999):
+        impact = col.eccentric(FIRST, SECOND, 0.5, outside_b=(push, 0.0), **contact)
+        assert impact.separation_speed == pytest.approx(5.0, rel=1e-12)
+    with pytest.raises(col.NoImpactError, match="'stronge' finds no compression .* take law='brach'") as refused:
+        col.eccentric(FIRST, SECOND, 0.5, outside_b=(10001.0, 0.0), **contact)
+    assert refused.value.code == "separating"
+    # An incomplete one that would end before it began.
+    with pytest.raises(col.NoImpactError, match="by more than restitution does"):
+        col.eccentric(FIRST, SECOND, -0.5, outside_b=(6000.0, 0.0), incomplete=True, **contact)
+
+
 def test_no_speed_of_maximum_crush_where_the_contact_gave_energy():
     """Under a huge moment the work of the contact, at the mean of the velocities, is below 0: NaN by itself as in a batch."""
     moments = np.array([1e30, 0.0])

@@ -13,7 +13,7 @@ from .contact_time import DOMAINS as TIME_DOMAINS
 from .contact_time import solve_case_in_time, solve_cases_in_time
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
-from .kernels.contact_laws import RULES
+from .kernels.contact_laws import BRACH, LAWS, RULES
 from .kernels.elementwise import (
     FINITE,
     Domain,
@@ -131,9 +131,11 @@ def refusal(inputs: Inputs, raw: Answer | Passed) -> CollisionsError:
             extra["closing_speed"] = raw.closing_speed
             if raw.closing_speed > 0.0:
                 text = f"no impact: the impulses from outside part the bodies, which approach at {raw.closing_speed:.6g} m/s"
-                return error_of(
-                    status, f"{text}, by more than restitution does; check the signs of outside_a and outside_b", **extra
-                )
+                check = "check the signs of outside_a and outside_b"
+                if LAWS[inputs.law or BRACH].energetic and inputs.restitution >= 0.0:
+                    why = f"so law={inputs.law!r} finds no compression that it could give back a part of"
+                    return error_of(status, f"{text}, {why}; {check}, or take law={BRACH!r}", **extra)
+                return error_of(status, f"{text}, by more than restitution does; {check}", **extra)
         case Status.RATIO_JAMS:
             coupling = raw.coupling
             limit = -1.0 / (raw.effective_mass * coupling) if coupling else math.copysign(math.inf, inputs.rule_value)

@@ -14,10 +14,13 @@ def shares(mass_a: Any, mass_b: Any) -> tuple[Any, Any, Any, Any]:
     Built on ratios of the masses, which are 0 or infinite against a barrier: no sum or product of masses overflows, and no
     infinity meets another. The reduced mass is the lighter mass times its own share.
     """
-    share_a = 1.0 / (1.0 + mass_a / mass_b)
-    share_b = 1.0 / (1.0 + mass_b / mass_a)
-    reduced = select(mass_a <= mass_b, mass_a * share_a, mass_b * share_b)
-    return share_a, share_b, reduced, (mass_a == inf) & (mass_b == inf)
+    fixed_a, fixed_b = mass_a == inf, mass_b == inf
+    # An infinite ratio is chosen, not divided: its derivative would be infinite, and NaN times the 0 of its share.
+    share_a = 1.0 / (1.0 + select(fixed_a, inf, select(fixed_a, 1.0, mass_a) / mass_b))
+    share_b = 1.0 / (1.0 + select(fixed_b, inf, select(fixed_b, 1.0, mass_b) / mass_a))
+    lighter = mass_a <= mass_b
+    reduced = select(lighter, mass_a, mass_b) * select(lighter, share_a, share_b)
+    return share_a, share_b, reduced, fixed_a & fixed_b
 
 
 def linear_central(

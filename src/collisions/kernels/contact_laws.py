@@ -81,9 +81,10 @@ class Rule(NamedTuple):
 def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
     # The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers reverse it. The limit is
     # compared by multiplication, so that an infinite friction needs no case of its own. Adding 0 turns a -0 into 0.
+    # A contact that sticks has no use for the ratio, and an infinite one would make its derivatives NaN.
     matters = friction > 0.0
     sticks = matters & (no_slip_n > 0.0) & (abs(no_slip_t) <= friction * no_slip_n)
-    ratio = select(no_slip_t < 0.0, -friction, friction) + 0.0
+    ratio = select(sticks, 0.0, select(no_slip_t < 0.0, -friction, friction) + 0.0)
     return Tangent(sticks, ratio, matters, pulls=(friction == inf) & (no_slip_n <= 0.0))
 
 
@@ -171,35 +172,43 @@ def energetic_contact(
     """
     unit = select(closing > 0.0, closing + abs(slip), 1.0)
     c = select(closing > 0.0, closing / unit, 1.0)
-    s = abs(slip) / unit
     forward = select(slip < 0.0, -1.0, 1.0)
+    # Not abs(slip), whose derivative at 0 is not that of the answer; adding 0 turns a -0 into 0.
+    s = (forward * slip + 0.0) / unit
     # Along n and t by a unit of the way on which friction slides: an infinite friction needs no case of its own.
     moderate = friction <= 1.0
     along = select(moderate, 1.0, 1.0 / select(moderate, 1.0, friction))
     across = select(moderate, friction, 1.0)
     yields, by_friction = respond(along, -forward * across)
     slows = -forward * by_friction
-    stops = select(s == 0.0, 0.0, select(slows > 0.0, s / safe_divisor(slows != 0.0, slows), inf))
+    # Here and below no branch that is not taken may hold an infinite number or the root of 0, which times the 0 of its share
+    # would make derivatives NaN. A slip that never stops therefore has a time of 0 where its condition decides.
+    ends = slows > 0.0
+    never = (ends | (s == 0.0)) ^ True
+    stops = select(ends, s / select(ends, slows, 1.0), select(never & (yields <= 0.0), inf, 0.0))
     # Closing speed when the slip stops.
     w = c - yields * stops
-    slides = (yields > 0.0) & ((w <= -select(restitution < 0.0, 0.0, restitution) * c) | (friction == 0.0))
+    through = w <= -select(restitution < 0.0, 0.0, restitution) * c
+    slides = (yields > 0.0) & (through | never | (friction == 0.0))
     compressing = (w > 0.0) & (slides ^ True)
-    per_c = safe_divisor(yields != 0.0, yields)
+    per_c = select(yields == 0.0, 1.0, yields)
 
     # After the stop: what friction cannot hold of the coupling, and the change along n by a unit of normal impulse, a sum.
     coupling, k_tt = respond(0.0, 1.0)
-    k_tt = safe_divisor(k_tt != 0.0, k_tt)
-    beyond = abs(coupling) - friction * k_tt
-    moves = beyond > 0.0
+    k_tt = select(k_tt == 0.0, 1.0, k_tt)
+    bounded = select(friction == inf, 0.0, friction)
+    beyond = abs(coupling) - bounded * k_tt
+    moves = (beyond > 0.0) & (friction != inf)
     beyond = select(moves, beyond, 0.0)
     back = select(coupling < 0.0, 1.0, -1.0)
-    ratio = select(moves, back * friction, -coupling / k_tt)
+    ratio = select(moves, back * bounded, -coupling / k_tt)
     softer = stuck + beyond * (abs(coupling) / k_tt)
     softer = select(softer > 0.0, softer, 1.0)
     first = along * stops
     work = select(compressing, 0.5 * first * (c + w), 0.0)
     stored = select(compressing | slides, 0.0, along * ((restitution * c - w) * ((restitution * c + w) / per_c)))
-    parting = select(compressing, restitution, 1.0) * (w * w + softer * select(compressing, 2.0 * work, stored)) ** 0.5
+    squared = select(slides, 1.0, w * w + softer * select(compressing, 2.0 * work, stored))
+    parting = select(compressing, restitution, 1.0) * squared**0.5
     regained = safe_divisor(True, select(compressing | slides, 1.0, parting - w))
     rest = select(compressing, (w + parting) / softer, stored / regained)
     absorbed = select(compressing, work + w * (w / (2.0 * softer)), along * (c * (c / (2.0 * per_c))))
@@ -208,7 +217,11 @@ def energetic_contact(
     # An incomplete impact may end before the slip has stopped, but not where infinite friction stops it at once.
     early = compressing & (rest <= 0.0)
     sliding = early & (along > 0.0)
-    still = select(early, w * w + yields * (rest * (parting - w)) / select(sliding, along, 1.0), 0.0) ** 0.5
+    per_way = select(sliding, along, 1.0)
+    squared = w * w + yields * (rest * (parting - w)) / per_way
+    # Where yields < 0 this is a difference, which rounding may bring below 0: then what the work lost leaves, a sum.
+    squared = select(squared <= 0.0, c * c - 2.0 * (yields * (lost / per_way)), squared)
+    still = select(early, squared, 1.0) ** 0.5
     to_end = select(early, 2.0 * lost / select(sliding, along * (c + still), 1.0), (1.0 + restitution) * (c / per_c))
     slides = slides | early
     moves = moves & (slides ^ True)
@@ -216,7 +229,7 @@ def energetic_contact(
     slip_left = select(slides, s - slows * to_end, 0.0)
     rest = select(slides, 0.0, rest)
     after = select(moves, beyond * rest, 0.0)
-    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(moves, 0.5 * friction * (rest * after), 0.0)
+    by_friction = 0.5 * across * to_stop * (s + slip_left) + select(moves, 0.5 * bounded * (rest * after), 0.0)
     return Passage(
         normal=(along * to_stop + rest) * unit,
         tangential=(select(slides, 0.0, ratio * rest) - forward * across * to_stop) * unit,

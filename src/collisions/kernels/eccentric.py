@@ -137,8 +137,10 @@ def eccentric(
         push_n = nx * push_x + ny * push_y
         push_t = ny * push_x - nx * push_y
         pushed, shifted = closing + push_n, slip + push_t
-        e = restitution * (closing / safe_divisor(pushed != 0.0, pushed))
         change_n, change_t = change_n + push_n, change_t - push_t
+        # Only where there is a compression to give back from; elsewhere it is refused below.
+        acts = (closing > 0.0) & (pushed > 0.0) & (change_n > 0.0)
+        e = restitution * select(acts, closing / select(acts, pushed, 1.0), 1.0)
     q_a = b_a * (rn_a * change_n + rt_a * change_t)
     q_b = b_b * (rn_b * change_n + rt_b * change_t)
     no_slip_t_determinant = (a * change_t + q_a * rt_a + q_b * rt_b) / trace
@@ -155,7 +157,7 @@ def eccentric(
             return a * along_n + rt_a * turn_a + rt_b * turn_b, a * along_t - rn_a * turn_a - rn_b * turn_b
 
         k_tt = respond(0.0, 1.0)[1]
-        stuck_n = determinant * (trace / safe_divisor(k_tt != 0.0, k_tt))
+        stuck_n = determinant * (trace / select(k_tt == 0.0, 1.0, k_tt))
         passage = energetic_contact(e, pushed, shifted, tangential, respond, stuck_n)
         normal, impulse_t, sticks = passage.normal, passage.tangential, passage.sticks
         needs_no_slip, pulls, jams = tangential > 0.0, normal <= 0.0, False
@@ -172,7 +174,8 @@ def eccentric(
     closes = closing > 0.0
     apart = closing < 0.0
     if outside is not None:
-        parts = (pushed if energetic else change_n) <= 0.0
+        # Under an energetic law restitution gives back work of compression, of which there is none if pushed <= 0.
+        parts = (change_n <= 0.0) | (pushed <= 0.0) if energetic else change_n <= 0.0
         closes, apart = closes & (parts ^ True), apart | ((closing > 0.0) & parts)
     if impulse_only:
         bounded = bounded & (0.0 * normal + 0.0 * impulse_t == 0.0)
