@@ -166,7 +166,11 @@ def drawn(found: dict[str, Any]) -> str:
     sentences = []
     for drawn_as, frictions in found["frictions"].items():
         spread, ranges = found[drawn_as], []
-        for key, name in (("tyres", "tyres"), ("moving", "changing geometry")):
+        for key, name in (
+            ("tyres", "tyres"),
+            ("moving", "the geometry, from that of first contact"),
+            ("engaged", "the geometry, from that of maximum engagement"),
+        ):
             row = spread[key]
             least, low, *_, high, most = row["quantiles"]
             ranges.append(
@@ -289,11 +293,23 @@ def contacts(found: dict[str, Any]) -> str:
                 number(estimate["tyre_delta_v"]),
                 number(row["moving"]["delta_v"]),
                 number(estimate["geometry_delta_v"]),
+                number(row["engaged"]["delta_v"]),
+                number(estimate["engaged_delta_v"]),
                 percent(row["all"]["share"]),
             ]
         )
     return table(
-        ["impact", "delta-V", "tyres: in time", "`left_out`", "geometry: in time", "`left_out`", "both, of delta-V"],
+        [
+            "impact",
+            "delta-V",
+            "tyres: in time",
+            "`left_out`",
+            "geometry of first contact: in time",
+            "`left_out`",
+            "of maximum engagement: in time",
+            "`left_out`",
+            "tyres and first contact, of delta-V",
+        ],
         lines,
     )
 
@@ -597,10 +613,11 @@ def errors_figure(plt: Any, found: dict[str, Any]) -> Any:
 def contacts_figure(plt: Any, found: dict[str, Any]) -> Any:
     """What tyres and moving geometry do to delta-V: followed in time, and as ``left_out`` has it."""
     listed = [row for row in found["rows"] if row["side"] == "b" or row["scene"] == "wall"]
-    figure, axes = plt.subplots(1, 2, figsize=(11.5, 4.6), sharey=True)
+    figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.6), sharey=True)
     for axis, reference, estimate, title in (
         (axes[0], "tyres", "tyre_delta_v", "tyres that slide"),
-        (axes[1], "moving", "geometry_delta_v", "geometry that changes meanwhile"),
+        (axes[1], "moving", "geometry_delta_v", "geometry given at first contact"),
+        (axes[2], "engaged", "engaged_delta_v", "geometry given at maximum engagement"),
     ):
         for at, row in enumerate(listed):
             size = row["delta_v"]

@@ -181,7 +181,9 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
     against = dict.fromkeys(VARIANTS, found["fixed"])
     against["fixed"] = changes([scene.impact(law="stronge") for scene in scenes])
     against["all"] = impulse
-    estimates = [col.left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
+    given = {"duration": DURATION, "drag": DRAG}
+    estimates = [col.left_out(scene.impact(), **given, geometry="first_contact") for scene in scenes]
+    engaged = [col.left_out(scene.impact(), **given) for scene in scenes]
     rows = []
     for case, scene in enumerate(scenes):
         for side, label in enumerate("ab"):
@@ -200,6 +202,7 @@ def measure(scenes: tuple[Scene, ...] = SCENES, steps: int = STEPS) -> dict[str,
             estimate = getattr(estimates[case], label)
             names = ("tyre_delta_v_bound", "tyre_delta_v", "geometry_delta_v", "rotation")
             row["left_out"] = {name: _rounded(getattr(estimate, name)) for name in names}
+            row["left_out"]["engaged_delta_v"] = _rounded(getattr(engaged[case], label).geometry_delta_v)
             row["left_out"]["mutual_crush"] = _rounded(estimates[case].mutual_crush)
             rows.append(row)
     finer = changes([scene.passed("all", 2 * steps) for scene in scenes])
@@ -228,9 +231,10 @@ def ratios_of_drawn(
     scenes = drawn(count, frictions, seed)
     size = np.hypot(*changes([scene.impact() for scene in scenes])[:2])
     fixed = changes([scene.passed("fixed", steps) for scene in scenes])
-    estimates = [col.left_out(scene.impact(), duration=DURATION, drag=DRAG) for scene in scenes]
     found = {}
-    for name, field in (("tyres", "tyre_delta_v"), ("moving", "geometry_delta_v")):
+    for name, field in (("tyres", "tyre_delta_v"), ("moving", "geometry_delta_v"), ("engaged", "geometry_delta_v")):
+        geometry = VARIANTS[name]["geometry"] if name == "moving" else "maximum_engagement"
+        estimates = [col.left_out(one.impact(), duration=DURATION, drag=DRAG, geometry=geometry) for one in scenes]
         moved = np.hypot(*(changes([scene.passed(name, steps) for scene in scenes]) - fixed)[:2])
         estimate = np.array([[getattr(getattr(one, side), field) for one in estimates] for side in "ab"])
         there = (moved > MATTERS * size) & (moved > AT_LEAST) & np.isfinite(estimate)
@@ -263,7 +267,7 @@ def _rounded(value: float) -> float:
 
 def table(found: dict[str, Any]) -> str:
     """What is measured, as a text: changes of delta-V in m/s, those of its magnitude in percent."""
-    head = ("delta-V", "tyres", "wheels", "left_out", "bound", "moving", "left_out", "engaged", "magnitude")
+    head = ("delta-V", "tyres", "wheels", "left_out", "bound", "moving", "left_out", "engaged", "left_out", "magnitude")
     lines = [f"{'scene':<48}" + "".join(f"{text:>10}" for text in head)]
     for row in found["rows"]:
         estimate = row["left_out"]
@@ -274,6 +278,7 @@ def table(found: dict[str, Any]) -> str:
             row["moving"]["delta_v"],
             estimate["geometry_delta_v"],
             row["engaged"]["delta_v"],
+            estimate["engaged_delta_v"],
         ]
         text = "".join(f"{number:10.3f}" for number in numbers)
         lines.append(f"{row['name']:<46}{row['side']:<2}{text}{100.0 * row['moving']['magnitude']:9.1f}%")
@@ -282,7 +287,7 @@ def table(found: dict[str, Any]) -> str:
         f"without tyres, with fixed geometry: within {worst:.1g} of the impulse; half the step: {found['halving_the_step']:.1g}"
     )
     for key, frictions in found["frictions"].items():
-        for name in ("tyres", "moving"):
+        for name in ("tyres", "moving", "engaged"):
             spread = found[key][name]
             low, high = spread["quantiles"][1], spread["quantiles"][-2]
             lines.append(

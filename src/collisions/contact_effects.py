@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -19,11 +19,12 @@ from .quantities import Shown, hypot, in_units_of, lock
 from .reading import ArgumentReader, broadcast, widened
 from .settings import callers_options, computing
 from .travel.surfaces import out_of_range, settle
-from .units import Input, Value
+from .units import Input, Value, shown
 from .warning import quietly
 
 # Cases at a time: from two blocks on the solver runs a traced kernel, which halves the cost.
 _BLOCK = 16384
+_GEOMETRIES = ("maximum_engagement", "first_contact")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -49,8 +50,8 @@ class LeftOutSide(Shown):
     rotation : float or array [rad]
         Rotation during the contact, counter-clockwise.
     geometry_delta_v, geometry_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves because positions and normal change during the contact, if those of the
-        impact are the ones at first contact; None for the central models, which have no geometry, and for any impact without a
+        Estimate of how far the delta-V vector moves because positions and normal change during the contact, in which those of the
+        impact hold at one moment only: at maximum engagement, or as ``geometry`` said; None for the central models, which have no geometry, and for any impact without a
         point. In a batch of ``solve`` with a point it is NaN where a central model answered. It is also NaN where there is no
         answer with the geometry of later in the contact, mostly because the bodies then part.
     """
@@ -115,7 +116,13 @@ class LeftOut(Shown):
 
 
 @computing
-def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 0.7) -> LeftOut:
+def left_out(
+    impact: Impact,
+    *,
+    duration: Input = USUAL_DURATION,
+    drag: Input = 0.7,
+    geometry: Literal["maximum_engagement", "first_contact"] = "maximum_engagement",
+) -> LeftOut:
     """Estimate what an impact that takes no time and has no tyres leaves out, to judge whether the idealisation fits the case.
 
     An impulse acts at one instant and one place; a real contact takes about 0.1 s, in which the tyres act too, and the vehicles
@@ -132,6 +139,9 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     drag : float, str, Quantity or array
         Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
         ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll along their heading have hardly any.
+    geometry : {"maximum_engagement", "first_contact"}
+        When the positions, the point and the normal of the impact are those of the vehicles, as for ``time_resolved``: as
+        everywhere at maximum engagement, at which damage is matched, or at first contact.
 
     Returns
     -------
@@ -158,22 +168,25 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to the motion of the centre of
       mass. It moves delta-V together with the response of the contact to it, as ``outside_a`` and ``outside_b`` do: restitution
       still ends the impact with e times the closing speed. In line against a wall, nothing of it is left;
-    - for the geometry, the impact is solved again with every position and angle halfway between its mean while the force acts,
-      which is where the impulse works, and its value at the end, T (v + m delta_v) further on, which is where restitution
-      holds. The contact point moves with the mean of the two places that met, the normal turns with the mean of the rotations;
-      with a fixed body the normal stays, and the point moves with the other body.
+    - for the geometry, positions and angles follow from the displacement and the rotation up to any moment, before that of the
+      impact or after it; the contact point moves with the mean of the two places that met, the normal turns with the mean of the
+      rotations; with a fixed body the normal stays, and the point moves with the other body. The impact is solved again with
+      the impulse where the bodies are on the mean while the force acts, with velocities at the contact that are then left as
+      seen at the end. Restitution gives back e times what closed while the spring was pressed: the closing speed at first
+      contact, and what positions and normal added to it since.
 
     Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two cars without spin that
     close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V changes by
-    more than 2 percent: the estimate is 0.71 to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; and 0.90 to
-    1.59 of that due to geometry in 9 of 10, 0.81 to 1.69 in all. Over as many impacts with a friction of 0 to 0.1 it is worse:
-    0.69 to 1.29 of the change due to tyres in 9 of 10, 0.05 to 2.43 in all; and 1.02 to 2.06 of that due to geometry in 9 of
-    10, 0.68 to 2.41 in all. Elsewhere (a higher restitution, spin before, a pivot) it has not been measured. No change of the
-    yaw rates is given, as it depends on which vehicle carries the contact.
+    more than 2 percent: the estimate is 0.71 to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; 0.48 to
+    1.38 of that due to geometry in 9 of 10, 0.20 to 1.66 in all; and with ``geometry="first_contact"`` 0.83 to 1.31 of that in
+    9 of 10, 0.69 to 1.55 in all. Over as many impacts with a friction of 0 to 0.1 it is 0.69 to 1.29 of the change due to tyres
+    in 9 of 10, 0.05 to 2.43 in all; 0.59 to 1.08 of that due to geometry in 9 of 10, 0.21 to 1.22 in all; and from first
+    contact 0.82 to 1.36 of that in 9 of 10, 0.21 to 2.26 in all. Of a plastic impact without friction the estimate for the
+    geometry is exact as the duration goes to 0. A higher restitution makes it too large: at 0.8 up to six times the change, which
+    is small there from maximum engagement. Spin before and pivots have not been measured. No change of the yaw rates is given,
+    as it depends on which vehicle carries the contact.
 
-    Positions at maximum engagement, as found for a real crash, leave 0.23 to 0.72 of the effect of geometry in five impacts of
-    that benchmark; ``geometry_share`` is then what taking those of first contact would cost. Also left out here: the turning
-    moment of the tyres, load and suspension, and crush that moves the centre of mass.
+    Also left out here: the turning moment of the tyres, load and suspension, and crush that moves the centre of mass.
 
     Examples
     --------
@@ -191,8 +204,9 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     >>> b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=0.8, y=-1.0)
     >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
     >>> found = col.left_out(impact, duration="100 ms")
-    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.0%}")
-    -10 deg, delta-V moves by 9%
+    >>> first = col.left_out(impact, duration="100 ms", geometry="first_contact")
+    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}: {found.b.geometry_share:.1%}, {first.b.geometry_share:.1%} from first contact")
+    -10 deg: 1.3%, 9.8% from first contact
     """
     reader = ArgumentReader()
     if isinstance(impact, Impact) and impact.pulse is not None:
@@ -206,6 +220,10 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     with callers_options():
         time = read_duration(reader, duration)
         pull = read_drag(reader, drag, "drag")
+    if not isinstance(geometry, str) or geometry not in _GEOMETRIES:
+        known = " or ".join(map(repr, _GEOMETRIES))
+        text = f"geometry must be {known}, which says when the positions of the impact are those, got {shown(geometry)}"
+        reader.refuse(InputError(text, code="bad_option", argument="geometry"))
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     shape, dtype = broadcast(given), precision(given.values())
@@ -214,11 +232,11 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     if shape is None:
         if beyond:
             raise out_of_range()
-        return _assembled(_estimated(impact, time, pull), texts)
+        return _assembled(_estimated(impact, time, pull, geometry), texts)
     size = math.prod(shape)
     whole: dict[str, Any] = {}
     if size <= _BLOCK:
-        for name, value in _estimated(impact, time, pull).items():
+        for name, value in _estimated(impact, time, pull, geometry).items():
             whole[name] = value if value is None else np.broadcast_to(value, shape).astype(dtype)
     for start in range(0, size if size > _BLOCK else 0, _BLOCK):
         block = slice(start, min(start + _BLOCK, size))
@@ -229,7 +247,7 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
         # The impact itself gave the warnings about its cases.
         with quietly():
             some = part_of_impact(impact, cut, on_failure="nan")
-        for name, value in _estimated(some, cut(time), cut(pull)).items():
+        for name, value in _estimated(some, cut(time), cut(pull), geometry).items():
             if name not in whole:
                 whole[name] = None if value is None else np.empty(shape, dtype=dtype)
             if value is not None:
@@ -238,14 +256,14 @@ def left_out(impact: Impact, *, duration: Input = USUAL_DURATION, drag: Input = 
     return _assembled(whole | settle(there, {"duration": time, "drag": pull}, shape, [("out_of_range", beyond)]), texts)
 
 
-def _estimated(impact: Impact, time: Any, drag: Any) -> dict[str, Any]:
+def _estimated(impact: Impact, time: Any, drag: Any, geometry: str) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where refused."""
     with np.errstate(all="ignore"):
         e, most = impact.restitution, drag * GRAVITY * time
         pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
-        moved = with_motion(impact, time)
+        moved = with_motion(impact, time, geometry)
         passed, crush = pulse.mean_passed(e), pulse.greatest_crush(e) * (impact.closing_speed * time)
         found = {
             "duration": time,

@@ -11,7 +11,7 @@ from . import pulse
 from .directions import from_radians
 from .impact import Impact, solve_changed
 from .kernels.contact_laws import BRACH
-from .kernels.elementwise import select
+from .kernels.elementwise import select, turning_velocity
 from .models import ECCENTRIC, LINEAR
 from .quantities import hypot, numeric
 from .side import Side
@@ -80,18 +80,57 @@ def finite_mass(body: Vehicle) -> Any:
     return select(numeric(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
-def with_motion(impact: Impact, time: Any) -> list[Any]:
-    """Change of delta-V of each vehicle with the geometry of later in the contact; None without a geometry."""
+def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
+    """Change of delta-V of each vehicle because the geometry moves during the contact; None without a geometry.
+
+    ``geometry`` says what moment the positions of the impact are those of: "maximum_engagement" or "first_contact".
+    """
     point, placed = impact.point, impact.model == ECCENTRIC.name
     if point is None or placed is False:
         return [None] * 2
     if impact.refused is True or not np.any(placed):
         return [math.nan] * 2
+    e = impact.restitution
+    passed = pulse.mean_passed(e)
+    # By how much of the duration times the velocity before, and times its change, a body has gone on from first contact: at
+    # maximum engagement, on the mean while the force acts, and at the end.
+    most, acting, last = pulse.engaged(e), (1.0 - passed, passed - pulse.mean_square_passed(e)), (1.0, passed)
+    given = most if geometry == "maximum_engagement" else (0.0, 0.0)
+    # A drift of the closing speed counts most at first for what the spring takes up, and at last for what it gives back.
+    taking, giving = pulse.drifting(e)
+    moments = (0.0, 0.0), most, acting, last, taking, (most[0] + giving[0], most[1] + giving[1])
+    start, engaged, mean, end, taken, given_back = (
+        _moved(impact, point, time, *(here - there for here, there in zip(moment, given, strict=True))) for moment in moments
+    )
+    # The impulse acts at the mean, but what is left of the velocities at the contact is what the end sees of them.
+    early, late = _closing(impact, 1.0, *mean), _closing(impact, 1.0, *end)
+    by_n, by_t = late[0] - early[0], late[1] - early[1]
+    # What closes while the spring is pressed, of which restitution gives back a share, and what of that a drift then takes.
+    gained, lost = (
+        _closing(impact, share, *then)[0] - _closing(impact, share, *before)[0]
+        for share, before, then in (
+            (taking[1] / taking[0], start, taken),
+            (pulse.restoring(e), engaged, given_back),
+        )
+    )
+    pressed = _closing(impact, 0.0, *start)[0] + gained
+    by_n = (by_n + e * (pressed - _closing(impact, 0.0, *mean)[0]) - lost) / (1.0 + e)
+    bodies, point, (nx, ny) = mean
+    free = next((at for at, body in enumerate(bodies) if body.pivot is None), None)
+    if free is not None:
+        body, sign = bodies[free], 1.0 - 2.0 * free
+        by_x, by_y = nx * by_n - ny * by_t, ny * by_n + nx * by_t
+        bodies[free] = body.replace(vx=body.vx + sign * by_x, vy=body.vy + sign * by_y)
+    again = solve_changed(impact, a=bodies[0], b=bodies[1], point=point, normal=(nx, ny))
+    return [
+        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
+        for old, new in ((impact.a, again.a), (impact.b, again.b))
+    ]
+
+
+def _moved(impact: Impact, point: Any, time: Any, by_was: Any, by_change: Any) -> tuple[list[Vehicle], Any, Any]:
+    """Both bodies, the contact point and the normal, as far on as these shares of the velocities before and their changes say."""
     bodies, turns, places, fixed = [], [], [], []
-    passed = pulse.mean_passed(impact.restitution)
-    # Halfway from the mean that the force sees, T ((1 - m) v + (m - q) change) with m and q the means of the share that has
-    # passed and of its square, to the end, T (v + m change).
-    by_was, by_change = 1.0 - 0.5 * passed, passed - 0.5 * pulse.mean_square_passed(impact.restitution)
     for side in (impact.a, impact.b):
         before = side.before
         dx, dy, turn = (
@@ -115,17 +154,24 @@ def with_motion(impact: Impact, time: Any) -> list[Any]:
         places.append((dx + (now[0] - arm[0]), dy + (now[1] - arm[1])))
         bodies.append(before.replace(x=before.x + dx, y=before.y + dy))
     on_a = select(fixed[1], 1.0, select(fixed[0], 0.0, 0.5))
-    again = solve_changed(
-        impact,
-        a=bodies[0],
-        b=bodies[1],
-        point=tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True)),
-        normal=_turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1]),
-    )
-    return [
-        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
-        for old, new in ((impact.a, again.a), (impact.b, again.b))
-    ]
+    point = tuple(was + on_a * by_a + (1.0 - on_a) * by_b for was, by_a, by_b in zip(point, *places, strict=True))
+    return bodies, point, _turned(*impact.normal, (1.0 - on_a) * turns[0] + on_a * turns[1])
+
+
+def _closing(impact: Impact, share: Any, bodies: list[Vehicle], point: Any, normal: Any) -> tuple[Any, Any]:
+    """Velocity of A relative to B at a contact point, along the normal and the tangent, after a share of the impulse."""
+    ux: Any = 0.0
+    uy: Any = 0.0
+    for sign, side, body in zip((1.0, -1.0), (impact.a, impact.b), bodies, strict=True):
+        vx, vy = side.before.vx + share * side.delta_vx, side.before.vy + share * side.delta_vy
+        center = (body.x, body.y)
+        if body.pivot is not None:
+            vx, vy, center = 0.0, 0.0, body.pivot
+        if center[0] is not None and center[1] is not None:
+            turn_x, turn_y = turning_velocity(side.before.yaw_rate + share * side.delta_yaw_rate, *point, *center)
+            vx, vy = vx + turn_x, vy + turn_y
+        ux, uy = ux + sign * vx, uy + sign * vy
+    return normal[0] * ux + normal[1] * uy, normal[0] * uy - normal[1] * ux
 
 
 def _turned(x: Any, y: Any, angle: Any) -> tuple[Any, Any]:

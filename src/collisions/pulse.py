@@ -18,7 +18,7 @@ from .kernels.elementwise import safe_divisor, select
 from .quantities import Shown, numeric
 from .units import Value
 
-_QUARTER = 0.5 * math.pi
+QUARTER = 0.5 * math.pi
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -61,7 +61,7 @@ class Pulse(Shown):
 
 def rise(share: Any) -> Any:
     """Force over its peak at a share of the compression time; restitution runs the curve backwards."""
-    return numeric(share).sin(_QUARTER * share)
+    return numeric(share).sin(QUARTER * share)
 
 
 def compression_time(e: Any) -> Any:
@@ -72,34 +72,59 @@ def compression_time(e: Any) -> Any:
 def _rate(e: Any) -> Any:
     """Duration over compression time: how many quarters of a sine would fit into it."""
     cut = math.acos(max(-e, 0.0)) if isinstance(e, float) else np.arccos(np.maximum(-e, 0.0))
-    return select(e < 0.0, cut / _QUARTER, 1.0 + e)
+    return select(e < 0.0, cut / QUARTER, 1.0 + e)
 
 
 def passed(e: Any, share: float) -> Any:
     """Share of the impulse that has been transmitted at a share of the duration."""
     xp = numeric(e)
     phase = share * _rate(e)
-    compressing = 1.0 - xp.cos(_QUARTER * phase)
+    compressing = 1.0 - xp.cos(QUARTER * phase)
     # 0 before restitution begins: divided by a tiny restitution it would be infinite, which has no sine.
     late = select(phase <= 1.0, 0.0, phase - 1.0)
-    restoring = 1.0 + e * xp.sin(_QUARTER * (late / safe_divisor(True, e)))
+    restoring = 1.0 + e * xp.sin(QUARTER * (late / safe_divisor(True, e)))
     return select(phase <= 1.0, compressing, restoring) / (1.0 + e)
 
 
 def mean_passed(e: Any) -> Any:
     """Mean of ``passed`` over the duration."""
-    angle = _QUARTER * _rate(e)
-    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / _QUARTER) / (1.0 + e)
+    angle = QUARTER * _rate(e)
+    return select(e < 0.0, 1.0 - numeric(e).sin(angle) / angle, 1.0 - (1.0 - e) / QUARTER) / (1.0 + e)
+
+
+def engaged(e: Any) -> tuple[Any, Any]:
+    """Shares of the duration until maximum engagement: of the time, and of ``passed`` summed up to then.
+
+    An incomplete impact is engaged the most as it ends.
+    """
+    complete = (1.0 - 1.0 / QUARTER) / ((1.0 + e) * (1.0 + e))
+    return select(e < 0.0, 1.0, 1.0 / (1.0 + e)), select(e < 0.0, mean_passed(e), complete)
+
+
+def restoring(e: Any) -> Any:
+    """Mean of ``passed`` after maximum engagement, weighted with the speed of parting."""
+    return select(e < 0.0, 1.0, (1.0 + 0.5 * QUARTER * e) / (1.0 + e))
+
+
+def drifting(e: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Shares of the duration, of the time and of ``passed``, weighted with the speed; in compression and in restitution.
+
+    A small force beside that of a linear spring changes its energy by what it does on the way, so its effect on the speed that
+    the spring takes up or gives back has the cosine or the sine as weight. Of an incomplete impact without restitution.
+    """
+    per_e = 1.0 / (QUARTER * (1.0 + e))
+    back = select(e < 0.0, 0.0, e) * per_e
+    return (per_e, per_e * (1.0 - 0.5 * QUARTER) / (1.0 + e)), (back, back * restoring(e))
 
 
 def mean_square_passed(e: Any) -> Any:
     """Mean of the square of ``passed`` over the duration."""
-    angle, sin = _QUARTER * _rate(e), numeric(e).sin
+    angle, sin = QUARTER * _rate(e), numeric(e).sin
     cut = (1.5 - 2.0 * sin(angle) / angle + 0.25 * sin(2.0 * angle) / angle) / (1.0 + e) ** 2
-    whole = (1.5 - 2.0 / _QUARTER + e * (1.0 + e * (2.0 / _QUARTER + 0.5 * e))) / (1.0 + e) ** 3
+    whole = (1.5 - 2.0 / QUARTER + e * (1.0 + e * (2.0 / QUARTER + 0.5 * e))) / (1.0 + e) ** 3
     return select(e < 0.0, cut, whole)
 
 
 def greatest_crush(e: Any) -> Any:
     """Greatest mutual crush, over closing speed times duration; NaN where the bodies pass or tear before."""
-    return select(e < 0.0, math.nan, compression_time(e) / _QUARTER)
+    return select(e < 0.0, math.nan, compression_time(e) / QUARTER)

@@ -371,8 +371,8 @@ def _left_out(sheet: Sheet, side: LeftOutSide, model: str, vehicle: Vehicle) -> 
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
     own_tyres = f"delta-V from its own tyres, {own}", ""
     both_tyres = "change of delta-V by the tyres of both vehicles", "speeds that the tyres leave"
-    later = "places and the normal of later in the contact, in which the bodies part as a rule"
-    moved = "change of delta-V as positions and normal move during the contact", later
+    later = "places and the normal of other moments of the contact, in which the bodies part as a rule"
+    moved = "change of delta-V as positions and normal move on from those of maximum engagement", later
     for (what, other), change, share in (
         (own_tyres, side.tyre_delta_v_bound, side.tyre_share_bound),
         (both_tyres, side.tyre_delta_v, side.tyre_share),
