@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+import collisions as col
 from collisions import Impact, Vehicle
 from collisions.pulse import Pulse
 from collisions.quantities import unit_of
@@ -204,3 +205,15 @@ def test_a_browser_that_gives_no_answer_is_asked_once_more(times, looking, tmp_p
     assert looking.main(tmp_path) == times - 1
     assert len(asked) == 2
     assert ("slow.html at 800 pixels: could not be measured: twice no answer" in capsys.readouterr().out) == (times == 2)
+
+
+def test_the_readme_says_what_eccentric_errs_by_in_its_crossing():
+    """Of the choice between the models, with the figure that it gives."""
+    text = " ".join((DOCS.parent / "README.md").read_text("utf-8").split())
+    said = re.search(r"in the crossing above `eccentric` errs by (\d\.\d) mph, so it is enough for (\d\.\d) mph", text)
+    a = col.Vehicle(mass="3400 lb", vx="30 mph", yaw_inertia="1770 slug*ft**2", x="-6.5 ft", y="1.3 ft", heading="0 deg")
+    b = col.Vehicle(mass="2900 lb", vy="25 mph", yaw_inertia="1250 slug*ft**2", x="2.6 ft", y="-4 ft", heading="90 deg")
+    contact = {"normal": "0 deg", "point": (0.0, 0.0), "friction": 0.5, "duration": "100 ms", "drag": 0.7}
+    choice = col.required_model(a, b, 0.1, **contact, tolerance=f"{said.group(2)} mph")
+    assert choice.model == "eccentric"
+    assert choice.errors.q["eccentric"].to("mph").m == pytest.approx(float(said.group(1)), abs=0.05)

@@ -430,14 +430,16 @@ def test_a_case_by_itself_ends_as_in_a_batch(law, e):
         warnings.simplefilter("ignore", col.EnergyGainWarning)
         many = solve(lambda value: value, "nan")
     for at in range(count):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", col.EnergyGainWarning)
-                one = solve(lambda value, at=at: float(value[at]), None)
-            assert one.status == many.status[at]
-            assert one.b.delta_v == pytest.approx(many.b.delta_v[at], rel=1e-9)
-        except col.CollisionsError as refused:
-            assert refused.code == col.Status(many.status[at]).label
+        if many.status[at] > col.Status.ENERGY_GAIN:
+            with pytest.raises(col.CollisionsError) as refused:
+                solve(lambda value, at=at: float(value[at]), None)
+            assert refused.value.code == col.Status(many.status[at]).label
+            continue
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", col.EnergyGainWarning)
+            one = solve(lambda value, at=at: float(value[at]), None)
+        assert one.status == many.status[at]
+        assert one.b.delta_v == pytest.approx(many.b.delta_v[at], rel=1e-9)
     assert count / 20 < np.count_nonzero(many.status > col.Status.ENERGY_GAIN) < count / 2
 
 
@@ -447,7 +449,7 @@ def test_what_impulses_from_outside_leave_of_the_compression_decides_under_stron
     for push in (8000.0, 9999.0, 9999.999999):
         impact = col.eccentric(FIRST, SECOND, 0.5, outside_b=(push, 0.0), **contact)
         assert impact.separation_speed == pytest.approx(5.0, rel=1e-12)
-    with pytest.raises(col.NoImpactError, match="'stronge' finds no compression .* take law='brach'") as refused:
+    with pytest.raises(col.NoImpactError, match=r"'stronge' finds no compression .* take law='brach'") as refused:
         col.eccentric(FIRST, SECOND, 0.5, outside_b=(10001.0, 0.0), **contact)
     assert refused.value.code == "separating"
     # An incomplete one that would end before it began.

@@ -1030,3 +1030,65 @@ def test_a_wall_at_rest_gains_nothing():
     impact = col.time_resolved(wall, b, 0.3, normal=0.0, point=(0.0, 0.0), friction=0.4, duration=0.1)
     assert impact.a.kinetic_energy_change == 0.0
     assert impact.b.kinetic_energy_change == -impact.energy_loss
+
+
+# The ends of what it answers
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_energy_that_only_the_steps_gain_is_said(friction):
+    """At a restitution of 1 a contact loses nothing along the normal; what the steps miss may be either side of that."""
+    rng = np.random.default_rng(3)
+    count = 150
+    a, b = (
+        col.Vehicle(
+            mass=rng.uniform(900, 2200, count), yaw_inertia=rng.uniform(1500, 3500, count), vx=rng.uniform(*speeds, count),
+            vy=rng.uniform(-5, 5, count), x=side * rng.uniform(0.6, 2.2, count), y=rng.uniform(-1, 1, count),
+        )
+        for side, speeds in ((-1.0, (5, 25)), (1.0, (-5, 0)))
+    )  # fmt: skip
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": friction, "duration": 0.1}
+    with pytest.warns(col.EnergyGainWarning, match=r"the error of the steps.* give more steps than 100"):
+        many = col.time_resolved(a, b, 1.0, **contact, on_failure="nan")
+    answered = many.status <= col.Status.ENERGY_GAIN
+    assert np.count_nonzero(answered) > count - 3
+    gains = many.energy_loss < -1e-12 * many.energy_absorbed
+    assert np.array_equal(many.status == col.Status.ENERGY_GAIN, gains)
+    assert np.array_equal(many.ok, answered & ~gains)
+    assert np.all(many.energy_loss[answered] > -2e-4 * many.energy_absorbed[answered])
+    with pytest.warns(col.EnergyGainWarning, match="the error of the steps"):
+        one = many.case(int(np.nanargmin(many.energy_loss)))
+    assert not one.ok
+    assert one.energy_loss == pytest.approx(np.nanmin(many.energy_loss), rel=1e-6)
+    assert one.pulse.time.size > 80
+    less = col.time_resolved(a, b, 0.999, **contact, on_failure="nan")
+    assert not np.any(less.status == col.Status.ENERGY_GAIN)
+
+
+@pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact", "fixed"])
+def test_a_duration_beyond_floats_is_told_as_such(geometry):
+    """Not as a start that was not found: levers over the way of 1e-200 s overflow."""
+    given = {"duration": None, "geometry": geometry}
+    with pytest.raises(col.InputError, match="too large or too small for floats") as caught:
+        t_bone(**given | {"duration": 1e-200})
+    assert caught.value.code == "out_of_range"
+    many = t_bone(**given | {"duration": np.array([1e-100, 1e-200])}, on_failure="nan")
+    assert many.status.tolist() == [col.Status.OK, col.Status.OUT_OF_RANGE]
+
+
+def test_a_wall_is_not_the_limit_of_a_heavy_vehicle_while_the_geometry_moves():
+    """As the docstring says: whoever carries the point, it differs; with a geometry that is fixed the two are one."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=15.0, x=-1.8, y=0.6)
+    heavy = col.Vehicle(mass=1e18, yaw_inertia=1e18, x=2.0, y=0.0)
+    contact = {"normal": math.radians(45.0), "point": (0.0, 0.0), "friction": 0.0, "duration": 0.1}
+    turned = {
+        geometry: [
+            col.time_resolved(a, b, 0.1, **contact, geometry=geometry).a.after.yaw_rate for b in (col.Vehicle.barrier(), heavy)
+        ]
+        for geometry in ("fixed", "first_contact")
+    }
+    assert turned["fixed"][0] == pytest.approx(turned["fixed"][1], rel=1e-9)
+    wall, mass = turned["first_contact"]
+    assert mass / wall == pytest.approx(1.25, abs=0.05)
+    assert "the yaw rate by a quarter in some cases" in " ".join(col.time_resolved.__doc__.split())
+    assert "not the limit of a very heavy vehicle" in " ".join(col.time_resolved.__doc__.split())

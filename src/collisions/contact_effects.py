@@ -50,10 +50,12 @@ class LeftOutSide(Shown):
     rotation : float or array [rad]
         Rotation during the contact, counter-clockwise.
     geometry_delta_v, geometry_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves because positions and normal change during the contact, in which those of the
-        impact hold at one moment only: at maximum engagement, or as ``geometry`` said; None for the central models, which have no geometry, and for any impact without a
-        point. In a batch of ``solve`` with a point it is NaN where a central model answered. It is also NaN where there is no
-        answer with the geometry of later in the contact, mostly because the bodies then part.
+        Estimate of how far the delta-V vector moves because positions and normal change during the
+        contact, in which those of the impact hold at one moment only: at maximum engagement, or
+        as ``geometry`` said; None for the central models, which have no geometry, and for any
+        impact without a point. In a batch of ``solve`` with a point it is NaN where a central
+        model answered. It is also NaN where there is no answer with the geometry of later in the
+        contact, mostly because the bodies then part.
     """
 
     _title = "Left out for one vehicle"
@@ -168,25 +170,31 @@ def left_out(
     - the tyre impulse is drag x weight x T times the mean over time of the direction opposite to the motion of the centre of
       mass. It moves delta-V together with the response of the contact to it, as ``outside_a`` and ``outside_b`` do: restitution
       still ends the impact with e times the closing speed. In line against a wall, nothing of it is left;
-    - for the geometry, positions and angles follow from the displacement and the rotation up to any moment, before that of the
-      impact or after it; the contact point moves with the mean of the two places that met, the normal turns with the mean of the
-      rotations; with a fixed body the normal stays, and the point moves with the other body. The impact is solved again with
-      the impulse where the bodies are on the mean while the force acts, with velocities at the contact that are then left as
-      seen at the end. Restitution gives back e times what closed while the spring was pressed: the closing speed at first
-      contact, and what positions and normal added to it since.
+    - for the geometry, positions and angles follow from the displacement and the rotation up to any
+      moment, before that of the impact or after it; the contact point moves with the mean of the
+      two places that met, the normal turns with the mean of the rotations; with a fixed body the
+      normal stays, and the point moves with the other body. The impact is solved again with the
+      impulse where the bodies are on the mean while the force acts, with velocities at the
+      contact that are then left as seen at the end. Restitution gives back e times what closed
+      while the spring was pressed: the closing speed at first contact, and what positions and
+      normal added to it since.
 
-    Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two cars without spin that
-    close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution of 0 to 0.4, for vehicles whose delta-V changes by
-    more than 2 percent: the estimate is 0.71 to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; 0.48 to
-    1.38 of that due to geometry in 9 of 10, 0.20 to 1.66 in all; and with ``geometry="first_contact"`` 0.83 to 1.31 of that in
-    9 of 10, 0.69 to 1.55 in all. Over as many impacts with a friction of 0 to 0.1 it is 0.69 to 1.29 of the change due to tyres
-    in 9 of 10, 0.05 to 2.43 in all; 0.59 to 1.08 of that due to geometry in 9 of 10, 0.21 to 1.22 in all; and from first
-    contact 0.82 to 1.36 of that in 9 of 10, 0.21 to 2.26 in all. Of a plastic impact without friction the estimate for the
-    geometry is exact as the duration goes to 0. A higher restitution makes it too large: at 0.8 up to six times the change, which
-    is small there from maximum engagement. Spin before and pivots have not been measured. No change of the yaw rates is given,
-    as it depends on which vehicle carries the contact.
+    Measured against ``time_resolved`` (benchmarks/time_resolved.py), over 150 random impacts of two
+    cars without spin that close at 2 to 28 m/s, with a friction of 0.2 to 0.8 and a restitution
+    of 0 to 0.4, for vehicles whose delta-V changes by more than 2 percent: the estimate is 0.71
+    to 1.25 of the change due to tyres in 9 of 10, 0.05 to 1.56 in all; 0.48 to 1.38 of that due
+    to geometry in 9 of 10, 0.20 to 1.66 in all; and with ``geometry="first_contact"`` 0.83 to
+    1.31 of that in 9 of 10, 0.69 to 1.55 in all. Over as many impacts with a friction of 0 to 0.1
+    it is 0.69 to 1.29 of the change due to tyres in 9 of 10, 0.05 to 2.43 in all; 0.59 to 1.08 of
+    that due to geometry in 9 of 10, 0.21 to 1.22 in all; and from first contact 0.82 to 1.36 of
+    that in 9 of 10, 0.21 to 2.26 in all. Of a plastic impact without friction the estimate for
+    the geometry is exact as the duration goes to 0. A higher restitution makes it too large: at
+    0.8 up to six times the change, which is small there from maximum engagement. Spin before and
+    pivots have not been measured. No change of the yaw rates is given, as it depends on which
+    vehicle carries the contact.
 
-    Also left out here: the turning moment of the tyres, load and suspension, and crush that moves the centre of mass.
+    Also left out here: the turning moment of the tyres, load and suspension, and crush that moves the
+    centre of mass.
 
     Examples
     --------
@@ -205,8 +213,10 @@ def left_out(
     >>> impact = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
     >>> found = col.left_out(impact, duration="100 ms")
     >>> first = col.left_out(impact, duration="100 ms", geometry="first_contact")
-    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}: {found.b.geometry_share:.1%}, {first.b.geometry_share:.1%} from first contact")
-    -10 deg: 1.3%, 9.8% from first contact
+    >>> print(f"{found.b.q.rotation.to('deg'):.0f~P}, delta-V moves by {found.b.geometry_share:.1%}")
+    -10 deg, delta-V moves by 1.3%
+    >>> print(f"taken as those of first contact: {first.b.geometry_share:.1%}")
+    taken as those of first contact: 9.8%
     """
     reader = ArgumentReader()
     if isinstance(impact, Impact) and impact.pulse is not None:

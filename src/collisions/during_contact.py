@@ -129,7 +129,7 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
 
 
 def _moved(impact: Impact, point: Any, time: Any, by_was: Any, by_change: Any) -> tuple[list[Vehicle], Any, Any]:
-    """Both bodies, the contact point and the normal, as far on as these shares of the velocities before and their changes say."""
+    """Both bodies, point and normal, further on by these shares of velocities and their changes."""
     bodies, turns, places, fixed = [], [], [], []
     for side in (impact.a, impact.b):
         before = side.before
@@ -164,11 +164,12 @@ def _closing(impact: Impact, share: Any, bodies: list[Vehicle], point: Any, norm
     uy: Any = 0.0
     for sign, side, body in zip((1.0, -1.0), (impact.a, impact.b), bodies, strict=True):
         vx, vy = side.before.vx + share * side.delta_vx, side.before.vy + share * side.delta_vy
-        center = (body.x, body.y)
+        x, y = body.x, body.y
         if body.pivot is not None:
-            vx, vy, center = 0.0, 0.0, body.pivot
-        if center[0] is not None and center[1] is not None:
-            turn_x, turn_y = turning_velocity(side.before.yaw_rate + share * side.delta_yaw_rate, *point, *center)
+            vx, vy, (x, y) = 0.0, 0.0, body.pivot
+        if x is not None and y is not None:
+            rate = side.before.yaw_rate + share * side.delta_yaw_rate
+            turn_x, turn_y = turning_velocity(rate, point[0], point[1], x, y)
             vx, vy = vx + turn_x, vy + turn_y
         ux, uy = ux + sign * vx, uy + sign * vy
     return normal[0] * ux + normal[1] * uy, normal[0] * uy - normal[1] * ux

@@ -67,7 +67,7 @@ def solve_inputs(
             raise refusal(inputs, raw)
         return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
     if raw.status == Status.ENERGY_GAIN:
-        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss)
+        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss, inputs)
     return raw
 
 
@@ -173,7 +173,7 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
     gaining = status == Status.ENERGY_GAIN
     if gaining.any():
         most = float(-raw.energy_loss[gaining].min())
-        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most)
+        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most, inputs)
 
 
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
@@ -240,9 +240,15 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
 
-def _warn_of_gain(what: str, gain: float) -> None:
-    text = (
-        f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
-        f"restitution or the ratio, or take law='kudlich-slibar' with friction="
-    )
+def _warn_of_gain(what: str, gain: float, inputs: Inputs) -> None:
+    if inputs.model == TIME_RESOLVED.name:
+        text = (
+            f"{what}: that is the error of the steps, where the contact gives back nearly all it took; take a restitution "
+            f"below 0.999, or give more steps than {inputs.steps}"
+        )
+    else:
+        text = (
+            f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
+            f"restitution or the ratio, or take law='kudlich-slibar' with friction="
+        )
     warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))

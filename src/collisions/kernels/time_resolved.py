@@ -32,6 +32,8 @@ _CORRECTIONS, _NEAR = 20, 1e-6
 _COARSE, _ROUGHLY = 0.08, 3e-3
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
+# Rounding of a sum over the steps of a contact, as a share.
+_ROUNDED = 1e-12
 # Blocks of fewer cases are not made smaller.
 _LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
@@ -179,17 +181,23 @@ def time_resolved(
         found[f"peak_acceleration_{label}"] = end.acceleration**0.5 * (closing / duration)
     total = sum((0.0 * value for value in found.values()), start=0.0 * length)
     finite = total - total == 0.0
+    # Levers in units of a contact that is so short overflow, and no start can be found then.
+    reach = sum(one.per_inertia * (one.rx * one.rx + one.ry * one.ry) for one in (a, b))
+    loss = passing.work_n + passing.work_t
     status = first_status(
         (yields ^ True, Status.IMMOVABLE),
         (closing_speed < 0.0, Status.SEPARATING),
         (closing_speed == 0.0, Status.GRAZING),
+        (reach - reach != 0.0, Status.OUT_OF_RANGE),
         (converged ^ True, Status.NO_START),
         (closing_before <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),
         (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
+        # What the steps err by, near a restitution of 1, beyond rounding.
+        (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),
     )
-    if note and status == Status.OK:
+    if note and status <= Status.ENERGY_GAIN:
         found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
     return Passed(status=status, **found)
 
