@@ -187,6 +187,7 @@ def test_errors_keep_their_fields(process, kind):
         assert type(again) is kind
         assert (str(again), again.code) == (str(error), error.code)
         assert equal(again.fields, error.fields)
+        assert again != error  # as the page says: like every exception of Python it is equal only to itself
     if kind is col.AmbiguousSolutionError:
         assert len(pickle.loads(pickle.dumps(error)).solutions) == 2
 
@@ -205,6 +206,23 @@ def test_warnings_keep_their_fields():
     warning = caught[0].message
     again = pickle.loads(pickle.dumps(warning))
     assert (type(again), again.code, again.fields) == (type(warning), "refused_cases", {"counts": {"separating": 1}})
+
+
+def test_contacts_in_time_hold_the_bits_of_the_whole_in_blocks_of_more_than_128():
+    """As the page for tool authors says: up to 128 cases are followed one by one, and their last digits may differ."""
+    rng = np.random.default_rng(35)
+    speeds, places = rng.uniform(2.0, 20.0, 300), rng.normal(0.0, 0.4, 300)
+
+    def followed(part):
+        rear = A.replace(vx=speeds[part], y=places[part])
+        found = col.time_resolved(rear, B, 0.2, duration=0.1, drag=0.7, steps=20, on_failure="nan", **SCENE)
+        return np.array([found.energy_loss, found.b.delta_v, found.b.delta_yaw_rate])
+
+    whole = followed(slice(None))
+    np.testing.assert_array_equal(np.hstack([followed(slice(0, 129)), followed(slice(129, 300))]), whole)
+    by_one = np.hstack([followed(slice(start, start + 100)) for start in (0, 100, 200)])
+    assert not np.array_equal(by_one, whole, equal_nan=True)
+    np.testing.assert_allclose(by_one, whole, rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize("size", [1, 7, 1000])
