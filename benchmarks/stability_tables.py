@@ -96,9 +96,9 @@ def of_steps(found: dict[str, Any]) -> str:
 def start_of_steps(found: dict[str, Any]) -> str:
     """How near the start is found."""
     return (
-        f"The start is sought until the positions at maximum engagement are met to {number(found['start'])} of closing speed times "
-        "duration; where that fails the case is refused (`no_start`). Momentum including the tyres, and kinetic energies including "
-        "both losses, balance to rounding."
+        f"The start is sought until the positions at maximum engagement are met to {number(found['start'])} of closing speed "
+        "times duration; where that fails the case is refused (`no_start`). Momentum including the tyres, and kinetic energies "
+        "including both losses, balance to rounding."
     )
 
 

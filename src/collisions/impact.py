@@ -269,6 +269,16 @@ class Impact(Frozen, Summarized):
         default share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where
         energy was gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
 
+        Parameters
+        ----------
+        share_a : float, str, Quantity or array [-]
+            A's share of the energy, from 0 to 1; B has the rest.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Of A and of B.
+
         Examples
         --------
         >>> import collisions as col
@@ -286,6 +296,16 @@ class Impact(Frozen, Summarized):
         Each is the speed at which the vehicle alone would absorb as much energy at maximum crush against a rigid wall, before
         restitution gives part of it back. Some authors call this speed EES; by ISO 12353 the EES is ``ees``. It is NaN where
         ``energy_absorbed`` is below 0, which impulses from outside far above that of the contact can bring about.
+
+        Parameters
+        ----------
+        share_a : float, str, Quantity or array [-]
+            A's share of the energy, from 0 to 1; B has the rest.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Of A and of B.
         """
         return self._shared(share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan))
 
@@ -474,6 +494,11 @@ class Impact(Frozen, Summarized):
         index : int or tuple of int
             Which case, as an index into the arrays of the batch.
 
+        Returns
+        -------
+        Impact
+            A single impact.
+
         Raises
         ------
         CollisionsError
@@ -500,14 +525,31 @@ class Impact(Frozen, Summarized):
         return part_of_impact(self, lambda value: np.broadcast_to(value, codes.shape)[place].item())
 
     def to_dict(self) -> dict[str, Any]:
-        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again."""
+        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again.
+
+        Returns
+        -------
+        dict
+            The record; its schema is ``impact_schema()``.
+        """
         from .records import to_record
 
         return to_record(self)
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
-        """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
+        """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original.
+
+        Parameters
+        ----------
+        record : dict
+            What ``to_dict`` gave, also through JSON.
+
+        Returns
+        -------
+        Impact
+            Equal to the one that was written down.
+        """
         from .records import from_record
 
         with in_si():
@@ -524,6 +566,11 @@ class Impact(Frozen, Summarized):
             Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI, with plain names.
         columns : list of str, optional
             Only these columns, in this order, named without a unit, such as "a.delta_v".
+
+        Returns
+        -------
+        dict of list
+            A list by the name of its column, with one value for each case.
 
         Raises
         ------

@@ -38,6 +38,11 @@ def impact_schema() -> dict[str, Any]:
     "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor that the
     results are those of the inputs; ``Impact.from_dict`` checks the former and works out the latter anew.
 
+    Returns
+    -------
+    dict
+        The schema.
+
     Examples
     --------
     >>> schema = impact_schema()
