@@ -163,12 +163,18 @@ def test_too_little_is_accepted_in_less_than_one_of_a_hundred(tables, ladder):
         assert row["wrong"] <= 1
 
 
-def test_the_rungs_measured_again_are_near_to_the_committed_ones(tables, ladder):
-    """Over a tenth of the scenes; a median of 150 is known to a fifth."""
-    found, again = tables.load_ladder(), ladder.rungs(150)
+def test_the_rungs_measured_again_are_the_committed_ones(tables, ladder):
+    """Over the same scenes, which are seeded: to the three digits that are kept."""
+    found = tables.load_ladder()
+    again = ladder.rungs(found["impacts"])
     assert again["rungs"].keys() == found["rungs"].keys()
     for name, row in again["rungs"].items():
-        assert row["median"] == pytest.approx(found["rungs"][name]["median"], rel=0.4), name
+        for figure in ("median", "most_of_10"):
+            assert row[figure] == pytest.approx(found["rungs"][name][figure], rel=THREE_DIGITS), (name, figure)
+    for place, medians in again["tyres_alone"].items():
+        assert medians == pytest.approx(found["tyres_alone"][place], rel=THREE_DIGITS), place
+    for one, other in zip(again["by_closing_speed"], found["by_closing_speed"], strict=True):
+        assert one == pytest.approx(other, rel=THREE_DIGITS)
 
 
 @pytest.fixture(scope="module")
