@@ -29,7 +29,7 @@ from collisions.kernels.status import Answer
 from collisions.models import BY_NAME
 from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
 from fuzzing import arguments, public
-from strategies import other_registry
+from strategies import Nasty, other_registry
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia=2400.0, vx="50 km/h", x=-2.0, y=0.4, heading=0.0, name="A")
 B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
@@ -255,6 +255,13 @@ def test_labels_are_those_that_type_checkers_know():
     found |= set(np.ravel(reversing.regime))
     assert found == set(get_args(Regime))
     assert set(get_args(inputs.ModelName)) == set(BY_NAME) - {"solve"}
+
+
+def test_columns_asked_for_by_what_cannot_be_gone_through_are_refused():
+    """Found by the fuzz: an object whose iterator raises was let through to its own error."""
+    with pytest.raises(col.InputError, match="columns: there is no column"):
+        FULL.to_columns(columns=Nasty())
+    assert list(FULL.to_columns(columns=(name for name in ("a.delta_v", "status")))) == ["a.delta_v", "status"]
 
 
 def test_contacts_in_time_hold_the_bits_of_the_whole_in_blocks_of_more_than_128():
