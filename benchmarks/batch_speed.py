@@ -76,10 +76,10 @@ def textbook(a: dict[str, Any], b: dict[str, Any], restitution: Any, normal: Any
     rn1, rt1 = rx1 * nx + ry1 * ny, ry1 * nx - rx1 * ny
     rn2, rt2 = rx2 * nx + ry2 * ny, ry2 * nx - rx2 * ny
     m1, m2, i1, i2 = a["mass"], b["mass"], a["yaw_inertia"], b["yaw_inertia"]
-    knn = 1 / m1 + 1 / m2 + rt1**2 / i1 + rt2**2 / i2
-    ktt = 1 / m1 + 1 / m2 + rn1**2 / i1 + rn2**2 / i2
+    knn = 1 / m1 + 1 / m2 + rt1 * rt1 / i1 + rt2 * rt2 / i2
+    ktt = 1 / m1 + 1 / m2 + rn1 * rn1 / i1 + rn2 * rn2 / i2
     knt = -(rn1 * rt1 / i1 + rn2 * rt2 / i2)
-    det = knn * ktt - knt**2
+    det = knn * ktt - knt * knt
     vn = -(1 + restitution) * un
     stick_n = (ktt * vn + knt * ut) / det
     stick_t = -(knt * vn + knn * ut) / det
@@ -93,9 +93,9 @@ def textbook(a: dict[str, Any], b: dict[str, Any], restitution: Any, normal: Any
     vx2, vy2 = b["vx"] + fx / m2, b["vy"] + fy / m2
     w1 = a["yaw_rate"] - (rx1 * fy - ry1 * fx) / i1
     w2 = b["yaw_rate"] + (rx2 * fy - ry2 * fx) / i2
-    before = m1 * (a["vx"] ** 2 + a["vy"] ** 2) + i1 * a["yaw_rate"] ** 2
-    before = before + m2 * (b["vx"] ** 2 + b["vy"] ** 2) + i2 * b["yaw_rate"] ** 2
-    after = m1 * (vx1**2 + vy1**2) + i1 * w1**2 + m2 * (vx2**2 + vy2**2) + i2 * w2**2
+    before = m1 * (a["vx"] * a["vx"] + a["vy"] * a["vy"]) + i1 * a["yaw_rate"] * a["yaw_rate"]
+    before = before + m2 * (b["vx"] * b["vx"] + b["vy"] * b["vy"]) + i2 * b["yaw_rate"] * b["yaw_rate"]
+    after = m1 * (vx1 * vx1 + vy1 * vy1) + i1 * w1 * w1 + m2 * (vx2 * vx2 + vy2 * vy2) + i2 * w2 * w2
     answers = vx1, vy1, w1, vx2, vy2, w2, pn, pt, (before - after) / 2
     return tuple(np.where(un < 0, answer, np.nan) for answer in answers)
 

@@ -78,6 +78,30 @@ def in_time(found: dict[str, Any]) -> str:
     return table(["worst seen, in eps", *names], rows)
 
 
+def load_steps() -> dict[str, Any]:
+    """What contacts in steps err by, as benchmarks/steps.py wrote it."""
+    return json.loads(DATA.with_name("steps.json").read_text(encoding="utf-8"))
+
+
+def of_steps(found: dict[str, Any]) -> str:
+    """The error of the steps at 100 and at 200 of them, and by what it falls from the one to the other."""
+    rows = []
+    for row in found["rows"]:
+        ends = [f"{number(row['median'][at])}, {number(row['worst'][at])}" for at in (0, 1)]
+        rows.append([row["name"], str(row["cases"]), *ends, f"{row['median'][0] / row['median'][1]:.1f}"])
+    head = ["what", "cases", "median and worst error at 100 steps", "at 200 steps", "the median falls by"]
+    return table(head, rows)
+
+
+def start_of_steps(found: dict[str, Any]) -> str:
+    """How near the start is found."""
+    return (
+        f"The start is sought until the positions at maximum engagement are met to {number(found['start'])} of closing speed "
+        "times duration; where that fails the case is refused (`no_start`). Momentum including the tyres, and kinetic energies "
+        "including both losses, balance to rounding."
+    )
+
+
 def forms(found: dict[str, Any], keys: list[str]) -> str:
     """For every regime: the worst error of the textbook form beside that of the library, in eps of the scale."""
     rows = []

@@ -2,6 +2,7 @@
 
 Each seed is one case. ``COLLISIONS_FUZZ_CASES`` is the number of them (``100000``) or a range (``50000:100000``), without it a few;
 ``COLLISIONS_FUZZ_COUNTS`` names a file for the table of how often each name was called, answered, what a call cost, and what failed.
+An argument of a public function that no case ever passes in a call that is answered fails the test that declares the function.
 A failure names its seed: run it again alone by ``COLLISIONS_FUZZ_CASES=SEED:SEED+1 pytest -m "" -k TEST``.
 """
 
@@ -47,6 +48,7 @@ from collisions.units import Texts
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
 _FEW = 12
+_MORE = 600  # seeds after which an argument that was never passed is one that nobody draws
 _HANGS = 60.0  # seconds
 _MOST_FAILURES = 25
 _PACKAGE = str(Path(col.__file__).parent)
@@ -115,6 +117,68 @@ def _shown_by(kind: type) -> tuple[str, ...]:
     return tuple(name for name in dir(kind) if not name.startswith("_") and name != "q" and not callable(getattr(kind, name)))
 
 
+# Classes whose arguments are documented, and which callers are only given.
+_ONLY_GIVEN = {"reconstruct.Reconstruction", "reference.Fit", "reference.Published", "diagnostics.Finding", "diagnostics.Limit"}
+
+
+@cache
+def arguments(name: str) -> frozenset[str]:
+    """The arguments of a public function, method or class that callers make, with those that ** stands for."""
+    value = public()[name]
+    if inspect.isclass(value):
+        made = issubclass(value, Exception) or (" Parameters\n" in (value.__doc__ or "") and name not in _ONLY_GIVEN)
+        if not made:
+            return frozenset()
+    parameters = inspect.signature(getattr(value, "__func__", value)).parameters
+    further = {given.name for given in parameters.values() if given.kind is given.VAR_KEYWORD}
+    return frozenset(parameters) - {"self", "cls"} - further | (_further(name) if further else frozenset())
+
+
+def _further(name: str) -> frozenset[str]:
+    """What ** stands for, where that is a list of names."""
+    fields = frozenset(inspect.signature(col.Vehicle).parameters)
+    if name == "Vehicle.from_speed":
+        return fields - {"vx", "vy", "pivot"}  # the velocity of a pinned vehicle is that of its turning
+    if name == "Impact.again":
+        return frozenset().union(*AGAIN.values())
+    if name == "Vehicle.barrier":
+        return fields - {"pivot"}  # what is pinned turns, and has a mass
+    return fields if name == "Vehicle.replace" else frozenset()
+
+
+_RULED = ("friction", "impulse_ratio", "critical_fraction", "law", "incomplete")
+_BOTH = ("a", "b", "restitution", "normal")
+# What an impact of each solver can be solved again with.
+AGAIN = {
+    "linear_central": (*_BOTH, "incomplete"),
+    "oblique_central": (*_BOTH, *_RULED),
+    "eccentric": (*_BOTH, *_RULED, "point", "outside_a", "outside_b"),
+    "solve": (*_BOTH, *_RULED, "point", "outside_a", "outside_b", "tolerance", "duration", "drag"),
+    "time_resolved": (*_BOTH, "point", "friction", "duration", "stiffness", "crush_a", "crush_b", "drag", "geometry", "steps", "wheelbase", "track"),
+}  # fmt: skip
+
+
+@cache
+def _signature(function: Any) -> inspect.Signature | None:
+    try:
+        return inspect.signature(function)
+    except (TypeError, ValueError):
+        return None
+
+
+def _note_arguments(name: str, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+    """Remember which arguments a call that was answered was given."""
+    try:
+        signature = _signature(function)
+    except TypeError:  # a method of what has no hash
+        signature = inspect.signature(function)
+    if signature is None:
+        return
+    for parameter, value in signature.bind(*args, **kwargs).arguments.items():
+        several = signature.parameters[parameter].kind is inspect.Parameter.VAR_KEYWORD
+        _passed[name].update(value if several else (parameter,))
+
+
 # --- the run ---------------------------------------------------------------------------------------------------------------
 
 FUZZED: dict[str, str] = {}  # test by public name
@@ -122,6 +186,7 @@ _cases: Counter[str] = Counter()
 _answered: Counter[str] = Counter()
 _seconds: defaultdict[str, float] = defaultdict(float)
 _failed: list[str] = []
+_passed: defaultdict[str, set[str]] = defaultdict(set)  # by public name, in calls that were answered
 
 
 def fuzzes(*names: str, share: float = 1.0) -> Callable[[Callable[[Case], None]], Callable[[], None]]:
@@ -144,12 +209,16 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
     every = seeds()
     chosen = range(every.start, every.start + max(3, round(len(every) * share))) if len(every) > 3 else every
     before, failures = Counter(_cases), {}
+    _passed.clear()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", col.CollisionsWarning)
         # A font need not have every letter of a name.
         warnings.filterwarnings("ignore", "Glyph .* missing from font")
-        for seed in chosen:
+        for seed in range(chosen.start, chosen.stop + (_MORE if len(every) >= _FEW else 0)):
+            # Beyond those asked for as long as an argument has not been passed.
+            if seed >= chosen.stop and not _never_passed(names):
+                break
             case = Case(f"{body.__name__} {seed}")
             try:
                 with _promptly():
@@ -169,6 +238,15 @@ def _run(body: Callable[[Case], None], names: tuple[str, ...], share: float) -> 
     silent = [name for name in names if _cases[name] == before[name]]
     if silent and len(chosen) >= _FEW:
         pytest.fail(f"{body.__name__} says that it fuzzes {silent}, and never called them", pytrace=False)
+    never = _never_passed(names)
+    if never and len(every) >= _FEW:
+        text = f"{body.__name__} never passes these arguments in a call that is answered: {', '.join(never)}; draw them in it"
+        pytest.fail(text, pytrace=False)
+
+
+def _never_passed(names: tuple[str, ...]) -> list[str]:
+    """Arguments of these public names that no call had."""
+    return [f"{name}({given})" for name in names for given in sorted(arguments(name) - _passed[name])]
 
 
 class HungError(Exception):
@@ -251,6 +329,8 @@ class Case(random.Random):
         _seconds[name] += time.process_time() - start
         if refused is None:
             _answered[name] += 1
+            if name in public():
+                _note_arguments(name, function, args, kwargs)
         else:
             _check_refusal(refused)
         return found

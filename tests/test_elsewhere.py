@@ -1,6 +1,7 @@
-"""The kernels run on arrays of other libraries as they are; skipped where those are not installed."""
+"""The kernels run on arrays of other libraries as they are; skipped where the extra "elsewhere" is not installed."""
 
 import doctest
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -186,6 +187,16 @@ def test_a_contact_that_starts_without_slip_has_the_derivative_by_it(jax):
         ends = [getattr(solve(side * 1e-4), output) for side in (-1.0, 1.0)]
         slope = float(jax.grad(lambda vy, output=output: getattr(solve(vy), output))(0.0))
         assert slope == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-4)
+
+
+def test_the_extra_installs_what_is_tried_here():
+    """And the page names it."""
+    project = PAGE.parents[1] / "pyproject.toml"
+    if not project.is_file():
+        pytest.skip("only where the project file is")
+    extras = tomllib.loads(project.read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    assert [need.partition(">=")[0] for need in extras["elsewhere"]] == ["jax", "array-api-strict"]
+    assert "collisions[elsewhere]" in PAGE.read_text(encoding="utf-8")
 
 
 def test_the_page_shows_what_comes_out(jax):

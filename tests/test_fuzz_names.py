@@ -23,7 +23,7 @@ from collisions import plot, reconstruct, reference, reporting, travel, uncertai
 from collisions.diagnostics import LIMITS
 from collisions.reconstruct import bayes
 from collisions.travel import motion as motion_of_wheels
-from fuzzing import FUZZED, INCOMPLETE, Case, fuzzes, incomplete, load_units, public
+from fuzzing import AGAIN, FUZZED, INCOMPLETE, Case, arguments, fuzzes, incomplete, load_units, public
 from strategies import registries
 
 pytestmark = pytest.mark.slow
@@ -42,16 +42,21 @@ def test_every_public_name_is_fuzzed() -> None:
     assert not stray, f"{stray} are fuzzed, but not public"
 
 
+def test_what_callers_pass_is_known_to_the_last_argument() -> None:
+    """Those that ** stands for are named, so that none of them is left out; an impact is solved again by all of its solver's."""
+    for name, takes in AGAIN.items():
+        assert set(takes) == arguments(name) - {"on_failure", "threads", "progress"}, name
+    assert {"mass", "name", "pivot"} < arguments("Vehicle.replace")
+    assert {"message", "code"} == arguments("InputError")
+    assert not arguments("reconstruct.Fit")
+
+
 # --- states and impacts ----------------------------------------------------------------------------------------------------
 
 BODY = ("mass", "vx", "vy", "yaw_rate", "yaw_inertia", "x", "y", "heading")
 NAMES = ("", "", "A", "Golf", "<b>&amp;|$x_1$", "a\nb", "\ud800half", "中文 " * 12, "`~~~ ```")
 SOLVERS = ("linear_central", "oblique_central", "eccentric", "solve", "time_resolved")
 PLACED = ("eccentric", "solve", "time_resolved")
-AGAIN = (
-    "a", "b", "restitution", "normal", "point", "friction", "impulse_ratio", "law", "incomplete", "outside_a", "tolerance", "duration",
-    "geometry", "steps", "drag", "crush_b",
-)  # fmt: skip
 # In a plain answered case these may be no finite number: what each says of it.
 OPEN = frozenset(
     {
@@ -61,6 +66,15 @@ OPEN = frozenset(
         "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers", "ByModel", "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip
+
+
+def run_options(case: Case) -> dict[str, Any]:
+    """How a run is carried out; in an odd case at times anything that is no function, which may raise what it likes."""
+    reports: list[tuple[int, int]] = []
+    found = {"threads": case.choice((1, 2)), "progress": case.choice((None, False, True, lambda *done: reports.append(done)))}
+    if case.mood == "odd" and case.maybe(0.5):
+        found[case.choice(sorted(found))] = case.choice((1, 2, 0, None, False, "x", 1.5, -1))
+    return {name: found[name] for name in found if case.maybe(0.7)}
 
 
 def vehicle(case: Case, **near: float) -> col.Vehicle:
@@ -166,8 +180,8 @@ def impact_of(case: Case, model: str | None = None) -> Any:
             keywords["point"] = None
     if case.maybe(0.3):
         keywords["on_failure"] = case.option("nan", "raise", None)
-    if case.mood == "odd" and case.maybe(0.1):
-        keywords[case.choice(("threads", "progress"))] = case.choice((1, 2, 0, None, False, "x", 1.5, -1))
+    if case.maybe(0.1):
+        keywords |= run_options(case)
     ends = [a, b, case.value("restitution")]
     if keywords.get("incomplete") is True and case.maybe(0.7):
         ends[2] = -case.uniform(0.0, 1.1)
@@ -198,13 +212,21 @@ def test_vehicles(case: Case) -> None:
     other = case.call("Vehicle.from_speed", col.Vehicle.from_speed, **case.spoil(moving))
     if case.maybe(0.3):
         made = other
-    case.call("Vehicle.barrier", col.Vehicle.barrier, **case.spoil({name: fields[name] for name in fields if case.maybe(0.2)}))
+    fixed = {name: fields[name] for name in fields if case.maybe(0.2)}
+    if "pivot" in fixed and case.maybe(0.8):
+        fixed = {name: value for name, value in fixed.items() if name not in ("vx", "vy")} | {
+            "x": fields.get("x", 1.0),
+            "y": 0.0,
+        }
+    case.call("Vehicle.barrier", col.Vehicle.barrier, **case.spoil(fixed))
     if not isinstance(made, col.Vehicle):
         made = vehicle(case)
     case.look(made, OPEN)
     changes = {name: case.value(name) for name in BODY if case.maybe(0.2)}
     if case.maybe(0.1):
         changes["pivot"] = case.option(None, case.pair("pivot"))
+    if case.maybe(0.1):
+        changes["name"] = case.option(*NAMES)
     changed = case.call("Vehicle.replace", made.replace, **case.spoil(changes))
     if isinstance(changed, col.Vehicle):
         case.look(changed, OPEN)
@@ -239,17 +261,28 @@ def test_impacts(case: Case) -> None:
     one = case.call("Impact.case", impact.case, index)
     if isinstance(one, col.Impact):
         assert isinstance(one.status, col.Status)
-    changed = {name: case.value(name) for name in ("restitution", "friction")}
-    takes = changed if impact.inputs.model != "linear_central" else ("restitution",)
-    again = {name: changed[name] for name in takes if case.maybe(0.7)}
-    if case.mood == "odd":
-        again[case.choice(AGAIN)] = case.garbage()
-    case.call("Impact.again", impact.again, **again)
+    case.call("Impact.again", impact.again, **case.spoil(changes_of(case, impact)))
     columns = case.must("Impact.to_columns", impact.to_columns)
     assert {len(column) for column in columns.values()} == {np.size(impact.status)}
+    chosen = {"units": case.option(None, *UNIT_SYSTEMS), "columns": case.sample(sorted(columns), min(2, len(columns)))}
+    case.call("Impact.to_columns", impact.to_columns, **case.spoil({name: chosen[name] for name in chosen if case.maybe(0.7)}))
     record = case.must("Impact.to_dict", impact.to_dict)
     twin = case.must("Impact.from_dict", col.Impact.from_dict, json.loads(json.dumps(record, allow_nan=False)))
     assert twin == impact, "another impact after to_dict and from_dict"
+
+
+def changes_of(case: Case, impact: col.Impact) -> dict[str, Any]:
+    """Some arguments of the solver that answered, as another case of it has them; now and then one of another solver."""
+    model = impact.inputs.model
+    drawn = {"a": impact.a.before, "b": vehicle(case), "restitution": case.value("restitution"), **contact(case, model)}
+    if case.maybe(0.5):
+        drawn["a"] = vehicle(case)
+    if model == "solve":
+        drawn |= {name: case.value(name) for name in ("tolerance", "duration", "drag")}
+    found = {name: drawn[name] for name in drawn if case.maybe(0.35)}
+    if case.mood == "odd":
+        found[case.choice(sorted({name for takes in AGAIN.values() for name in takes}))] = case.garbage()
+    return found
 
 
 def check_balances(impact: col.Impact) -> None:
@@ -380,6 +413,7 @@ def test_what_is_made_of_an_impact(case: Case) -> None:
         ("title", lambda: case.option("A title", case.text())),
         ("notes", lambda: case.option("note", ["one", "two"], [case.text()])),
         ("share_a", lambda: case.value("share_a")),
+        ("uncertainty", lambda: uncertainties(case)),
         ("derivation", lambda: case.option(True, False)),
     ):
         if case.maybe(0.1):
@@ -398,17 +432,25 @@ def test_pages_of_sliders(case: Case) -> None:
         low, high = sorted((case.number("vx"), case.number("vx")))
         ranges[name] = case.option((case.value("speed"), case.value("speed")), (low, high), (-1e3, 1e3), (0.0, 1.0))
     impact = case.option(answer_of(case), known_impact(0), known_impact(5))
-    found = case.call("what_if", col.what_if, impact, ranges, **case.spoil({"units": case.option(None, *UNIT_SYSTEMS)}))
+    options = {"units": case.option(None, *UNIT_SYSTEMS)} | {f"outline_{v}": outline(case) for v in "ab" if case.maybe(0.2)}
+    if isinstance(impact, col.Impact) and case.maybe(0.5):
+        e = impact.restitution if isinstance(impact.restitution, float) and 0.0 <= impact.restitution <= 1.0 else 0.2
+        ranges = {"restitution": (0.5 * e, 0.5 * (1.0 + e))}
+    found = case.call("what_if", col.what_if, impact, ranges, **case.spoil(options))
     assert isinstance(found, Exception) or found.startswith("<!DOCTYPE html>")
+
+
+def uncertainties(case: Case) -> Any:
+    """Half-widths of inputs, a propagation, or what is neither."""
+    name = case.choice(("a.vx", "b.vx", "restitution", "friction", "b.after.vx", "energy_loss", "a_delta_v", "x"))
+    return case.option({name: case.value("speed")}, known_propagation(), None)
 
 
 def explained(case: Case, answer: Any) -> None:
     """The derivation of an answer."""
     options = {"units": case.option(*UNIT_SYSTEMS), "form": case.option("markdown", "text")}
     if case.maybe(0.15):
-        options["uncertainty"] = case.option(
-            {case.choice(("b.after.vx", "energy_loss", "a_delta_v", "x")): case.value("speed")}, None
-        )
+        options["uncertainty"] = uncertainties(case)
     page = case.call("explain", col.explain, answer, **case.spoil(options))
     if not isinstance(page, Exception):
         assert isinstance(page, str)
@@ -506,7 +548,11 @@ def test_reverse_solvers_of_numbers(case: Case) -> None:
     given = {name: case.value(kinds[name]) for name in case.sample(sorted(kinds), count)}
     if case.maybe(0.5):
         given = {"va": case.uniform(10.0, 30.0), "vb": case.uniform(-20.0, 5.0), "restitution": case.value("restitution")}
-    solved(case, "central", **masses, **given, **failing)
+    if case.maybe(0.1):
+        given |= {"restitution": -case.random()} if "restitution" in given and case.maybe(0.5) else {}
+        solved(case, "central", **masses, **given, **failing, incomplete=case.option(True, False))
+    else:
+        solved(case, "central", **masses, **given, **failing)
     known = case.choice(
         (
             {"delta_v_a": "speed"},
@@ -620,6 +666,7 @@ def test_speeds(case: Case) -> None:
     e = case.value("restitution")
     impact = case.call("eccentric", col.eccentric, a, b, e, **keywords)
     kinds = {"speed_a": "speed", "speed_b": "speed", "delta_v_a": "speed", "delta_v_b": "speed", "energy_loss": "energy_loss"}
+    kinds |= {f"{name}_{side}": "speed" for name in ("ees", "max_crush_speed") for side in "ab"}
     kinds |= {f"delta_v_{part}_{side}": "vx" for part in ("forward", "left") for side in "ab"}
     names = [case.choice(("speed_a", "speed_b")), case.choice(("delta_v_a", "delta_v_b", "energy_loss"))]
     if case.maybe(0.3):
@@ -633,6 +680,9 @@ def test_speeds(case: Case) -> None:
         courses = {"course_a": impact.a.before.course, "course_b": impact.b.before.course}
         if case.maybe(0.1):
             known = dict(zip(("ees_a", "ees_b"), impact.ees(case.random()), strict=True)) | {names[0]: known[names[0]]}
+        elif case.maybe(0.1):
+            both = zip(("max_crush_speed_a", "max_crush_speed_b"), impact.max_crush_speeds(case.random()), strict=True)
+            known = dict(both) | {names[0]: known[names[0]]}
     for name in sorted(courses):
         if case.maybe(0.05):
             courses[name] = None
@@ -647,6 +697,8 @@ def test_speeds(case: Case) -> None:
                 lambda v: 0.5 / (1.0 + v),
             )
         )
+    if case.maybe(0.1):
+        known["forward_only"] = case.option(True, False)
     solved(case, "speeds", a, b, restitution=e, **keywords, **courses, **known)
 
 
@@ -654,6 +706,8 @@ def _known_of(impact: col.Impact, name: str) -> Any:
     if name == "energy_loss":
         return impact.energy_loss
     side = getattr(impact, name[-1])
+    if name.startswith(("ees", "max_crush")):
+        return (impact.ees if name.startswith("ees") else impact.max_crush_speeds)(0.5)["ab".index(name[-1])]
     if name.startswith("speed"):
         return side.before.speed
     found = getattr(side, name[:-2])
@@ -810,6 +864,8 @@ def posterior_of(case: Case, observed: Any = None) -> Any:
         "seed": case.randrange(2**64),
         "correlation": case.option(None, {("x", "y"): case.uniform(-1, 1)}),
     }
+    if case.maybe(0.1):
+        options |= run_options(case)
     # Islands are followed four at a time: the other four cost as much again, and go the same way.
     with mock.patch.object(bayes, "ISLANDS", 8 if case.maybe(0.1) else 4):
         return case.call("reconstruct.posterior", reconstruct.posterior, model, unknowns, observed, **case.spoil(options))
@@ -863,7 +919,7 @@ def test_posterior(case: Case) -> None:
     compared = case.call("reconstruct.compare", reconstruct.compare, accounts, **case.spoil({"prior": prior}))
     if isinstance(compared, reconstruct.Comparison):
         case.look(compared)
-        assert str(case.must("reconstruct.Comparison.summary", compared.summary))
+        assert str(case.must("reconstruct.Comparison.summary", compared.summary, case.choice(UNIT_SYSTEMS)))
         assert json.dumps(case.must("reconstruct.Comparison.to_dict", compared.to_dict), allow_nan=False)
         assert math.isclose(sum(compared.probability.values()), 1.0, rel_tol=1e-9)
     if case.maybe(0.2):
@@ -978,6 +1034,8 @@ def test_simulated_travel(case: Case) -> None:
     if case.maybe(0.2):
         corners = [case.pair("x") for _ in range(case.choice((2, 3, 3, 4, 5)))]
         ground["surfaces"] = case.option([(corners, case.value("drag"))], case.garbage())
+    if case.maybe(0.2):
+        ground["cornering"] = case.option(case.uniform(2.0, 30.0), case.value("drag"))
     ground |= {"moments": case.option(2, 9), "limit": case.option("5 s", "60 s", "60 s")}
     # What hardly slows takes ten thousand steps, and is refused for it as after fifteen hundred.
     with mock.patch.object(motion_of_wheels, "_MOST_STEPS", 10_000 if case.maybe(0.01) else 1_500):
@@ -987,7 +1045,8 @@ def test_simulated_travel(case: Case) -> None:
         assert str(case.must("travel.SimulatedPath.summary", found.summary, case.choice(UNIT_SYSTEMS)))
         case.look(found, frozenset({"travel.SimulatedPath.marks", "Vehicle.course", "Vehicle.yaw_inertia"}))
         if case.maybe(0.2):
-            drawn(case, "path", found, case.option(None, found), outline_a=outline(case) if case.maybe(0.3) else None)
+            outlines = {f"outline_{v}": outline(case) if case.maybe(0.3) else None for v in "ab"}
+            drawn(case, "path", found, case.option(None, found), **outlines)
 
 
 # --- uncertainty -----------------------------------------------------------------------------------------------------------
@@ -1132,6 +1191,12 @@ def propagation(case: Case) -> Any:
     options: dict[str, Any] = {"method": method, "seed": case.randrange(2**64)}
     if method in METHODS[2:5]:
         options["samples"] = case.choice((64, 64, 100, 128))
+        if case.maybe(0.1):
+            # Wide enough to be met by some hundred cases.
+            del options["samples"]
+            options["tolerance"] = case.option(case.uniform(1e3, 1e6), {"delta_v": case.uniform(1.0, 5.0)}, "5 m/s")
+    if case.maybe(0.1):
+        options |= run_options(case)
     if case.maybe(0.2):
         options["correlation"] = {("speed", "mass"): case.uniform(-1.0, 1.0)}
     model: Any = rear_end if case.maybe(0.7) else scaled
@@ -1297,6 +1362,8 @@ def test_reference(case: Case) -> None:
     }
     if case.maybe(0.1):
         size["width"] = case.option(None, case.value("width"))
+    if case.maybe(0.2):
+        size["outside"] = case.option("warn", "refuse")
     inertia = case.call("reference.yaw_inertia", reference.yaw_inertia, case.value("mass"), **case.spoil(size))
     assert not isinstance(inertia, float) or 0.0 <= inertia < math.inf, inertia
 

@@ -6,6 +6,7 @@ import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -71,6 +72,32 @@ def test_the_file_has_the_regimes_and_promises_of_the_script(scripts, found):
     assert [(row["output"], row["eps"], row["scale"]) for row in found["promises"]] == [
         (promise.output, promise.eps, promise.scale) for promise in stability.PROMISES
     ]
+
+
+def test_the_errors_of_steps_measured_again_are_the_committed_ones(scripts, monkeypatch):
+    """To the two digits that are kept, where they are the same cases; of a tenth of them the median, which varies little.
+
+    The table of the page is made from them: the worst is over all cases, and twice the steps have a quarter of the error.
+    """
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    import steps
+
+    found = scripts[1].load_steps()
+    committed = {row["key"]: row for row in found["rows"]}
+    assert (found["steps"], found["start"]) == (list(steps.STEPS), steps._NEAR)
+    for key, again in (("barrier", steps.barrier()), ("sliding", steps.sliding("first_contact"))):
+        assert committed[key]["cases"] == len(again)
+        assert committed[key]["worst"] == pytest.approx(np.max(again, axis=0), rel=0.06)
+        assert committed[key]["median"] == pytest.approx(np.median(again, axis=0), rel=0.06)
+    assert committed["fixed"]["cases"] == steps.COUNT
+    monkeypatch.setattr(steps, "COUNT", steps.COUNT // 10)
+    again = steps.fixed()
+    assert committed["fixed"]["median"] == pytest.approx(np.median(again, axis=0), rel=0.06)
+    assert np.all(np.max(again, axis=0) < 1.06 * np.array(committed["fixed"]["worst"]))
+    for key in ("barrier", "fixed", "sliding"):
+        assert committed[key]["median"][0] == pytest.approx(4.0 * committed[key]["median"][1], rel=0.06)
+    text = scripts[1].of_steps(found)
+    assert all(scripts[1].number(row["worst"][0]) in text for row in found["rows"])
 
 
 @pytest.mark.parametrize("regime", ["traffic", "slow"])

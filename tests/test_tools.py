@@ -1,6 +1,8 @@
 """What a tool author relies on: answers that travel between processes and threads, tables in and out, and a schema."""
 
+import ast
 import copy
+import inspect
 import io
 import json
 import math
@@ -11,6 +13,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from functools import partial
 from multiprocessing import get_context
 from operator import attrgetter
+from pathlib import Path
+from typing import get_args
 
 import jsonschema
 import numpy as np
@@ -19,10 +23,13 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import reconstruct, reference, travel
+from collisions import inputs, reconstruct, reference, travel
+from collisions.impact import Kind, Regime
 from collisions.kernels.status import Answer
+from collisions.models import BY_NAME
 from collisions.uncertainty import Interval, LogNormal, Normal, Samples, Triangular, Uniform, propagate
-from strategies import other_registry
+from fuzzing import arguments, public
+from strategies import Nasty, other_registry
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia=2400.0, vx="50 km/h", x=-2.0, y=0.4, heading=0.0, name="A")
 B = col.Vehicle(mass=1200.0, yaw_inertia=1700.0, x=2.0, y=0.0)
@@ -187,6 +194,7 @@ def test_errors_keep_their_fields(process, kind):
         assert type(again) is kind
         assert (str(again), again.code) == (str(error), error.code)
         assert equal(again.fields, error.fields)
+        assert again != error  # as the page says: like every exception of Python it is equal only to itself
     if kind is col.AmbiguousSolutionError:
         assert len(pickle.loads(pickle.dumps(error)).solutions) == 2
 
@@ -205,6 +213,72 @@ def test_warnings_keep_their_fields():
     warning = caught[0].message
     again = pickle.loads(pickle.dumps(warning))
     assert (type(again), again.code, again.fields) == (type(warning), "refused_cases", {"counts": {"separating": 1}})
+
+
+def test_the_typed_caller_uses_every_public_function():
+    """As the page says of ``tests/typing/caller.py``, which type checkers read: by its module, or by its name as a method."""
+    tree = ast.parse((Path(__file__).parent / "typing" / "caller.py").read_text(encoding="utf-8"))
+    read = [ast.unparse(node) for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
+    used = {name.removeprefix("col.") for name in read}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("collisions."):
+            used |= {f"{node.module.removeprefix('collisions.')}.{alias.name}" for alias in node.names}
+    methods, unused = {name.rpartition(".")[2] for name in read}, []
+    for name, value in public().items():
+        owner, _, inner = name.rpartition(".")
+        if inspect.isclass(value) and not arguments(name):
+            continue
+        if inner not in methods if inspect.isclass(public().get(owner)) else name not in used:
+            unused.append(name)
+    assert not unused, f"use these in tests/typing/caller.py: {', '.join(unused)}"
+
+
+def test_labels_are_those_that_type_checkers_know():
+    """A comparison with another one fails a type check; none that can come out is missing, and none is too many."""
+    e = np.array([0.0, 0.5, 1.0, -0.1])
+    kinds = set(col.linear_central(A.replace(y=0.0), B, e, incomplete=True).kind)
+    assert {*kinds, ""} == set(get_args(Kind))
+    lever = A.replace(y=1.0, vy=2.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.0)}
+    found = {col.eccentric(lever, B, 0.1, friction=mu, **contact).regime for mu in (0.0, 0.05, 9.0)}
+    found |= {col.eccentric(A, B, 0.1, impulse_ratio=0.1, **contact).regime}
+    found |= set(col.eccentric(A.replace(vx=-1.0), B, [0.1], friction=0.5, on_failure="nan", **contact).regime)
+    reversing = col.eccentric(
+        A.replace(yaw_rate=np.linspace(-9.0, 9.0, 200), vy=1.0),
+        B,
+        0.9,
+        friction=np.linspace(0.05, 1.0, 40)[:, None],
+        law="stronge",
+        on_failure="nan",
+        **contact,
+    )
+    found |= set(np.ravel(reversing.regime))
+    assert found == set(get_args(Regime))
+    assert set(get_args(inputs.ModelName)) == set(BY_NAME) - {"solve"}
+
+
+def test_columns_asked_for_by_what_cannot_be_gone_through_are_refused():
+    """Found by the fuzz: an object whose iterator raises was let through to its own error."""
+    with pytest.raises(col.InputError, match="columns: there is no column"):
+        FULL.to_columns(columns=Nasty())
+    assert list(FULL.to_columns(columns=(name for name in ("a.delta_v", "status")))) == ["a.delta_v", "status"]
+
+
+def test_contacts_in_time_hold_the_bits_of_the_whole_in_blocks_of_more_than_128():
+    """As the page for tool authors says: up to 128 cases are followed one by one, and their last digits may differ."""
+    rng = np.random.default_rng(35)
+    speeds, places = rng.uniform(2.0, 20.0, 300), rng.normal(0.0, 0.4, 300)
+
+    def followed(part):
+        rear = A.replace(vx=speeds[part], y=places[part])
+        found = col.time_resolved(rear, B, 0.2, duration=0.1, drag=0.7, steps=20, on_failure="nan", **SCENE)
+        return np.array([found.energy_loss, found.b.delta_v, found.b.delta_yaw_rate])
+
+    whole = followed(slice(None))
+    np.testing.assert_array_equal(np.hstack([followed(slice(0, 129)), followed(slice(129, 300))]), whole)
+    by_one = np.hstack([followed(slice(start, start + 100)) for start in (0, 100, 200)])
+    assert not np.array_equal(by_one, whole, equal_nan=True)
+    np.testing.assert_allclose(by_one, whole, rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize("size", [1, 7, 1000])

@@ -6,6 +6,7 @@ import math
 import re
 import shutil
 import subprocess
+from itertools import pairwise
 from operator import attrgetter
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from collisions import what_if, what_if_page
 from collisions.__main__ import main
 from collisions.kernels.contact_laws import LAWS
 from collisions.what_if_page import results
-from javascript import CHROMIUM, answers
+from javascript import CHROMIUM, answers, moved
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia="2400 kg*m**2", vx="50 km/h", x=-2.0, y=0.4, heading="0 deg", name="Golf")
 B = col.Vehicle(mass="1200 kg", yaw_inertia="1700 kg*m**2", vy="40 km/h", x=0.8, y=-1.2, heading="90 deg", name="Polo")
@@ -265,6 +266,184 @@ def test_outlines_are_drawn_as_given(tmp_path):
     assert (outlines["a"][0], outlines["b"][0]) == ([2.1, 0.9], [2.0, 0.85])
 
 
+COLOURS = {"#1f5fa8": "a", "#b3541e": "b", "#a01040": "impulse", "#6a6a6a": "normal", "#1a1a1a": "point"}
+
+
+def elements(scene):
+    """Every element of the picture: its name, its colour by what has it, whether it is dashed, and its numbers."""
+    found = []
+    for name, text in re.findall(r"<(\w+)((?: [\w-]+=\"[^\"]*\")+)", scene):
+        given = dict(re.findall(r' ([\w-]+)="([^"]*)"', text))
+        colour = given.get("stroke") or given.get("fill")
+        numbers = {
+            key: [float(number) for number in re.findall(r"-?[\d.]+(?:e-?\d+)?", value)]
+            for key, value in given.items()
+            if key in ("points", "transform", "x1", "y1", "x2", "y2", "cx", "cy")
+        }
+        found.append((name, COLOURS.get(colour), "stroke-dasharray" in given, numbers))
+    return found
+
+
+def arrows(scene):
+    """Each arrow, y up, as (whose, whether dashed, foot, tip); its head is the triangle that follows its line."""
+    found, parts = [], elements(scene)
+    for (name, whose, dashed, at), (other, _, _, head) in pairwise(parts):
+        if name == "line" and other == "polygon" and "points" in head:
+            foot = np.array([at["x1"][0], -at["y1"][0]])
+            found.append((whose, dashed, foot, np.array([head["points"][0], -head["points"][1]])))
+    return found
+
+
+def looks_ahead(scene, whose):
+    """Where a drawn vehicle stands and the unit vector along which its nose points, y up."""
+    (colour,) = [colour for colour, name in COLOURS.items() if name == whose]
+    group = r'<g transform="translate\((\S+) (\S+)\) rotate\((\S+)\)" fill="' + colour + '".*?<path d="M([^"]*)"'
+    ((x, y, degrees, path),) = re.findall(group, scene)
+    left, tip, right = (np.array(corner.split(","), dtype=float) for corner in path.split(" L"))
+    nose, turn = tip - (left + right) / 2, math.radians(float(degrees))
+    c, s = math.cos(turn), math.sin(turn)
+    # SVG turns from x to y, which runs down.
+    ahead = np.array([c * nose[0] - s * nose[1], -(s * nose[0] + c * nose[1])]) / np.hypot(*nose)
+    return np.array([float(x), -float(y)]), ahead
+
+
+def check_scene(shown, impact):
+    """The picture has the places, headings, velocities, impulse and normal of this impact, each in its own direction."""
+    scene, drawn = shown["scene"], arrows(shown["scene"])
+    normals = [at for name, whose, _, at in elements(scene) if name == "line" and whose == "normal"]
+    (at,) = normals
+    point = np.array([at["x1"][0], -at["y1"][0]])
+    np.testing.assert_allclose(point, impact.point, atol=1e-12)
+    along = np.array([at["x2"][0], -at["y2"][0]]) - point
+    np.testing.assert_allclose(along / np.hypot(*along), impact.normal, atol=1e-12)
+    velocities = []
+    for label in "ab":
+        side = getattr(impact, label)
+        place, ahead = looks_ahead(scene, label)
+        np.testing.assert_allclose(place, (side.before.x, side.before.y), atol=1e-12)
+        np.testing.assert_allclose(ahead, (math.cos(side.before.heading), math.sin(side.before.heading)), atol=1e-9)
+        own = [(dashed, foot, tip) for whose, dashed, foot, tip in drawn if whose == label]
+        if impact.ok:
+            (_, foot, tip), (dashed, start, end) = own
+            np.testing.assert_allclose(start, place, atol=1e-12)
+            assert not dashed
+            velocities.append((end - start, (side.after.vx, side.after.vy)))
+        else:
+            ((_, foot, tip),) = own
+        np.testing.assert_allclose(tip, place, atol=1e-9)  # arriving
+        assert own[0][0]
+        velocities.append((tip - foot, (side.before.vx, side.before.vy)))
+    arrow, true = (np.array(each) for each in zip(*velocities, strict=True))
+    scale = np.hypot(*arrow[0]) / np.hypot(*true[0])
+    np.testing.assert_allclose(arrow, scale * true, atol=1e-9 * np.abs(arrow).max())
+    pushes = [tip - foot for whose, _, foot, tip in drawn if whose == "impulse"]
+    if not impact.ok:
+        assert not pushes
+        return
+    ((push,), wanted) = pushes, np.array([impact.b.impulse_x, impact.b.impulse_y])
+    np.testing.assert_allclose(push / np.hypot(*push), wanted / np.hypot(*wanted), atol=1e-9)
+
+
+def check_numbers(shown, impact):
+    """Each number of the table is that of its own vehicle, in km/h and degrees; the energy has three figures."""
+    wanted = {}
+    for label in "ab":
+        side = getattr(impact, label)
+        for name, value in (("before.speed", side.before.speed), ("after.speed", side.after.speed), ("delta_v", side.delta_v)):
+            wanted[f"{label}.{name}"] = f"{3.6 * value:.1f} km/h"
+        wanted[f"{label}.pdof"] = f"{math.degrees(side.pdof):.0f}°"
+        wanted[f"{label}.delta_yaw_rate"] = f"{math.degrees(side.delta_yaw_rate):.0f}°/s"
+    wanted["closing_speed"] = f"{3.6 * impact.closing_speed:.1f} km/h"
+    kilojoules = impact.energy_loss / 1000
+    wanted["energy_loss"] = f"{kilojoules:.{1 if kilojoules < 99.95 else 0}f} kJ"
+    assert not impact.ok or 10.0 < kilojoules < 1000.0
+    assert shown["cells"] == (wanted if impact.ok else dict.fromkeys(wanted, "–"))
+    said = f"delta-V {wanted['a.delta_v']}, B (Polo): delta-V {wanted['b.delta_v']}, energy lost {wanted['energy_loss']}."
+    assert shown["said"] == (f"A (Golf): {said}" if impact.ok else "")
+    assert bool(shown["status"]) != impact.ok
+
+
+def test_what_is_drawn_and_written_is_the_answer():
+    """At every move of a slider, in node: places, headings, arrows and numbers are those of the public functions.
+
+    The contact slides at the first two frictions and sticks at the third, so that no two of them have one answer.
+    """
+    a, b = A.replace(heading="-25 deg"), B.replace(heading="110 deg", yaw_rate="20 deg/s")
+    sliders = {"speed_a": ("30 km/h", "80 km/h"), "friction": (0.0, 0.9), "normal": ("-180 deg", "180 deg")}
+    sliders |= {"heading_b": ("60 deg", "120 deg"), "course_b": ("60 deg", "120 deg"), "point_y": (-0.5, 0.5)}
+    given = {"speed_a": 50.0, "friction": 0.5, "normal": 0.0, "heading_b": 110.0, "course_b": 90.0, "point_y": 0.0}
+
+    def solved(**at):
+        one = a.replace(vx=f"{at['speed_a']} km/h")
+        turned = {"course": f"{at['course_b']} deg", "heading": f"{at['heading_b']} deg", "yaw_rate": "20 deg/s"}
+        other = col.Vehicle.from_speed(mass=1200, yaw_inertia=1700, x=0.8, y=-1.2, speed="40 km/h", **turned, name="Polo")
+        contact = {"normal": f"{at['normal']} deg", "point": (0.0, at["point_y"]), "friction": at["friction"]}
+        return col.eccentric(one, other, 0.1, **contact, on_failure="nan")
+
+    moves = [
+        ("friction", 0.04),
+        ("friction", 0.09),
+        ("friction", 0.6),
+        ("normal", -20.0),
+        ("heading_b", 75.0),
+        ("point_y", 0.3),
+        ("course_b", 65.0),
+    ]
+    moves += [("speed_a", 75.0), ("normal", 180.0), ("normal", 10.0)]
+    page = what_if(col.eccentric(a, b, 0.1, friction=0.5, **SCENE), sliders, units="metric")
+    seen = moved(page, *(("move", name, str(value)) for name, value in moves))
+    losses = []
+    for shown, move in zip(seen, [{}, *({name: value} for name, value in moves)], strict=True):
+        given |= move
+        impact = solved(**given)
+        assert shown["values"] == given
+        check_scene(shown, impact)
+        check_numbers(shown, impact)
+        losses.append(impact.energy_loss)
+    assert [math.isnan(loss) for loss in losses].count(True) == 1
+    assert min(abs(one / other - 1.0) for one, other in pairwise(losses[:4])) > 0.01
+
+
+def test_keys_move_a_slider_by_its_step():
+    """The power of ten that makes 10 to 100 steps, by a page five of them, and never beyond the ends."""
+    ranges = {"friction": (0.0, 0.9), "speed_a": ("30 km/h", "80 km/h"), "mass_b": (900, 2000)}
+    presses = [
+        ("friction", "ArrowUp", 0.51), ("friction", "ArrowRight", 0.52), ("friction", "PageUp", 0.57), ("friction", "PageDown", 0.52), ("friction", "ArrowLeft", 0.51),
+        ("friction", "ArrowDown", 0.50), ("speed_a", "PageUp", 55.0), ("speed_a", "ArrowDown", 54.0), ("mass_b", "PageDown", 900.0), ("mass_b", "ArrowUp", 1000.0), ("mass_b", "PageUp", 1500.0),
+    ]  # fmt: skip
+    seen = moved(what_if(IMPACT, ranges, units="metric"), *(("press", name, key, {}) for name, key, _ in presses))
+    for shown, (name, key, wanted) in zip(seen[1:], presses, strict=True):
+        assert shown["values"][name] == wanted, (name, key)
+    assert seen[3]["outputs"]["friction-value"] == seen[3]["aria"]["friction"] == "0.570"
+    unmoved = moved(
+        what_if(IMPACT, ranges), *(("press", "friction", "ArrowUp", {f"{key}Key": True}) for key in ("alt", "ctrl", "meta"))
+    )
+    assert all(shown == unmoved[0] for shown in unmoved)
+
+
+def test_the_way_back_to_the_case():
+    """Reset shows what was there at first, to the last digit."""
+    first, other, again = moved(what_if(IMPACT, RANGES), ("move", "speed_a", "30"), ("reset",))
+    assert first == again != other
+
+
+def test_a_wall_is_a_line_across_the_normal_and_a_truck_is_none():
+    """What is fixed has an infinite mass; 60 t are a vehicle, with its outline."""
+    truck = B.replace(mass="60 t", yaw_inertia=1e6)
+    wall = col.Vehicle.barrier()
+    ranges = {"speed_a": ("30 km/h", "80 km/h")}
+    normal = {"normal": "20 deg", "point": (0.0, 0.0), "friction": 0.3}
+    (shown,) = moved(what_if(col.eccentric(A, truck, 0.1, **normal), ranges))
+    assert looks_ahead(shown["scene"], "b")[1] == pytest.approx((0.0, 1.0), abs=1e-12)
+    (shown,) = moved(what_if(col.eccentric(A, wall, 0.1, **normal), ranges))
+    ((x1, y1), (x2, y2)), = [
+        ((at["x1"][0], -at["y1"][0]), (at["x2"][0], -at["y2"][0])) for name, whose, _, at in elements(shown["scene"]) if name == "line" and whose == "b"
+    ]  # fmt: skip
+    along = np.array([x2 - x1, y2 - y1])
+    assert along @ (math.cos(math.radians(20)), math.sin(math.radians(20))) == pytest.approx(0.0, abs=1e-9 * np.hypot(*along))
+    assert not [at for name, whose, _, at in elements(shown["scene"]) if name == "g" and whose == "b"]
+
+
 @pytest.mark.slow
 def test_moved_in_a_browser(tmp_path):
     """The page in Chromium with its sliders moved by events: the texts in its table are the numbers of Python."""
@@ -272,7 +451,7 @@ def test_moved_in_a_browser(tmp_path):
     if chromium is None:
         pytest.skip("needs Chromium")
     moved = """<script>
-    const at = { speed_a: "70", friction: "0.19", normal: "-20" };
+    const at = { speed_a: "70", friction: "0.03", normal: "-20" };
     for (const [name, value] of Object.entries(at)) {
       document.getElementById(name).value = value;
       document.getElementById(name).dispatchEvent(new Event("input", { bubbles: true }));
@@ -280,7 +459,6 @@ def test_moved_in_a_browser(tmp_path):
     const press = (key, more) => document.getElementById("friction").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, ...more }));
     press("ArrowUp");
     press("PageUp");
-    press("PageDown");
     press("ArrowRight", { altKey: true });
     </script></body>"""
     file = tmp_path / "page.html"
@@ -288,7 +466,8 @@ def test_moved_in_a_browser(tmp_path):
     file.write_text(what_if(IMPACT, ranges).replace("</body>", moved), encoding="utf-8")
     command = [chromium, *CHROMIUM, f"--user-data-dir={tmp_path}/profile", "--dump-dom", file.as_uri()]
     page = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stdout
-    impact = col.eccentric(A.replace(vx="70 km/h"), B, 0.1, friction=0.2, normal="-20 deg", point=(0.0, 0.0))
+    impact = col.eccentric(A.replace(vx="70 km/h"), B, 0.1, friction=0.09, normal="-20 deg", point=(0.0, 0.0))
+    assert impact.regime == "sliding"  # so that every step of the slider has an answer of its own
     shown = {
         name: html.unescape(text) for name, text in re.findall(r'<td (?:colspan="2" )?id="([\w.]+)"[^>]*>([^<]*)</td>', page)
     }

@@ -138,9 +138,10 @@ def left_out(
         From any solver but ``time_resolved``; a single case or a batch.
     duration : float, str, Quantity or array [s]
         Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
-    drag : float, str, Quantity or array
+    drag : float, str, Quantity or array [-]
         Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
-        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll along their heading have hardly any.
+        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road, and any wheels that are pushed sideways; wheels that are not
+        braked have hardly any as long as the vehicle moves and is pushed along its heading.
     geometry : {"maximum_engagement", "first_contact"}
         When the positions, the point and the normal of the impact are those of the vehicles, as for ``time_resolved``: as
         everywhere at maximum engagement, at which damage is matched, or at first contact.

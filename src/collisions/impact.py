@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 import numpy as np
 
 from .directions import angle_of
 from .errors import InputError, NoSolutionError, Status
-from .inputs import ARGUMENTS, STIFFNESSES, Inputs, OnFailure, index_of, part_of, part_of_inputs
+from .inputs import ARGUMENTS, STIFFNESSES, Inputs, Law, ModelName, OnFailure, index_of, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from .kernels.elementwise import UNIT_INTERVAL, select
 from .kernels.status import Passed
@@ -27,6 +27,10 @@ from .summary import Cells, Part, Summarized, Summary, all_numbers, label_of
 from .units import Input, Value
 from .vehicle import Vehicle
 from .warning import quietly
+
+# Labels as type checkers see them, so that they refuse a comparison with one that is misspelt; a refused case has none.
+Kind: TypeAlias = Literal["elastic", "elastoplastic", "plastic", "incomplete", ""]
+Regime: TypeAlias = Literal["frictionless", "sliding", "sticking", "reversing", "given", ""]
 
 if TYPE_CHECKING:  # loaded by those who make them: a tenth of the import
     from .model_choice import ModelChoice
@@ -77,14 +81,14 @@ class Impact(Frozen, Summarized):
         return Side(self.inputs, self._answer, 1, vars(self).get("choice"))
 
     @derived()
-    def model(self) -> Any:
+    def model(self) -> ModelName:
         """Name of the solver used: with ``solve`` the one it chose, in a batch an array of names."""
-        return self.inputs.model if self.choice is None else self.choice.model
+        return cast(ModelName, self.inputs.model if self.choice is None else self.choice.model)
 
     @derived()
-    def law(self) -> str | None:
+    def law(self) -> Law | None:
         """Name of the law of restitution and slip; None for a model without one, with ``solve`` as given."""
-        return self.inputs.law
+        return cast("Law | None", self.inputs.law)
 
     @derived("")
     def restitution(self) -> Value:
@@ -265,6 +269,16 @@ class Impact(Frozen, Summarized):
         default share, because momentum does not tell how the energy was divided. For an infinite mass the EES is 0; where
         energy was gained, it is NaN. Its counterpart ``max_crush_speeds`` is for the energy at maximum crush, which is more.
 
+        Parameters
+        ----------
+        share_a : float, str, Quantity or array [-]
+            A's share of the energy, from 0 to 1; B has the rest.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Of A and of B.
+
         Examples
         --------
         >>> import collisions as col
@@ -282,6 +296,16 @@ class Impact(Frozen, Summarized):
         Each is the speed at which the vehicle alone would absorb as much energy at maximum crush against a rigid wall, before
         restitution gives part of it back. Some authors call this speed EES; by ISO 12353 the EES is ``ees``. It is NaN where
         ``energy_absorbed`` is below 0, which impulses from outside far above that of the contact can bring about.
+
+        Parameters
+        ----------
+        share_a : float, str, Quantity or array [-]
+            A's share of the energy, from 0 to 1; B has the rest.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Of A and of B.
         """
         return self._shared(share_a, select(self.energy_absorbed >= 0.0, self.energy_absorbed, math.nan))
 
@@ -320,11 +344,11 @@ class Impact(Frozen, Summarized):
         return self._answered(hypot(left_x, left_y))
 
     @derived()
-    def kind(self) -> Any:
+    def kind(self) -> Kind:
         """One of "elastic" (e = 1), "elastoplastic", "plastic" (e = 0), "incomplete" (e < 0); an array of them in a batch."""
         e = np.asarray(self._answered(self.restitution))
         kinds = {"elastic": e == 1.0, "plastic": e == 0.0, "incomplete": e < 0.0, "elastoplastic": e > 0.0}
-        return _labels(np.select(list(kinds.values()), list(kinds), ""))
+        return cast(Kind, _labels(np.select(list(kinds.values()), list(kinds), "")))
 
     @derived()
     def complete(self) -> Any:
@@ -332,7 +356,7 @@ class Impact(Frozen, Summarized):
         return self._answered(self.restitution) >= 0.0
 
     @derived()
-    def regime(self) -> Any:
+    def regime(self) -> Regime:
         """How the tangential impulse came about: "frictionless", "sliding", "sticking", "reversing", or "given" by a ratio.
 
         "reversing" arises under the law "stronge" and in a time-resolved contact: the slip stopped, and ended the other way;
@@ -346,7 +370,7 @@ class Impact(Frozen, Summarized):
             found = np.where(np.equal(self.inputs.rule_value, 0.0), "frictionless", found)
         if self.choice is not None:
             found = np.where(np.equal(self.model, "linear_central"), "frictionless", found)
-        return _labels(np.where(self.refused, "", found))
+        return cast(Regime, _labels(np.where(self.refused, "", found)))
 
     @derived()
     def pulse(self) -> Pulse | None:
@@ -362,10 +386,10 @@ class Impact(Frozen, Summarized):
         return in_units_of(pulse, self._texts())
 
     @derived()
-    def status(self) -> Any:
+    def status(self) -> Status:
         """Outcome: a Status, whose ``sentence`` explains it; in a batch an array of its codes."""
-        code = self._answer.status
-        return code if isinstance(code, np.ndarray) else Status(code)
+        code: Any = self._answer.status
+        return cast(Status, code) if isinstance(code, np.ndarray) else Status(code)
 
     @derived()
     def ok(self) -> Any:
@@ -470,6 +494,11 @@ class Impact(Frozen, Summarized):
         index : int or tuple of int
             Which case, as an index into the arrays of the batch.
 
+        Returns
+        -------
+        Impact
+            A single impact.
+
         Raises
         ------
         CollisionsError
@@ -484,25 +513,43 @@ class Impact(Frozen, Summarized):
         >>> many.case(1).b.after
         Vehicle(mass=1200 kg, vx=9.16667 m/s)
         """
-        place = index_of(index, self.status.shape if isinstance(self.status, np.ndarray) else None)
+        codes: Any = self.status
+        place = index_of(index, codes.shape if isinstance(codes, np.ndarray) else None)
         if self.reconstruction is not None and self.refused[place]:
-            status = Status(self.status[place])
+            status = Status(codes[place])
             raise NoSolutionError(
                 f"case {index} has no answer: {status.sentence}; ask reconstruct.{self.reconstruction.method} for it alone to "
                 f"see what would decide",
                 code=status.label,
             )
-        return part_of_impact(self, lambda value: np.broadcast_to(value, self.status.shape)[place].item())
+        return part_of_impact(self, lambda value: np.broadcast_to(value, codes.shape)[place].item())
 
     def to_dict(self) -> dict[str, Any]:
-        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again."""
+        """Inputs and results as nested plain values that strict JSON can hold; ``from_dict`` solves the impact again.
+
+        Returns
+        -------
+        dict
+            The record; its schema is ``impact_schema()``.
+        """
         from .records import to_record
 
         return to_record(self)
 
     @classmethod
     def from_dict(cls, record: Mapping[str, Any]) -> Impact:
-        """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original."""
+        """The impact of a ``to_dict`` record, solved again from its inputs: equal to the original.
+
+        Parameters
+        ----------
+        record : dict
+            What ``to_dict`` gave, also through JSON.
+
+        Returns
+        -------
+        Impact
+            Equal to the one that was written down.
+        """
         from .records import from_record
 
         with in_si():
@@ -519,6 +566,11 @@ class Impact(Frozen, Summarized):
             Units of the numbers, which then appear in the names: "a.delta_v [mph]". By default SI, with plain names.
         columns : list of str, optional
             Only these columns, in this order, named without a unit, such as "a.delta_v".
+
+        Returns
+        -------
+        dict of list
+            A list by the name of its column, with one value for each case.
 
         Raises
         ------

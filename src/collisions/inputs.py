@@ -21,6 +21,7 @@ from .settings import units_required
 from .units import Value, has_unit, is_quantity, shown, texts_of
 from .vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
 
+ModelName: TypeAlias = Literal["linear_central", "oblique_central", "eccentric", "time_resolved"]
 Law: TypeAlias = Literal["brach", "kudlich-slibar", "stronge"]
 OnFailure: TypeAlias = Literal["raise", "nan"]
 # Of an impulse, as given: both vehicles, restitution, normal, point, values of ``RULES``, and law.

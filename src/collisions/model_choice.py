@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from .contact_time import timed
 from .formatting import Numbers
-from .inputs import Inputs, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
+from .inputs import Inputs, ModelName, first_case, lacking, missing_numbers, named_numbers, part_of, part_of_inputs
 from .kernels.contact_laws import BRACH, FRICTION, LAWS
 from .kernels.elementwise import larger, select
 from .kernels.floats import compile_for_floats
@@ -104,9 +104,11 @@ class ModelChoice(Shown):
             lock((self._which, self._predicted, self._refused, self._timed))
 
     @property
-    def model(self) -> Any:
+    def model(self) -> ModelName:
         """The name, or the names of a batch, made from the numbers that are kept, as names take fifty times the room."""
-        return lock(np.array(_NAMES).take(self._which)) if isinstance(self._which, np.ndarray) else _NAMES[self._which]
+        which = self._which
+        found = lock(np.array(_NAMES).take(which)) if isinstance(which, np.ndarray) else _NAMES[which]
+        return cast(ModelName, found)
 
     @derived()
     def reason(self) -> str:

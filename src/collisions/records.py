@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import fields
 from difflib import get_close_matches
 from typing import Any
@@ -230,7 +230,7 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
     """The names of the columns that were asked for, by default all."""
     if wanted is None:
         return list(found)
-    names = list(wanted) if np.iterable(wanted) and not isinstance(wanted, str) else [wanted]
+    names = list(wanted) if isinstance(wanted, Collection | Iterator) and not isinstance(wanted, str) else [wanted]
     for name in names:
         if isinstance(name, str) and name not in found:
             side, _, inner = name.rpartition(".")

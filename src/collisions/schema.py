@@ -25,7 +25,7 @@ __all__ = ["impact_schema"]
 _MODELS = list(BY_NAME)
 _VALUE, _PAIR, _GIVEN = ({"$ref": f"#/$defs/{name}"} for name in ("value", "pair", "given"))
 _NUMBER, _TEXT, _NULL = {"$ref": "#/$defs/number"}, {"type": "string"}, {"type": "null"}
-_TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT} | {
+_TYPES: dict[str, dict[str, Any]] = {"Value": _VALUE, "tuple[Value, Value]": _PAIR, "str": _TEXT, "Law": _TEXT} | {
     name: {"$ref": f"#/$defs/{name.lower().removeprefix('model')}"}
     for name in ("ModelChoice", "Reconstruction", "Pulse", "Vehicle", "Side")
 }
@@ -37,6 +37,11 @@ def impact_schema() -> dict[str, Any]:
     It covers every solver, single cases, batches and refused cases. Infinity and NaN appear in a record as the texts "inf",
     "-inf" and "nan", because JSON has no number for them. It does not say that the arrays of a batch go together, nor that the
     results are those of the inputs; ``Impact.from_dict`` checks the former and works out the latter anew.
+
+    Returns
+    -------
+    dict
+        The schema.
 
     Examples
     --------
@@ -129,7 +134,7 @@ def _attributes(kind: type[Any]) -> dict[str, Any]:
         attribute = vars(kind)[name]
         declared = attribute.work_out.__annotations__["return"]
         first = (getdoc(attribute) or "").partition("\n\n")[0].replace("\n", " ")
-        found[name] = {**(_LISTED[name] if declared == "Any" else _declared(declared)), "description": first}
+        found[name] = {**(_LISTED[name] if name in _LISTED else _declared(declared)), "description": first}
     return _closed(found)
 
 

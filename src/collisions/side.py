@@ -270,6 +270,16 @@ class Side(Frozen, Summarized):
         """Change of velocity (x, y) [m/s] of the point of the vehicle that lies at a scene point.
 
         It is what an accelerometer there would have recorded, not the delta-V of the centre of mass.
+
+        Parameters
+        ----------
+        point : pair of float, str, Quantity or array [m]
+            Scene point (x, y) on the vehicle.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Along x and y of the scene.
         """
         reader = ArgumentReader()
         px, py = reader.pair(point, "m", "point")

@@ -126,6 +126,17 @@ class Vehicle(_AsGiven):
     def barrier(cls, **rest: Any) -> Vehicle:
         """A body that neither moves nor turns: a wall, a pillar, or anything else that does not give way.
 
+        Parameters
+        ----------
+        **rest
+            Fields of the vehicle beside mass and yaw inertia, such as ``name``, as for
+            ``Vehicle``.
+
+        Returns
+        -------
+        Vehicle
+            Of infinite mass and yaw inertia.
+
         Examples
         --------
         >>> Vehicle.barrier()
@@ -138,6 +149,20 @@ class Vehicle(_AsGiven):
         """A vehicle from its speed [m/s] and course [rad], the direction in which it moves.
 
         A course in degrees is reduced exactly: 90 deg gives vx = 0, not 6e-17.
+
+        Parameters
+        ----------
+        speed : float, str, Quantity or array [m/s]
+            Speed of the centre of mass, >= 0.
+        course : float, str, Quantity or array [rad]
+            Direction in which it moves, counter-clockwise from the x axis of the scene.
+        **rest
+            The other fields, as for ``Vehicle``.
+
+        Returns
+        -------
+        Vehicle
+            With these components of velocity.
 
         Raises
         ------
@@ -192,6 +217,16 @@ class Vehicle(_AsGiven):
 
     def replace(self, **changes: Any) -> Vehicle:
         """The vehicle with some fields changed; the velocity of a pinned vehicle is worked out again.
+
+        Parameters
+        ----------
+        **changes
+            Fields with their new values, as for ``Vehicle``.
+
+        Returns
+        -------
+        Vehicle
+            A new one; this one stays as it is.
 
         Examples
         --------
@@ -268,6 +303,11 @@ class Vehicle(_AsGiven):
         distance, angle : [m], [rad]
             Given together: distance from the centre of mass, and angle from the heading, counter-clockwise.
 
+        Returns
+        -------
+        tuple of two floats or arrays [m]
+            x and y in the scene.
+
         Raises
         ------
         MissingInputError
@@ -301,6 +341,16 @@ class Vehicle(_AsGiven):
     @returns("m/s")
     def velocity_at(self, point: Pair) -> tuple[Value, Value]:
         """Velocity (x, y) [m/s] of the point of the body that lies at a scene point.
+
+        Parameters
+        ----------
+        point : pair of float, str, Quantity or array [m]
+            Scene point (x, y) on the vehicle.
+
+        Returns
+        -------
+        tuple of two floats or arrays [m/s]
+            Along x and y of the scene.
 
         Raises
         ------

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 import collisions as col
-from collisions import plot, reconstruct, reference, travel, uncertainty
+from collisions import plot, reconstruct, reference, reporting, travel, uncertainty
 from collisions.uncertainty import Censored, Interval, LogNormal, Normal, Samples, Triangular, Uniform
 
 speed: Any = col.Vehicle(mass=1.0, vx="80 km/h").q.vx
@@ -79,6 +79,14 @@ def forward_solvers() -> tuple[col.Impact, ...]:
 
 def around(impact: col.Impact) -> str:
     """What can be said of an impact."""
+    sliders = col.what_if(impact, {"speed_a": ("40 km/h", 20), "restitution": (0.0, 0.4)}, outline_a=("4.2 m", 1.8), units="us")
+    sliders.save("page.html")
+    assert_type(reporting.replay(str(col.report(impact))), col.Impact | reconstruct.MomentumSolution)
+    known: dict[str, Any] = reporting.options(str(col.report(impact)))
+    one: col.Impact = impact.case(0).again(restitution=0.2, friction="0.4")
+    vx, vy = one.a.delta_v_at((1, "2 m"))
+    own, other = one.max_crush_speeds("50 %")
+    print(known, vx + vy + own + other, impact.summary("us"), impact.a.summary(), impact.a.after.summary(units="metric"))
     schema: dict[str, Any] = col.impact_schema()
     beside = col.left_out(impact, duration="100 ms", drag=0.7)
     share: float = beside.b.tyre_share
@@ -86,6 +94,18 @@ def around(impact: col.Impact) -> str:
     page: str = str(col.report(impact, title="Two cars", form="markdown", units="metric", duration="100 ms", share_a=0.5))
     derivation: str = page + str(col.explain(impact, units="us", form="text"))
     return derivation + str(share) + str(schema) + "".join(sentences)
+
+
+def labels(impact: col.Impact, choice: col.ModelChoice) -> str:
+    """Those of a single case are Literals; a batch has arrays of them, which are asked for as such."""
+    if impact.kind == "plastic" or impact.regime == "sticking" or impact.law == "stronge" or impact.model == "eccentric":
+        return impact.regime
+    if impact.status == col.Status.OK and impact.status.sentence:
+        return impact.status.label
+    many = np.count_nonzero(np.asarray(impact.regime) == "sliding") + np.count_nonzero(np.asarray(impact.status) == 0)
+    answered: int = impact.ok.sum() + impact.refused.sum()
+    with col.options(require_units=True):
+        return choice.model if choice.model == "linear_central" else f"{many} {answered}"
 
 
 def backwards() -> float:
@@ -116,6 +136,13 @@ def backwards() -> float:
     assert_type(sampled, reconstruct.Posterior)
     chance, _ = sampled.probability(lambda at: at["speed"] > 13.9)
     compared: reconstruct.Comparison = reconstruct.compare({"one": sampled, "other": sampled}, prior={"one": 0.5, "other": 0.5})
+    recorded = reconstruct.recorded_pulse([0.0, 0.01], [0.0, -2.0], [0, 1.0], polarity="ISO 8855")
+    ranges_of: dict[str, Uniform] = recorded.inputs("a")
+    both = reconstruct.crush_delta_v("40 kJ", 1500, "1200 kg", gamma_a=0.9)
+    e += both[0] + reconstruct.crush_share("60 kN/m", 7e4)
+    print(ranges_of, list(sampled.inputs()), recorded.summary(), fitted.summary(), compared.summary("us"), found.summary())
+    output = sampled["speed"]
+    print(output.record(), output.turned(1.0), output.may_wrap(), output.quantile_standard_error(0.5), output.histogram(20))
     e += chance + compared.probability["one"] + sampled.log_evidence
     return line.closing_speed + found.speed_a + before.closing_speed + several[0].a.before.speed + closing + energy + e + mu
 
@@ -147,21 +174,32 @@ def ranges() -> tuple[float, float]:
     found: uncertainty.Propagation = uncertainty.propagate(model, inputs, method="quasi_random", samples=256, seed=1)
     low, high = found["speed"].interval(0.95)
     mean: float = found["speed"].mean
-    return low + mean, high
+    joint: dict[str, Samples] = Samples.joint(speed=[10.0, 12.0], mass=[1500.0, 1490.0])
+    score = joint["speed"].scored(0.5) + Normal.between("20 m/s", 25, 0.9).quantile(0.5)
+    output = found["speed"].to("mph")
+    print(output.record(), output.row(), output.histogram(bins=9), output.quantile(0.5), output.quantile_standard_error(0.5))
+    return low + mean + score, high
 
 
 def published() -> float:
     """Values with their sources, and pictures."""
     value: float = reference.restitution(speed, outside="refuse")
     low, high = reference.restitution_range("15 mph")
-    inertia: float = reference.yaw_inertia(1500, length="4.5 m", width=1.8)
+    inertia: float = reference.yaw_inertia(1500, length="4.5 m", width=1.8, outside="refuse")
+    low += reference.restitution_by_overlap("40 %")
     surface: reference.Published = reference.drag_factor("asphalt", speed="50 mph")
     print(surface, low + high + inertia, [known.name for known in reference.PUBLISHED])
     return value
 
 
-def pictures(impact: col.Impact, known: uncertainty.Propagation) -> None:
+def pictures(
+    impact: col.Impact, known: uncertainty.Propagation, sampled: reconstruct.Posterior, path: travel.SimulatedPath
+) -> None:
     """Every picture."""
+    plot.pulse(impact)
+    plot.path(path, None, outline_a=("4.2 m", 1.8), units="us")
+    plot.residuals(sampled)
+    plot.corner(sampled, unknowns=["speed"], units="metric")
     axes = plot.momentum(impact, units="us")
     plot.energy(impact, axes=axes)
     plot.force_time(impact, "100 ms")
@@ -179,6 +217,15 @@ def refused() -> float | None:
         return len(error.solutions)
     except col.NoImpactError as error:
         return error.closing_speed
+    except (col.MissingInputError, col.UnitsError, col.ShapeError) as error:
+        print(error.fields["argument"])
+    except col.NoSolutionError as error:
+        print(error.solutions)
     except col.CollisionsError as error:
         assert_type(error.code, str)
     return None
+
+
+def kinds_of_warning() -> tuple[type[col.CollisionsWarning], ...]:
+    """To be filtered by."""
+    return col.EnergyGainWarning, col.IllConditionedWarning, col.OutOfRangeWarning, col.SuspectUnitsWarning

@@ -1,5 +1,8 @@
 """What a type checker must refuse; every line that ends in "refused" has an error, and no other line has one."""
 
+# pyright: reportUnnecessaryComparison=true
+# as in its strict mode
+
 import collisions as col
 from collisions import reconstruct, travel, uncertainty
 
@@ -33,6 +36,14 @@ col.eccentric(a, b, 0.1, normal=0.0, point=1.0, friction=0.5)  # refused
 col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, law="newton")  # refused
 col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.0), mu=0.5)  # refused
 col.solve(a, b, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5, tolerance=None)  # refused
+
+print(impact.kind == "elastik")  # refused
+print(impact.regime == "stiking")  # refused
+print(impact.regime != "slidding")  # refused
+print(impact.model == "excentric")  # refused
+print(impact.law == "newton")  # refused
+print(impact.status == col.Status.SEPERATING)  # refused
+print(impact.choice is not None and impact.choice.model == "linear")  # refused
 
 impact.closing_speed = 3.0  # refused
 print(impact.delta_v)  # refused

@@ -66,7 +66,7 @@ def diagnose(
         (forward, left) [m] of a convex outline, in order. The vehicle then needs x, y and heading.
     duration : float, str or Quantity [s]
         Duration of the contact, as for ``left_out``; the outlines are followed for this time after the impact.
-    drag : float, str or Quantity
+    drag : float, str or Quantity [-]
         Drag factor of the tyres, as for ``left_out``.
     limits : dict of str to float, str or Quantity, optional
         Limits that replace the defaults, by code, units allowed, such as ``{"near_collinear": "15 deg"}``; inf switches off a

@@ -27,7 +27,7 @@ def distribution(
     ----------
     output : Output
         One output, such as ``result["delta_v"]``, of ``uncertainty.propagate`` by a method that samples, or of a posterior.
-    coverage : float
+    coverage : float [-]
         Probability of the shaded interval, with equal tails below and above it.
     bins : int
         Number of bars. With few inputs the cases of "quasi_random" lie on lines that 40 bars or more may show as a comb.

@@ -212,7 +212,7 @@ def finish(
         except CollisionsError as problem:
             return problem
         # In double precision the case may have a solution.
-        outcome = Status(int(found.status[index]))
+        outcome = Status(int(np.asarray(found.status)[index]))
         return error_of(outcome, outcome.sentence)
 
     raise_or_warn(found.status, on_failure, refusal_at)

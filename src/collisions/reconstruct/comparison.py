@@ -49,7 +49,13 @@ class Comparison(Summarized):
     sentence: str
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything as strict JSON."""
+        """Everything as strict JSON.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         factors = [[*pair, value, self.log_bayes_factor_errors[pair]] for pair, value in self.log_bayes_factors.items()]
         plain = ("probability", "probability_error", "prior", "priors", "sentence")
         written: dict[str, Any] = strict({name: getattr(self, name) for name in plain} | {"log_bayes_factors": factors})

@@ -198,7 +198,7 @@ def crush_delta_v(
         Energy of both vehicles, >= 0: the sum of their ``crush_energy``.
     mass_a, mass_b : float, str, Quantity or array [kg]
         Masses, > 0; ``inf`` for one that keeps its velocity, such as a wall.
-    gamma_a, gamma_b : float, str, Quantity or array
+    gamma_a, gamma_b : float, str, Quantity or array [-]
         Mass reduction factors k^2 / (k^2 + h^2), with the radius of gyration k and the moment arm h of the impulse, as
         ``gamma`` of each side of an ``Impact``. 1 where the impulse passes through the centre of mass.
 

@@ -89,6 +89,16 @@ class Estimate(WithUnit):
         """Central range that holds the truth with this probability given the stated errors, cut off at the bounds.
 
         Normal theory around the estimate; the bounds themselves where nothing determines the unknown.
+
+        Parameters
+        ----------
+        coverage : float [-]
+            Probability that the range holds, between 0 and 1.
+
+        Returns
+        -------
+        tuple of two floats
+            Both ends, in the unit of the unknown.
         """
         if isinstance(coverage, bool) or not isinstance(coverage, (int, float)) or not 0.0 < coverage < 1.0:
             raise InputError(
@@ -253,7 +263,13 @@ class Fit(Shown):
         return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything as strict JSON, with infinities and NaN by name."""
+        """Everything as strict JSON, with infinities and NaN by name.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         record = {
             "statements": self.statements,
             "unknowns": {name: asdict(self[name]) for name in self.names},

@@ -40,7 +40,13 @@ class PosteriorOutput(Sampled):
         self._islands = islands
 
     def record(self) -> dict[str, Any]:
-        """The figures as plain values that strict JSON can hold."""
+        """The figures as plain values that strict JSON can hold.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         found: dict[str, Any] = strict(self._basics())
         return found
 
@@ -168,7 +174,13 @@ class Posterior(Summarized):
         return float(holds.mean), float(holds.mean_standard_error)
 
     def inputs(self) -> dict[str, Samples]:
-        """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or ``posterior`` as new priors."""
+        """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or ``posterior`` as new priors.
+
+        Returns
+        -------
+        dict of Samples
+            By unknown.
+        """
         return Samples.joint(**{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()})
 
     @property
@@ -202,7 +214,13 @@ class Posterior(Summarized):
         return tuple(note.sentence for note in notes_of(self))
 
     def to_dict(self) -> dict[str, Any]:
-        """All figures as strict JSON; the samples themselves are left out."""
+        """All figures as strict JSON; the samples themselves are left out.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         record = {
             "priors": {name: shown(one, 1000) for name, one in self.priors.items()},
             "observed": {name: shown(one, 1000) for name, one in self.observed.items()},

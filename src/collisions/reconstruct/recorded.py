@@ -95,6 +95,16 @@ class RecordedPulse(Shown):
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Uniform]:
         """The components with their errors, named as the arguments of ``reconstruct.speeds``, as inputs for ``propagate``.
 
+        Parameters
+        ----------
+        label : {"a", "b"}
+            The vehicle that had the recorder.
+
+        Returns
+        -------
+        dict of Uniform
+            By argument, such as ``delta_v_forward_a``.
+
         Raises
         ------
         InputError

@@ -345,7 +345,7 @@ def restitution_by_overlap(overlap: Input) -> Published:
 
     Parameters
     ----------
-    overlap : float, str or Quantity
+    overlap : float, str or Quantity [-]
         Share of the width, > 0 and at most 1.
 
     Returns

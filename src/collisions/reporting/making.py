@@ -104,7 +104,7 @@ def report(
         As for ``diagnose``; the outlines are also drawn.
     crush_energy, damage_pdof_a, damage_pdof_b, damage_delta_v_a, damage_delta_v_b
         What the damage shows, as for ``diagnose``; printed among the inputs.
-    share_a : float, str or Quantity, optional
+    share_a : float, str or Quantity [-], optional
         A's share of the energy, 0 to 1, for ``Impact.ees`` and ``max_crush_speeds``; without it neither is given.
     notes : str, dict or sequence of these, optional
         Your own words, each note in a paragraph of its own; or notes by input, printed beside it, such as where its value is

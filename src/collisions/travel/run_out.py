@@ -130,12 +130,12 @@ def path(
         Where the vehicle points, counted on through full turns and never reduced: 0, 100, 200, 290 deg for one that turned
         290 deg to the left, 0, -70 deg for one that turned 70 deg to the right. From one point to the next, at most half a
         turn; give more points for a faster spin.
-    friction : float, str, Quantity or array, or a list with one for each segment
+    friction : float, str, Quantity or array [-], or a list with one for each segment
         Friction of locked tyres on the ground, >= 0.
-    lock : float, str, Quantity or array, or a list with one for each segment
+    lock : float, str, Quantity or array [-], or a list with one for each segment
         Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if all roll
         freely, 1 if all are locked.
-    grade : float, str, Quantity or array, or a list with one for each segment
+    grade : float, str, Quantity or array [-], or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the last point, 0 at rest.

@@ -100,9 +100,9 @@ def simulate(
     ----------
     vehicle : Vehicle
         At separation, with yaw inertia, position and heading, and free to move. Arrays in it are many cases.
-    friction : float, str, Quantity or array
+    friction : float, str, Quantity or array [-]
         Friction of locked tyres on the ground, > 0.
-    lock : float, str, Quantity or array, or a list of four
+    lock : float, str, Quantity or array [-], or a list of four
         Braking along the wheels as a fraction of that of locked wheels, from damage, brakes or an engaged gear: 0 if a wheel
         rolls freely, 1 if it is locked. One for all, or front left, front right, rear left, rear right.
     wheelbase, track : float, str, Quantity or array [m]
@@ -111,7 +111,7 @@ def simulate(
         Steer angle of both front wheels, positive to the left.
     surfaces : sequence of (corners, friction), optional
         Areas with a different friction, each with three or more corners [m] in order. The first that a wheel is in counts.
-    cornering : float, str, Quantity or array
+    cornering : float, str, Quantity or array [-]
         Cornering stiffness of a tyre over its load, per radian.
     limit : float, str, Quantity or array [s]
         Time within which the vehicle must come to rest.

@@ -43,9 +43,9 @@ def speed(distance: Segments, *, drag: Segments, grade: Segments = 0.0, end_spee
     ----------
     distance : float, str, Quantity, array or list of these [m]
         Horizontal distance, >= 0.
-    drag : float, str, Quantity, array or list of these
+    drag : float, str, Quantity, array or list of these [-]
         Drag factor, >= 0: a plain number such as 0.7, or a deceleration on the level such as ``"6.9 m/s**2"``.
-    grade : float, str, Quantity, array or list of these
+    grade : float, str, Quantity, array or list of these [-]
         Rise over run, positive uphill in the direction of travel; ``"-4 %"`` is downhill.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the end of the distance, >= 0; 0 at rest.
@@ -104,9 +104,9 @@ def distance(speed: Input, *, drag: Input, grade: Input = 0.0, end_speed: Input 
     ----------
     speed : float, str, Quantity or array [m/s]
         Speed at the start, >= 0.
-    drag : float, str, Quantity or array
+    drag : float, str, Quantity or array [-]
         Drag factor, >= 0, or a deceleration on the level.
-    grade : float, str, Quantity or array
+    grade : float, str, Quantity or array [-]
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
         Speed at the end, >= 0; above ``speed`` on a downhill grade that the drag does not hold.

@@ -95,6 +95,11 @@ class NormalFamily(Distribution):
         truncate : tuple (low, high), optional
             Bounds of what is physically possible, applied to the distribution found.
 
+        Returns
+        -------
+        LogNormal
+            With this range as its central one.
+
         Raises
         ------
         InputError

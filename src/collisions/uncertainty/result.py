@@ -94,6 +94,16 @@ class Output(Summarized):
     def to(self, unit: str) -> InUnit:
         """The same attributes as plain numbers in this unit; only where the model returned Quantities.
 
+        Parameters
+        ----------
+        unit : str
+            A unit of the same kind, such as ``"mph"``.
+
+        Returns
+        -------
+        Output
+            With every figure in that unit.
+
         Examples
         --------
         >>> import collisions as col
@@ -149,17 +159,49 @@ class Output(Summarized):
 
     @returns(OWN)
     def quantile(self, p: Any) -> Any:
-        """The value that is not exceeded with probability p, a number from 0 to 1 or an array of them."""
+        """The value that is not exceeded with probability p, a number from 0 to 1 or an array of them.
+
+        Parameters
+        ----------
+        p : float or array [-]
+            Probability, from 0 to 1.
+
+        Returns
+        -------
+        float or array
+            In the unit of the output.
+        """
         return self._quantile(probability(p))
 
     @returns(OWN)
     def quantile_standard_error(self, p: Any) -> Any:
-        """Standard error of a quantile due to sampling; NaN for a local method."""
+        """Standard error of a quantile due to sampling; NaN for a local method.
+
+        Parameters
+        ----------
+        p : float or array [-]
+            Probability, from 0 to 1.
+
+        Returns
+        -------
+        float or array
+            In the unit of the output.
+        """
         return probability(p) * math.nan
 
     @returns(OWN)
     def interval(self, coverage: float = COVERAGE) -> tuple[float, float]:
         """The range (low, high) that holds the value with this probability and leaves equal probabilities below and above.
+
+        Parameters
+        ----------
+        coverage : float [-]
+            Probability that the range holds, between 0 and 1.
+
+        Returns
+        -------
+        tuple of two floats
+            Both ends, in the unit of the output.
 
         Examples
         --------
@@ -195,7 +237,18 @@ class Output(Summarized):
         return {name: (found.first_error[name], found.total_error[name]) for name in _ranked(found.total)}
 
     def histogram(self, bins: int = 30) -> Histogram:
-        """Edges, the shares of the cases between them and their standard errors, for a chart; only after sampling."""
+        """Edges, the shares of the cases between them and their standard errors, for a chart; only after sampling.
+
+        Parameters
+        ----------
+        bins : int
+            Number of bars.
+
+        Returns
+        -------
+        Histogram
+            Edges, shares and standard errors of the shares.
+        """
         raise InputError(
             f"{self.name!r} has no histogram, because nothing was sampled; take method='quasi_random'",
             code="not_sampled",
@@ -203,7 +256,13 @@ class Output(Summarized):
         )
 
     def row(self) -> tuple[str, str]:
-        """Name and figures as text."""
+        """Name and figures as text.
+
+        Returns
+        -------
+        tuple of two texts
+            The name, and the figures.
+        """
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
         if math.isnan(self.std):
@@ -211,7 +270,13 @@ class Output(Summarized):
         return self.name, f"{show(self.mean)} ± {show(self.std)}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
 
     def record(self) -> dict[str, Any]:
-        """The figures as plain values that strict JSON can hold."""
+        """The figures as plain values that strict JSON can hold.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         shares = {"contributions": self.contributions, "total_contributions": self.total_contributions}
         found: dict[str, Any] = strict(self._basics() | shares)
         return found
@@ -303,12 +368,29 @@ class Sampled(Output):
         return int(np.count_nonzero(np.isnan(self.values)))
 
     def turned(self, turns: float) -> Sampled:
-        """The same directions plus this many turns."""
+        """The same directions plus this many turns.
+
+        Parameters
+        ----------
+        turns : float [-]
+            Whole turns to add.
+
+        Returns
+        -------
+        Output
+            Of the same directions, in radians that differ by these turns.
+        """
         values = self.values if self._directions is None else self._directions
         return Sampled(self.name, self.unit, values, self._all_shares, turns) if turns else self
 
     def may_wrap(self) -> bool:
-        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has directions to all sides."""
+        """Whether it looks like an angle that jumps between pi and -pi, if without a unit, or has directions to all sides.
+
+        Returns
+        -------
+        bool
+            Whether it looks like one.
+        """
         found = self._answered
         if self._directions is not None:
             return angles.point_everywhere(found) or angles.point_to_opposite_sides(found)
@@ -333,6 +415,16 @@ class Sampled(Output):
 
         The standard error of the share of cases up to the quantile, times the slope of the quantiles there. How the quantiles
         differ between the sequences would tell less, because each sequence is evenly spread in itself.
+
+        Parameters
+        ----------
+        p : float or array [-]
+            Probability, from 0 to 1.
+
+        Returns
+        -------
+        float or array
+            In the unit of the output.
         """
         share = probability(p)
         with np.errstate(all="ignore"):
@@ -340,7 +432,18 @@ class Sampled(Output):
         return found if found.ndim else float(found)
 
     def histogram(self, bins: int = 30) -> Histogram:
-        """Edges, the shares of the cases between them and their standard errors, for a chart."""
+        """Edges, the shares of the cases between them and their standard errors, for a chart.
+
+        Parameters
+        ----------
+        bins : int
+            Number of bars.
+
+        Returns
+        -------
+        Histogram
+            Edges, shares and standard errors of the shares.
+        """
         if not is_whole(bins) or not 1 <= bins <= _MOST_BINS:
             raise InputError(
                 f"bins must be a whole number from 1 to {_MOST_BINS}, got {shown(bins)}", code="bad_option", argument="bins"
@@ -474,7 +577,13 @@ class Propagation(Summarized):
         return correlations({name: output for name, output in self.outputs.items() if isinstance(output, Sampled)})
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures of all outputs and the inputs they are given, as nested plain values that strict JSON can hold."""
+        """Figures of all outputs and the inputs they are given, as nested plain values that strict JSON can hold.
+
+        Returns
+        -------
+        dict
+            Plain values that ``json.dumps`` writes; infinity and NaN as texts.
+        """
         return {
             "method": self.method,
             "inputs": {name: shown(value, 1000) for name, value in self.inputs.items()},
