@@ -82,7 +82,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
         check_size(one.name, float(np.nanmax(abs(one.values))))
         check_size(f"spread of {one.name}", one.std, SMALLEST)
     first = begin(None, (1.2 + 1.75 * len(names),) * 2)
-    figure: Figure = first.figure.get_figure(root=True)
+    figure: Figure = first.figure
     first.remove()
     grid = figure.add_gridspec(len(names), len(names))
     for row, output in enumerate(columns):
