@@ -88,11 +88,12 @@ _ROOTS = {
 }
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
 
-# Patterns stay texts until the first unit is read, which compiles them.
-_NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
+# Patterns stay texts until the first unit is read, which compiles them. They match a text in one way at most: where
+# there are several, all are tried before a text is refused, and their number grows with its length.
+_NUMBER = r"(?a:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
-_UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
+_UNIT = rf"\(*{_NAME}{_POWER}\)*(?:(?:\s*(?:/|\*(?!\*)|·)\s*|\s+)\(*{_NAME}{_POWER}\)*)*"
 _WITH_COMMA = r"(?a:[+-]?\d[\d,]*,\d)"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
@@ -348,6 +349,8 @@ def _cure(text: str, unit: str) -> str:
             ": this is a printed array. A model of propagate is called with arrays of cases, and the unit belongs in the "
             "distribution, Normal('30 mph', '2 mph')"
         )
+    if len(text) > _LONGEST_TEXT:
+        return f": a text of {len(text)} characters is no number"
     if unit == "rad" and re.match(r"(north|south|east|west|[ns] ?\d|[nsew]{1,3}$)", text.lower()):
         return ": angles are counted from the x axis, counter-clockwise; with x to the east, north is '90 deg'"
     if mark := re.fullmatch(rf"({_NUMBER})\s*('|\"|''|#|\w+\.)", text):
