@@ -10,7 +10,6 @@ from typing import Any
 
 from .errors import InputError
 
-
 # By form: what it is called, and the endings of its files, of which the first is the usual one.
 _FORMS = {
     "html": ("HTML", (".html", ".htm")),
