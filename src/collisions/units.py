@@ -417,8 +417,8 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
         zero, one, two = (float(registry.Quantity(x, quantity.units).m_as(wanted)) for x in (0, 1, 2))
         found = one, "" if registry.Quantity(1, quantity.units).unitless else f"{quantity.units}"
     except Exception as error:
-        hint = "; its registry was made with case_sensitive=False, so look at which unit it took the text for"
-        raise _bad_units(given, unit, argument, error, "" if registry.case_sensitive else hint) from None
+        other = "" if registry.case_sensitive else "; its registry, made with case_sensitive=False, may have taken another unit"
+        raise _bad_units(given, unit, argument, error, beside=other) from None
     if zero != 0.0 or two != 2.0 * one:
         raise _bad_units(given, unit, argument, None)
     if (hint := _out_of_place(quantity, unit, wanted)) or (hint := _ambiguous_unit(quantity)):
@@ -487,7 +487,7 @@ def _ambiguous_unit(quantity: Any) -> str:
     return ""
 
 
-def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "") -> UnitsError:
+def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "", beside: str = "") -> UnitsError:
     wanted = unit or "a plain number without a unit"
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
@@ -504,7 +504,7 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
     return UnitsError(
-        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write for example {example(unit)}",
         code="bad_units",
         argument=argument,
         text=text,
