@@ -64,8 +64,8 @@ class CaseError(Exception):
 
     def __init__(self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case") -> None:
         self.problems = [
-            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(_cut(text, _LONGEST_MESSAGE)).split()))
-            for key, text in problems
+            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split()))
+            for key, text in ([_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems)
         ]
         self.refused = refused
         self.code = code
@@ -316,7 +316,8 @@ class _Reader:
             for name in [name for name in parts if len(name) > _LONGEST_TEXT]:
                 del parts[name]
                 short = f"{key}.{_cut(name, 40)}".lstrip(".")
-                self.refuse(short, f"is a key of {len(name)} characters; a key has {_LONGEST_TEXT} at most, write its name")
+                most = f"a key has {_LONGEST_TEXT} at most, write its name"
+                self.refuse(short, f"is a key of {len(name)} characters; {most}")
             return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()}
         if isinstance(node, list):
             return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
@@ -448,7 +449,8 @@ class _Reader:
         if len(text) > _LONGEST_TEXT:
             cure = 'such as "80 km/h", "50 km/h +/- 3 km/h" or "0.4 .. 0.7 (95 %)"'
             limit = f"a number with its unit, or a range, has {_LONGEST_TEXT} at most, {cure}"
-            self.refuse(key, f"is a text of {len(text)} characters, {as_in_file(_cut(text, 40))}; {limit}")
+            start = as_in_file(_cut(text, 40))
+            self.refuse(key, f"is a text of {len(text)} characters, {start}; {limit}")
         return len(text) <= _LONGEST_TEXT
 
     def function(self, key: str, table: Any) -> Any:

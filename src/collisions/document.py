@@ -16,7 +16,7 @@ _FORMS = {
     "markdown": ("Markdown", (".md", ".markdown", ".txt")),
     "text": ("plain text", (".txt", ".text")),
 }
-# What follows the last point of a name, where it is an ending: not that of "case 1.2" or "Golf vs. Polo".
+# What follows the last point of a name, if it is an ending: not in "case 1.2" or "Golf vs. Polo".
 _ENDING = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,7}")
 
 
@@ -42,9 +42,9 @@ class Document(str):
         Parameters
         ----------
         path : str or path
-            An existing file is replaced. The ending of its name has to be one of the form of the page: .html or .htm of
-            HTML, .md, .markdown or .txt of Markdown, .txt or .text of plain text; or there is none. For a PDF save HTML, open
-            it in a browser and print it.
+            An existing file is replaced. The ending of its name has to be one of the form of the
+            page: .html or .htm of HTML, .md, .markdown or .txt of Markdown, .txt or .text of
+            plain text; or there is none. For a PDF save HTML, open it in a browser and print it.
 
         Returns
         -------
@@ -63,7 +63,7 @@ class Document(str):
         ending = target.suffix.lower()
         if ending not in endings and _ENDING.fullmatch(ending):
             raise InputError(
-                f"path ends in {target.suffix}, but this page is {kind}{_not_as(ending)}; {self._instead(target)}",
+                f"path ends in {target.suffix}, but this page is {kind}{_not_as(ending)}; " + self._instead(target),
                 code="bad_option",
                 argument="path",
             )
@@ -85,7 +85,8 @@ class Document(str):
             return own
         how = "open that in a browser and print it to a PDF"
         if self.form != "html":
-            own += f"; to print, write collisions.report(...).save({str(target.with_suffix('.html'))!r})"
+            page = str(target.with_suffix(".html"))
+            own += f"; to print, write collisions.report(...).save({page!r})"
         return f"{own}, {how}"
 
     def _repr_html_(self) -> str | None:

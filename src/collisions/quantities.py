@@ -49,7 +49,7 @@ class Derived(Generic[T]):
             # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
-        # Of several threads that worked it out, the first keeps its own, so that all see one object.
+        # Of several threads that worked it out, the first keeps its own: all see one object.
         return value if kept is None else kept.setdefault(self.name, value)
 
     if TYPE_CHECKING:

@@ -88,8 +88,9 @@ _ROOTS = {
 }
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
 
-# Patterns stay texts until the first unit is read, which compiles them. They match a text in one way at most: where
-# there are several, all are tried before a text is refused, and their number grows with its length.
+# Patterns stay texts until the first unit is read, which compiles them. They match a text in one
+# way at most: where there are several, all are tried before it is refused, and their number grows
+# with its length.
 _NUMBER = r"(?a:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
@@ -117,11 +118,11 @@ _MARKS = {"'": "ft", '"': "in", "''": "in", "#": "lb"}
 _FORCES = {"J", "N*s", "N/m", "N/m**2", "kg*m**2/s"}
 _NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
-# Held while a registry is asked for the first time: pint loads its own at its first use, and a second thread would
-# find it half loaded. What has been read is looked up without it.
+# Held while a registry is asked for the first time: pint loads its own at its first use, and a
+# second thread would find it half loaded. What has been read is looked up without it.
 _first_use = RLock()
-# Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive. A registry that stands
-# in ``_read`` is loaded.
+# Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive. A
+# registry that stands in ``_read`` is loaded.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
 _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
@@ -140,7 +141,8 @@ def to_quantity(value: Any, unit: str) -> Any:
     if registry.non_int_type.__name__ == "Decimal":
         # Such a registry cannot multiply floats. A float is a Decimal exactly.
         value = np.vectorize(registry.non_int_type, otypes=[object])(np.asarray(value, dtype=np.float64))[()]
-    # Not kept among the texts that were read: a caller may not write all units of results, such as 1/s.
+    # Not kept among the texts that were read: callers may not write every unit of a result, such
+    # as 1/s.
     return registry.Quantity(value, _units_of(registry, {}, unit))
 
 
@@ -316,10 +318,10 @@ def parse(text: str, unit: str, argument: str) -> Any:
 
 
 def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
-    """The units that a text names in a registry, kept in ``read``; UnitsError where upper and lower case leave it open.
+    """The units that a text names in a registry, kept in ``read``; UnitsError if it may be several.
 
-    The case of letters counts first also in a registry that passes over it: there "kg" may be kilogauss, and "kN" knots,
-    as the order of a set has it.
+    Upper and lower case count first also in a registry that passes over them: there "kg" may be
+    kilogauss, and "kN" knots, as the order of a set has it.
     """
     units = read.get(name)
     if units is None:
@@ -332,11 +334,9 @@ def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
                 for part in re.findall(_NAME, name):
                     meant = ["".join(found) for found in registry.parse_unit_name(part)]
                     if len(meant) > 1 and part not in registry._units:
-                        raise UnitsError(
-                            f"in this registry, made with case_sensitive=False, {part!r} may be "
-                            f"{' or '.join(sorted(meant))}: write the unit in its own upper and lower case",
-                            code="bad_units",
-                        ) from None
+                        text = f"in this registry, made with case_sensitive=False, {part!r} may be "
+                        text += f"{' or '.join(sorted(meant))}: write it in its own upper and lower case"
+                        raise UnitsError(text, code="bad_units") from None
                 units = registry.parse_units(name, case_sensitive=False)._units
             read[name] = units
     return units
@@ -414,11 +414,13 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
     try:
         wanted = registry.Unit(_units_of(registry, {}, unit))
         # Whole numbers, because a registry may count in Decimal.
-        zero, one, two = (float(registry.Quantity(x, quantity.units).m_as(wanted)) for x in (0, 1, 2))
-        found = one, "" if registry.Quantity(1, quantity.units).unitless else f"{quantity.units}"
+        numbers = [registry.Quantity(number, quantity.units) for number in (0, 1, 2)]
+        zero, one, two = (float(number.m_as(wanted)) for number in numbers)
+        found = one, "" if numbers[1].unitless else f"{quantity.units}"
     except Exception as error:
-        other = "" if registry.case_sensitive else "; its registry, made with case_sensitive=False, may have taken another unit"
-        raise _bad_units(given, unit, argument, error, beside=other) from None
+        other = "; its registry, made with case_sensitive=False, may have taken another unit"
+        beside = "" if registry.case_sensitive else other
+        raise _bad_units(given, unit, argument, error, beside=beside) from None
     if zero != 0.0 or two != 2.0 * one:
         raise _bad_units(given, unit, argument, None)
     if (hint := _out_of_place(quantity, unit, wanted)) or (hint := _ambiguous_unit(quantity)):

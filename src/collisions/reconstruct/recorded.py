@@ -71,10 +71,11 @@ class RecordedPulse(Shown):
 
     @derived()
     def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
-        """Forward and left components as observations for ``posterior``, with errors; as bounds if the pulse is cut short.
+        """Forward and left components as observations for ``posterior``, with errors.
 
-        None stands for a component that was not recorded, and for one of exactly 0 where the pulse is cut short, as it does
-        not say to which side it went on.
+        They are bounds if the pulse is cut short. None stands for a component that was not
+        recorded, and for one of exactly 0 in a pulse cut short, as it does not say to which side
+        it went on.
         """
         return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
 
@@ -135,12 +136,13 @@ def recorded_pulse(
     Parameters
     ----------
     time : array [s], or path of a CSV file
-        Times of the samples, increasing. Or a file whose first row has the heads of the columns, each with its unit in
-        round or square brackets: ``time [ms],longitudinal [km/h],lateral [km/h]``, or as reports write them,
-        ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The columns are found by their heads, in any order; a head that may
-        be two of them, or none, is refused. Commas, semicolons or tabs separate the columns, with the last two a decimal
-        may have a comma. A cell of ``SNA`` is not available: in all of the lateral column, or in the last rows, which are
-        left out.
+        Times of the samples, increasing. Or a file whose first row has the heads of the columns,
+        each with its unit in round or square brackets: ``time [ms],longitudinal [km/h],lateral
+        [km/h]``, or as reports write them, ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The
+        columns are found by their heads, in any order; a head that may be two of them, or none,
+        is refused. Commas, semicolons or tabs separate the columns; with the last two, numbers
+        may have decimal commas. A cell of ``SNA`` is not available: in all of the lateral column,
+        or in the last rows, which are left out.
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}
@@ -180,7 +182,8 @@ def recorded_pulse(
     if isinstance(time, (str, os.PathLike)):
         for name, beside in (("delta_v_forward", delta_v_forward), ("delta_v_left", delta_v_left)):
             if beside is not None:
-                text = f"{name} stands beside the file {shown(os.fspath(time))}, which has it; leave one of them out"
+                file = shown(os.fspath(time))
+                text = f"{name} stands beside the file {file}, which has it; leave one of them out"
                 reader.refuse(InputError(text, code="bad_option", argument=name))
         reader.close()
         read = read_table(reader, os.fspath(time), polarity)
@@ -228,9 +231,9 @@ def _error(value: float) -> float:
 
 
 def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
-    """The reading with the standard deviation of its range; where the record stops early, a bound beyond which it went on.
+    """The reading with the standard deviation of its range; a bound where the record stops early.
 
-    A record that stops early at exactly 0 does not say to which side it went on: there is no evidence in it.
+    Beyond that bound it went on. One of exactly 0 does not say to which side: it is no evidence.
     """
     if value is None or (value == 0.0 and not ended):
         return None

@@ -1,4 +1,4 @@
-"""The table of a recorder's report: columns by their heads, in SI, as CSV with commas, semicolons or tabs."""
+"""The table of a recorder's report: columns by their heads, in SI, from CSV of three kinds."""
 
 from __future__ import annotations
 
@@ -17,17 +17,20 @@ from ..units import shown
 _LARGEST_FILE = 1_000_000  # bytes
 _LONGEST_CELL = 200  # characters
 _EXAMPLE = "time [ms],longitudinal [km/h],lateral [km/h]"
-# By column, its SI unit and the words of a head that name it; a lateral head may also say to which side it is positive.
+# By column, its SI unit and the words of a head that name it. A lateral head may also say to
+# which side it is positive.
 _COLUMNS = {
     "time": ("s", {"time", "t"}),
     "delta_v_forward": ("m/s", {"longitudinal", "long", "forward"}),
     "delta_v_left": ("m/s", {"lateral", "lat", "left", "right"}),
 }
 _CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "lateral"}
-# Words of heads whose numbers are not delta-V as it grows forward, though their unit may be the same.
+# Words of heads whose numbers are not delta-V as it grows forward, though their unit may be the
+# same.
 _OTHERS = {
-    "acceleration", "accel", "angle", "backward", "backwards", "driver", "end", "indicated", "max", "maximum", "maximal",
-    "minus", "neg", "negative", "peak", "rate", "rear", "rearward", "rearwards", "resultant", "total", "vertical", "wheel",
+    "acceleration", "accel", "angle", "backward", "backwards", "driver", "end", "indicated", "max",
+    "maximum", "maximal", "minus", "neg", "negative", "peak", "rate", "rear", "rearward", "rearwards",
+    "resultant", "total", "vertical", "wheel",
 }  # fmt: skip
 _SPEEDS, _CHANGES = {"speed", "v", "velocity"}, {"change", "delta", "dv", "deltav", "δv", "δ"}
 _SIDES = {"49 CFR 563": "right", "ISO 8855": "left"}
@@ -48,7 +51,10 @@ _WITH_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
 
 
 def read_table(reader: ArgumentReader, path: str, polarity: str) -> dict[str, Any]:
-    """Time and delta-V of a file in SI, by argument of ``recorded_pulse``; without a lateral column that has numbers, two."""
+    """Time and delta-V of a file in SI, by argument of ``recorded_pulse``.
+
+    The lateral one is left out where the file has no such column, or none with numbers.
+    """
     try:
         heads, rows, comma = _cells(_text(path))
         columns = _by_name(reader, heads, polarity)
@@ -92,14 +98,14 @@ def _cells(text: str) -> tuple[list[str], list[list[str]], bool]:
         raise ValueError("it is empty")
     for number, row in enumerate([heads, *rows], 1):
         if long := next((cell for cell in row if len(cell) > _LONGEST_CELL), ""):
-            raise ValueError(f"row {number} has a cell of {len(long)} characters, and {_LONGEST_CELL} are the most")
+            raise ValueError(f"row {number} has a cell of {len(long)} characters, and may have {_LONGEST_CELL}")
     # A separator at the end of every line makes a column of nothing.
     while heads and not heads[-1] and all(len(row) < len(heads) or not row[len(heads) - 1] for row in rows):
         heads, rows = heads[:-1], [row[: len(heads) - 1] for row in rows]
     for number, row in enumerate(rows, 2):
         if len(row) != len(heads):
-            quotes = f"a head with {shown(separator)} in it stands in quotes, and nothing above the heads"
-            raise ValueError(f"row {number} has {len(row)} cells under {len(heads)} heads, and needs rows as long; {quotes}")
+            quotes = f"a head with {shown(separator)} stands in quotes, and nothing above the heads"
+            raise ValueError(f"row {number} has {len(row)} cells under {len(heads)} heads; it needs rows as long; {quotes}")
     return heads, rows, separator != ","
 
 
@@ -113,7 +119,7 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
             raise ValueError(f"the head {shown(head)} says {strange[0]!r}, and a column has to be time or cumulative delta-V")
         if len(names) != 1:
             may = " or ".join(_CALLED[name] for name in names) or "neither time, longitudinal nor lateral"
-            raise ValueError(f"the head {shown(head)} may be {may}; each names one, and other columns are left out")
+            raise ValueError(f"the head {shown(head)} may be {may}; each names one, and other columns are to be left out")
         name = names[0]
         if name in found:
             raise ValueError(f"the heads {shown(heads[found[name][0]])} and {shown(head)} are both {_CALLED[name]}")
@@ -123,8 +129,8 @@ def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[st
         if words & {"left", "right"} and sides != {_SIDES[polarity]}:
             says = " or ".join(sorted(sides or words & {"left", "right"}))
             raise ValueError(
-                f"the head {shown(head)} says {says}, and by polarity={polarity!r} lateral is positive to the "
-                f"{_SIDES[polarity]}"
+                f"the head {shown(head)} says {says}, and by polarity={polarity!r} lateral is "
+                f"positive to the {_SIDES[polarity]}"
             )
         found[name] = at, _unit(groups, head, _COLUMNS[name][0])
     if missing := [_CALLED[name] for name in ("time", "delta_v_forward") if name not in found]:
@@ -165,7 +171,10 @@ def _reads(unit: str, wanted: str) -> bool:
 
 
 def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict[str, Any]:
-    """The columns as written, without what the recorder does not have: a whole lateral column, and rows at the end."""
+    """The columns as written, without what the recorder does not have.
+
+    That may be a whole lateral column, and rows at the end.
+    """
     parts = [name for name in places if name != "time"]
     missing = {name: [row[places[name]].lower() in _NOT_AVAILABLE for row in rows] for name in parts}
     if len(parts) == 2 and rows and all(missing["delta_v_left"]):
@@ -177,8 +186,9 @@ def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict
         if True in missing[name][:count]:
             at = missing[name].index(True)
             raise ValueError(
-                f"{_CALLED[name]} is not available in row {at + 2}, and is read only where a whole column, or all of the last "
-                f"rows, are not; leave out the rows or the column that cannot be used"
+                f"{_CALLED[name]} is not available in row {at + 2}, and the table is read only where "
+                f"a whole column, or all of the last rows, are not; leave out the rows or the column "
+                f"that cannot be used"
             )
     cells = {name: [row[places[name]] for row in rows[:count]] for name in ("time", *parts)}
     texts = [cell for column in cells.values() for cell in column]
