@@ -48,6 +48,72 @@ def run(capsys, *arguments):
     return code, found.out, found.err
 
 
+LONG = 100_000
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        "1",
+        " ",
+        "1 ",
+        "1-",
+        "1 - ",
+        "+-",
+        "..",
+        "1 .. 2 (",
+        "%",
+        "a",
+        "a  ",
+        "'",
+        "('a', ",
+        "['",
+        "Normal(",
+        "Normal((",
+        "_",
+        "1_",
+        "{'a': ",
+    ],
+)
+@pytest.mark.parametrize("end", ["", "!"])
+def test_files_with_long_texts_are_refused_at_once(form, end):
+    """Wherever the text stands. 2,000 digits took 47 s, and the time grew with the third power of the length."""
+    text = (form * LONG)[:LONG] + end
+    fit = REAR_END.replace('"80 km/h"', '"70 km/h .. 90 km/h"') + "[fit]\n[fit.observed]\n"
+    for file, said in (
+        (REAR_END.replace("1100 kg", f"1 {text}"), r"is a text of \d+ characters, .* has 200 at most, such as"),
+        (REAR_END + f'point = ["{text}", "1 m"]', "is not known here"),
+        (ECCENTRIC.replace("point = [0, 0]", f'point = ["1 {text}", 0]'), "has 200 at most"),
+        (REAR_END + f'"{text}" = 1\n', "is a key of .* characters"),
+        (REAR_END.replace('"1100 kg"', f'{{ Normal = {{ mean = "{text}", sd = "1 kg" }} }}'), "."),
+        (REAR_END + f"x = {text}\n", "."),
+        (REAR_END + f"{text} = 1\n", "."),
+        (f'{fit}"a.delta_v" = "1 {text}"\n', "has 200 at most"),
+        (f'{fit}"{text}" = "20 km/h +/- 1 km/h"\n', "is a key of .* characters"),
+    ):
+        found = problems(file)
+        assert any(re.search(said, line) for line in found), found
+        assert max(map(len, found)) < 5000
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("40-50 mph", "40 mph .. 50 mph"), ("40 - 50 mph", "40 mph .. 50 mph"), (" 0.4 to 0.7 ", "0.4 .. 0.7"),
+        ("40 mph to 50 mph", "40 mph .. 50 mph"), ("40mph-50mph", "40 mph .. 50 mph"), ("-3.–4. deg", "-3. deg .. 4. deg"),
+        ("40 mph    -    50 mph", "40 mph .. 50 mph"), ("30 deg to 45 \u00b0 ", "30 \u00b0 .. 45 \u00b0"),
+    ],
+)  # fmt: skip
+def test_what_people_write_for_a_range_is_read_for_the_cure(given, meant):
+    (line,) = problems(REAR_END.replace("80 km/h", given))
+    assert f'a range has two dots: write "{meant}"' in line
+
+
+@pytest.mark.parametrize("given", ["1e-5 kg", "1.5e-10", "12 kg*m**2 - 3", "a - b", "3 4 - 5", "\u0661-\u0662 kg"])
+def test_what_is_no_range_is_not_taken_for_one(given):
+    assert not any("a range has two dots" in line for line in problems(REAR_END.replace("80 km/h", given)))
+
+
 def test_forward_gives_what_the_call_gives():
     """The eccentric case of the README, with vx and with speed and course; to the bit."""
     a = col.Vehicle(mass=1500, yaw_inertia=2400, vx="50 km/h", x=-2.0, y=0.4, heading="0 deg")

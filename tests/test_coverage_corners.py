@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions.records import _count
 from collisions.uncertainty import Normal, propagate
 
 A = {"mass": 1500.0, "yaw_inertia": 2400.0, "vx": 13.9, "x": -2.0, "y": 0.4}
@@ -183,3 +184,19 @@ def test_a_key_that_is_no_name_is_refused_in_words(call, code):
     with pytest.raises(col.InputError) as caught:
         call()
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize("text", ["1_0", "\u0661", "2.5"])
+def test_a_number_of_a_record_is_no_text_of_one(text):
+    """int() and numpy read "1_0" as 10; ``to_dict`` does not write numbers so."""
+    record = crash(mass=np.array([1500.0, 1600.0])).to_dict()
+    record["inputs"]["a"]["mass"]["values"][1] = text
+    with pytest.raises(col.InputError, match="in an array is no number"):
+        col.Impact.from_dict(record)
+
+
+@pytest.mark.parametrize("count", ["1_0", "2", 2.5, True])
+def test_a_count_of_a_record_is_a_whole_number(count):
+    for one in (count, {"dtype": "int64", "shape": [1], "values": [count]}):
+        with pytest.raises(col.InputError, match="is no whole number"):
+            _count(one)

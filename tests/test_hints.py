@@ -280,6 +280,47 @@ def test_only_a_page_of_html_is_saved_under_the_name_of_one(form, kind, suffix, 
     assert col.report(impact, figures=False).save(tmp_path / f"v1.2{ending}").is_file()
 
 
+@pytest.mark.parametrize(
+    ("form", "ending", "said"),
+    [
+        ("html", ".pdf", "this page is HTML, not PDF; write save({html!r}), open that in a browser and print it to a PDF"),
+        ("html", ".PDF", "this page is HTML, not PDF; write save({html!r}), open that in a browser and print it to a PDF"),
+        ("html", ".docx", "this page is HTML; write save({html!r})"),
+        ("html", ".md", "this page is HTML, not Markdown; write save({html!r})"),
+        ("html", ".txt", "this page is HTML, not plain text; write save({html!r})"),
+        (
+            "markdown",
+            ".pdf",
+            "this page is Markdown, not PDF; write save({md!r}); to print, write collisions.report(...).save({html!r}), open",
+        ),
+        ("markdown", ".json", "this page is Markdown; write save({md!r})"),
+        (
+            "text",
+            ".pdf",
+            "this page is plain text, not PDF; write save({txt!r}); to print, write collisions.report(...).save({html!r}), open",
+        ),
+        ("text", ".md", "this page is plain text, not Markdown; write save({txt!r})"),
+    ],
+)
+def test_a_page_is_saved_only_under_an_ending_of_its_form(form, ending, said, tmp_path):
+    impact = col.linear_central(A, B, 0.1)
+    pages = [col.explain(impact, form=form)] if form != "html" else []
+    if form == "html":
+        pages = [col.report(impact, figures=False), col.what_if(impact, {"restitution": (0.0, 0.4)})]
+    names = {suffix: str(tmp_path / f"r.{suffix}") for suffix in ("html", "md", "txt")}
+    for page in pages:
+        with pytest.raises(col.InputError, match=re.escape(f"path ends in {ending}, but {said.format(**names)}")) as refused:
+            page.save(tmp_path / f"r{ending}")
+        assert (refused.value.code, refused.value.fields["argument"]) == ("bad_option", "path")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["report", "case 1.2", "Golf vs. Polo", "r.HTM", ".page", "no. 7"])
+def test_names_without_an_ending_of_another_form_stay(name, tmp_path):
+    page = col.report(col.linear_central(A, B, 0.1), figures=False)
+    assert page.save(tmp_path / name).read_text(encoding="utf-8") == page
+
+
 def test_a_vehicle_named_by_its_letter_is_not_named_twice():
     with pytest.raises(col.MissingInputError, match="a has no heading"):
         _ = col.linear_central(A.replace(name="A"), B, 0.1).a.q.pdof

@@ -143,7 +143,8 @@ def test_files(tmp_path):
         ("time,longitudinal\n0,1\n1,2", "unit in brackets"),
         ("time [ms],longitudinal [km/h]\n0,1\n1", "rows as long"),
         ("time [ms],longitudinal [km/h]\n0,x", "could not convert"),
-        ("", "not enough values"),
+        ("", "it is empty"),
+        ("\n \n,,\n", "it is empty"),
     ):
         path.write_text(text, encoding="utf-8")
         with pytest.raises(col.InputError, match=said) as caught:
@@ -154,6 +155,153 @@ def test_files(tmp_path):
         recorded_pulse(path, polarity="49 CFR 563")
     with pytest.raises(col.InputError, match="No such file"):
         recorded_pulse(tmp_path / "none.csv", polarity="49 CFR 563")
+
+
+def written(path, heads, columns, separator=",", **how):
+    """A table of these heads and columns of cells, in a file."""
+    rows = [heads, *(separator.join(cells) for cells in zip(*columns, strict=True))]
+    path.write_bytes("\n".join(rows).encode(how.get("encoding", "utf-8")))
+    return path
+
+
+TIMES, FORWARD, LATERAL = ([f"{value:.2f}" for value in column] for column in (1000 * TIME, -40 * haversine(TIME), 9 * haversine(TIME)))  # fmt: skip
+MPH = 1609.344 / 3600  # exact by definition
+
+
+@pytest.mark.parametrize(
+    ("heads", "order", "separator", "unit"),
+    [
+        ("time [ms],longitudinal [km/h],lateral [km/h]", "tfl", ",", KMH),
+        ("time [ms],lateral [km/h],longitudinal [km/h]", "tlf", ",", KMH),
+        ("lateral [km/h],time [ms],longitudinal [km/h]", "ltf", ",", KMH),
+        ("Time (msec)\tDelta-V, longitudinal (MPH)\tDelta-V, lateral (MPH)", "tfl", "\t", MPH),
+        ('Time (msec),"Delta-V, lateral (MPH)","Delta-V, longitudinal (MPH)"', "tlf", ",", MPH),
+        ("Time (ms);Lateral Delta-V (km/h);Longitudinal Delta-V (km/h)", "tlf", ";", KMH),
+        ("TIME (MSEC);LATERAL VELOCITY CHANGE (KPH);LONGITUDINAL VELOCITY CHANGE (KPH);", "tlf ", ";", KMH),
+        ("Time [ms];\u0394v long. [km/h];\u0394v lat. (positive to the right) [km/h]", "tfl", ";", KMH),
+        ("Time [ms];forward [km/h];positive from left to right [km/h]", "tfl", ";", KMH),
+        ("time_ms [ms];delta_v_longitudinal [m/s];delta_v_lateral [m/sec]", "tfl", ";", 1.0),
+    ],
+)
+@pytest.mark.parametrize("comma", [False, True])
+def test_columns_are_those_of_their_heads(heads, order, separator, unit, comma, tmp_path):
+    """The same numbers under heads in any order, as reports write them; a place in the file says nothing."""
+    if comma and separator == ",":
+        return
+    columns = {"t": TIMES, "f": FORWARD, "l": LATERAL, " ": [""] * len(TIMES)}
+    cells = [[cell.replace(".", ",") if comma else cell for cell in columns[which]] for which in order]
+    for encoding in ("utf-8", "utf-8-sig", "utf-16"):
+        path = written(tmp_path / "pulse.csv", heads, cells, separator, encoding=encoding)
+        pulse = recorded_pulse(path, polarity="49 CFR 563")
+        np.testing.assert_allclose(pulse.time, [float(cell) / 1000 for cell in TIMES], rtol=1e-15)
+        np.testing.assert_allclose(pulse.forward, [unit * float(cell) for cell in FORWARD], rtol=1e-14)
+        np.testing.assert_allclose(pulse.left, [-unit * float(cell) for cell in LATERAL], rtol=1e-14)
+
+
+def test_what_a_recorder_does_not_have(tmp_path):
+    """SNA in all of the lateral column is no lateral column; in the last rows the record is shorter."""
+    heads, none, last = "Time (ms),Longitudinal (km/h),Lateral (km/h)", ["SNA"] * len(TIMES), ["N/A"] * 3
+    path = written(tmp_path / "pulse.csv", heads, [TIMES, FORWARD, none])
+    pulse = recorded_pulse(path, polarity="49 CFR 563")
+    assert (pulse.delta_v_left, pulse.pdof) == (None, None)
+    assert pulse.delta_v_forward == pytest.approx(-40 * KMH, rel=1e-14)
+    for times in (TIMES, TIMES[:-3] + last):
+        path = written(
+            tmp_path / "pulse.csv", heads, [times, FORWARD[:-3] + last, [*LATERAL[:-3], "SNA", "sna", "Not available"]]
+        )
+        assert len(recorded_pulse(path, polarity="49 CFR 563").time) == len(TIME) - 3
+    # A record that is not available to its end stops early.
+    path = written(tmp_path / "pulse.csv", heads, [TIMES, FORWARD[:7] + none[7:], LATERAL[:7] + none[7:]])
+    with pytest.warns(col.OutOfRangeWarning, match=r"stops at 0\.06 s"):
+        assert not recorded_pulse(path, polarity="49 CFR 563").ended
+
+
+# Heads or cells, and what the refusal says of them.
+TABLES = [
+    ("time [ms],lateral [km/h]", "0,1\n10,2", "no column whose head says 'longitudinal'"),
+    ("time [ms],delta-V [km/h]", "0,1\n10,2", r"'delta-V \[km/h\]' may be neither time, longitudinal nor lateral"),
+    ("sample [ms],longitudinal [km/h]", "0,1\n10,2", "may be neither"),
+    ("time [ms],longitudinal [km/h],longitudinal [mph]", "0,1,2\n10,2,3", "are both longitudinal"),
+    ("time [ms],longitudinal lateral [km/h]", "0,1\n10,2", "may be longitudinal or lateral"),
+    ("time [ms],time, longitudinal [km/h]", "0,1,2\n10,2,3", "are both time"),
+    ("time [ms],longitudinal speed [km/h]", "0,1\n10,2", "says 'speed'"),
+    ("time [ms],longitudinal velocity [km/h]", "0,1\n10,2", "says 'velocity'"),
+    ("time [ms],v longitudinal [km/h]", "0,1\n10,2", "says 'v'"),
+    ("time [ms],max delta-V longitudinal [km/h]", "0,1\n10,2", "says 'max'"),
+    ("time [ms],longitudinal [km/h],resultant [km/h]", "0,1,2\n10,2,3", "says 'resultant'"),
+    ("time [ms],longitudinal (positive rearward) [km/h]", "0,1\n10,2", "says 'rearward'"),
+    ("time [ms],longitudinal [km/h],lateral (positive left) [km/h]", "0,1,2\n10,2,3", "positive to the right"),
+    ("time [ms],longitudinal [km/h],left [km/h]", "0,1,2\n10,2,3", "says left, and by polarity='49 CFR 563'"),
+    ("time [ms],longitudinal [km/h],lateral left/right [km/h]", "0,1,2\n10,2,3", "says left or right"),
+    ("time [ms],longitudinal [km/h],lateral (negative left) [km/h]", "0,1,2\n10,2,3", "says 'negative'"),
+    ("time [ms],longitudinal (MPH [km/h])", "0,1\n10,2", "has two units"),
+    ("time [ms],longitudinal (MPH) [km/h]", "0,1\n10,2", "has two units"),
+    ("time [ms],longitudinal", "0,1\n10,2", "has no unit"),
+    ("Crash pulse\ntime [ms],longitudinal [km/h]", "0,1\n10,2", "nothing above the heads"),
+    ("time (msec),Delta-V, longitudinal (MPH)", "0,1\n10,2", "stands in quotes"),
+    ("time [ms],longitudinal [km/h]", "0,1_0\n10,2_0", "could not convert '1_0' in row 2"),
+    ("time [ms],longitudinal [km/h]", "0,\u0661\n10,\u0662", "could not convert '\u0661' in row 2"),
+    ("time [ms],longitudinal [km/h]", "0,\uff11\n10,\uff12", "could not convert"),
+    ("time [ms],longitudinal [km/h]", "0,infinity\n10,2", "could not convert"),
+    ("time [ms],longitudinal [km/h]", "0,0x1\n10,2", "could not convert"),
+    ("time [ms],longitudinal [km/h]", "0,\n10,2", "could not convert ''"),
+    ("time [ms],longitudinal [km/h]", "0,\u22121\n10,2", "could not convert"),
+    ("time [ms];longitudinal [km/h]", "0;-1,5\n10;-2.5", "has a decimal comma and '-2.5' a point"),
+    ("time [ms],longitudinal [km/h]", '0,"-1,5"\n10,"-2,5"', "semicolons or tabs"),
+    ("time [ms],longitudinal [km/h]", "0,1\n10,SNA\n20,2", "longitudinal is not available in row 3"),
+    ("time [ms],longitudinal [km/h],lateral [km/h]", "0,1,1\n10,2,SNA", "lateral is not available in row 3"),
+    ("time [ms],longitudinal [km/h]", "SNA,0\n10,1", "could not convert 'SNA'"),
+    ("time [ms],longitudinal [km/h]", "0," + "1" * 200_000, "it is no table \\(field larger than field limit"),
+    ("time [ms],longitudinal [km/h]", "0," + "1" * 1_000, "row 2 has a cell of 1000 characters"),
+    ("time [ms],longitudinal [km/h]", '0,"1', "it is no table"),
+    ("time [ms],longitudinal [km/h]", '0,"1"2', "it is no table"),
+    ("time [ms],longitudinal [km/h]", "0,1\0", "holds NUL characters"),
+    ("time [ms],longitudinal [km/h]", "0,1\n" * 300_000, "larger than 1 MB"),
+]
+
+
+@pytest.mark.parametrize(("heads", "cells", "said"), TABLES, ids=[f"{i}" for i in range(len(TABLES))])
+def test_tables_that_say_something_else_are_refused(heads, cells, said, tmp_path):
+    path = tmp_path / "pulse.csv"
+    path.write_text(f"{heads}\n{cells}", encoding="utf-8", newline="")
+    with pytest.raises(col.InputError, match=said) as caught:
+        recorded_pulse(path, polarity="49 CFR 563")
+    assert (caught.value.code, caught.value.fields["argument"]) == ("bad_file", "time")
+    assert "write time [ms],longitudinal [km/h],lateral [km/h], or give arrays" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "data", [b"time [ms],longitudinal [km/h] \xe9\n0,1", b"\xff\xfet\x00i", b"\x00" * 50, bytes(range(256))]
+)
+def test_files_that_are_no_text_are_refused(data, tmp_path):
+    path = tmp_path / "pulse.csv"
+    path.write_bytes(data)
+    with pytest.raises(col.InputError) as caught:
+        recorded_pulse(path, polarity="49 CFR 563")
+    assert caught.value.code == "bad_file"
+
+
+def test_a_file_has_its_delta_v(tmp_path):
+    path = written(tmp_path / "pulse.csv", "time [ms],longitudinal [km/h]", [TIMES, FORWARD])
+    for name in ("delta_v_forward", "delta_v_left"):
+        with pytest.raises(col.InputError, match=f"{name} stands beside the file") as caught:
+            recorded_pulse(path, **{name: SHAPE}, polarity="49 CFR 563")
+        assert caught.value.fields["argument"] == name
+
+
+def test_a_cut_record_of_exactly_0_says_nothing_of_the_side():
+    """A bound at 0 would assert one of the sides."""
+    time = TIME[TIME <= 0.0601]
+    for zero in (0.0, -0.0):
+        with pytest.warns(col.OutOfRangeWarning):
+            pulse = recorded_pulse(time, -40 * KMH * haversine(time), zero * time, polarity="49 CFR 563")
+        assert pulse.evidence[0].high == pulse.delta_v_forward
+        assert pulse.evidence[1] is None
+    with pytest.warns(col.OutOfRangeWarning):
+        assert recorded_pulse(time, 0.0 * time, -40 * KMH * haversine(time), polarity="ISO 8855").evidence[0] is None
+    # One that has ended there says that it is 0, to its error.
+    whole = recorded_pulse(TIME, -40 * KMH * haversine(TIME), 0.0 * TIME, polarity="49 CFR 563")
+    assert (whole.evidence[1].mean, whole.evidence[1].sd) == (0.0, pytest.approx(0.5 * KMH / math.sqrt(3), rel=1e-14))
 
 
 SHAPE = -10 * haversine(TIME)

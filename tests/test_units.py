@@ -1,7 +1,9 @@
 """The reader: every unit trap found while designing, each with its own test."""
 
 import contextlib
+import json
 import math
+import os
 import pickle
 import subprocess
 import sys
@@ -14,6 +16,7 @@ import pint
 import pytest
 
 import collisions as col
+from collisions import travel, uncertainty
 from collisions.quantities import unit_of
 from collisions.uncertainty.model import read_input
 from collisions.units import si_unit
@@ -246,6 +249,77 @@ def test_an_application_registry_that_counts_in_decimal(decimal_registry):
     assert col.uncertainty.Normal("90 km/h", "9 km/h").mean == 25.0
     assert math.isinf(col.Vehicle.barrier().q.mass.magnitude)
     assert "mph" in col.explain(impact, units="us")
+
+
+IN_ANY_CASE = """
+import json, pint, collisions as col
+pint.set_application_registry(pint.UnitRegistry(case_sensitive=False))
+texts = json.loads(input())
+a = col.Vehicle(**texts)
+found = [a.mass, a.vx, a.x, a.y, a.yaw_inertia, a.heading]
+impact = col.linear_central(a, col.Vehicle(mass="1200 kg", x="3 m"), 0.1)
+found += [str(impact.q.energy_loss.to("kJ").units), str(a.q.mass.units), str(a.q.vx.units), str(impact.summary(units="us"))]
+for text in ("1500 KG", "3000 LB"):
+    try:
+        found.append(col.Vehicle(mass=text).mass)
+    except col.UnitsError as error:
+        found.append(str(error))
+print(json.dumps(found))
+"""
+
+
+@pytest.mark.parametrize("seed", ["1", "2", "3"])
+def test_a_registry_that_passes_over_upper_and_lower_case(seed):
+    """What is written in its own case is that unit; sets of names, in an order of chance, made "kg" kilogauss."""
+    texts = {"mass": "3000 lb", "vx": "40 km/h", "x": "7 cm", "y": "7 mm", "yaw_inertia": "2000 kg*m**2", "heading": "90 deg"}
+    done = subprocess.run(
+        [sys.executable, "-c", IN_ANY_CASE],
+        input=json.dumps(texts), capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONHASHSEED": seed},
+    )  # fmt: skip
+    *numbers, joule, kilogram, speed, summary, capitals, pounds = json.loads(done.stdout)
+    plain = col.Vehicle(**texts)
+    assert numbers == [plain.mass, plain.vx, plain.x, plain.y, plain.yaw_inertia, plain.heading]
+    assert (joule, kilogram, speed) == ("kilojoule", "kilogram", "meter / second")
+    assert summary == str(col.linear_central(plain, col.Vehicle(mass="1200 kg", x="3 m"), 0.1).summary(units="us"))
+    # Capitals may be more than one unit, which is said, or one only.
+    assert "'1500 KG' cannot be taken as kg; 'KG' is written 'kg'" in capitals
+    assert pounds == plain.mass
+
+
+def test_a_quantity_whose_registry_took_its_unit_for_another():
+    registry = pint.UnitRegistry(case_sensitive=False)
+    quantity = registry.Quantity(1500, registry.parse_units("kilogauss"))
+    with pytest.raises(col.UnitsError, match="its registry, made with case_sensitive=False, may have taken another unit"):
+        col.Vehicle(mass=quantity)
+
+
+@pytest.mark.parametrize("count", [50, 100_000])
+@pytest.mark.parametrize("form", ["1", "1!", "1 ", "1 a  ", "a  ", "1,", "1-", "1.", "1e", "'", "(a ", "a/", "°", "[", "1'"])
+def test_texts_of_any_length_are_refused_at_once(form, count):
+    """A pattern that matches in many ways tries them all: 60 letters and spaces took a second, 100,000 digits days."""
+    for text in ((form * count)[:count] + "!", "1 " + (form * count)[:count] + "!"):
+        with pytest.raises(col.UnitsError, match="mass: cannot read"):
+            col.Vehicle(mass=text)
+        with pytest.raises(col.InputError):
+            uncertainty.Normal(text, text)
+        with pytest.raises(col.UnitsError):
+            travel.speed("20 m", drag=text)
+
+
+@pytest.mark.parametrize("text", ["1_0 kg", "\u0661\u0662 kg", "\uff11 kg", "1_000", "\u0661,\u0665 kg", "1\u00b2 kg"])
+def test_digits_that_python_alone_reads_are_no_number(text):
+    """float() reads 1_0 as 10, and the digits of other scripts; nobody who types them means that here."""
+    for call in (
+        lambda: col.Vehicle(mass=text),
+        lambda: uncertainty.Normal(text, "1 kg"),
+        lambda: travel.speed("20 m", drag=text),
+        lambda: travel.speed(["20 m"], drag=[text]),
+        lambda: col.linear_central(col.Vehicle(mass=1.0, vx=1.0), col.Vehicle(mass=1.0), text),
+    ):
+        with pytest.raises(col.InputError) as refused:
+            call()
+        assert "\u0661.\u0665" not in str(refused.value)
 
 
 @pytest.mark.slow

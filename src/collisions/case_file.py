@@ -49,10 +49,14 @@ SEVERAL = ("Pair", "Impulse", "Segments", "Sequence[Input]", "tuple")
 _PROPAGATE, _POSTERIOR = {"method": "quasi_random", "seed": 0}, {"seed": 0}
 _UNCERTAIN = re.compile(r"(.*?)(\+/?-|±|\.\.)(.*?)(?:\(([^()]*%)\s*\))?", re.DOTALL)
 # What people write for a range: "40-50 mph", "0.4 to 0.7".
-_RANGE = re.compile(r"\s*(-?\d+\.?\d*)\s*((?![eE]-)[^\d\s*^]*?)\s*(?:-|–|to)\s*(\d+\.?\d*)\s*([a-zA-Z°%].*?)?\s*")
-_TOO_MANY = re.compile(r"\d[\d_]{4300}")  # digits in a row, which Python does not read
+_END = r"[0-9]+(?:\.[0-9]*)?"
+_RANGE = re.compile(rf"(-?{_END})\s*(?:(?![eE]-)[^\d\s*^]+?\s*)?(?:-|–|to)\s*({_END})\s*([a-zA-Z°%].*)?", re.DOTALL)
+_TOO_MANY = re.compile(r"(?<![\d_])\d[\d_]{4300}")  # digits in a row, which Python does not read
 _PAIR = '["1.2 m", "-0.4 m"]'
 _LARGEST_FILE = 1_000_000  # bytes
+# Characters of a text that stands for a number, a range with its percentage at most, and of a key.
+_LONGEST_TEXT = 200
+_LONGEST_MESSAGE = 4000  # of one problem; what it quotes is shorter, but it may quote much
 
 
 class CaseError(Exception):
@@ -60,11 +64,17 @@ class CaseError(Exception):
 
     def __init__(self, *problems: tuple[str, str], refused: bool = False, code: str = "bad_case") -> None:
         self.problems = [
-            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split())) for key, text in problems
+            (re.sub(r"\['(.*?)'\]", r'."\1"', key), " ".join(in_file_words(text).split()))
+            for key, text in ([_cut(part, _LONGEST_MESSAGE) for part in problem] for problem in problems)
         ]
         self.refused = refused
         self.code = code
         super().__init__("; ".join(f"{key}: {text}" for key, text in self.problems))
+
+
+def _cut(text: str, longest: int) -> str:
+    """A text of so many characters at most."""
+    return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
 @dataclass(frozen=True)
@@ -172,6 +182,7 @@ def _float(text: str) -> float:
 
 def _not_toml(text: str, error: str) -> tuple[str, str]:
     """The key of a text that is not TOML, and what is wrong with it, with the line and what to write."""
+    error = _cut(error, _LONGEST_MESSAGE // 4)  # it may name a key of any length
     at, lines = re.search(r"at line (\d+)", error), re.split(r"\r\n|\n|\r(?!\n)", text)
     number = int(at[1]) - 1 if at else next((i for i, line in enumerate(lines) if _TOO_MANY.search(line)), 0)
     line = lines[number].strip() if number < len(lines) else ""
@@ -193,7 +204,8 @@ def _not_toml(text: str, error: str) -> tuple[str, str]:
     elif key and equals and re.fullmatch(r"[^\"'\[{]+", value):
         cure = f'write {key} = "{value}", with every text in quotes'
     error = re.sub(r"\(('[^()]*),?\)", lambda name: "[" + ".".join(re.findall(r"'(.*?)'", name[1])) + "]", error)
-    return f"{table}.{key}".strip(".") if equals and key else "", f"is not TOML: {error}, {as_in_file(line)}; {cure}"
+    where = _cut(f"{table}.{key}".strip("."), _LONGEST_TEXT) if equals and key else ""
+    return where, f"is not TOML: {error}, {as_in_file(line)}; {_cut(cure, _LONGEST_TEXT)}"
 
 
 @cache
@@ -301,6 +313,11 @@ class _Reader:
                     f"{key}.answer", f"stands inside the table [{key}]; move this line above the first table of the file"
                 )
             parts = {name: part for name, part in node.items() if name != "answer" or not key}
+            for name in [name for name in parts if len(name) > _LONGEST_TEXT]:
+                del parts[name]
+                short = f"{key}.{_cut(name, 40)}".lstrip(".")
+                most = f"a key has {_LONGEST_TEXT} at most, write its name"
+                self.refuse(short, f"is a key of {len(name)} characters; {most}")
             return {name: self.plain(part, f"{key}.{name}".lstrip(".")) for name, part in parts.items()}
         if isinstance(node, list):
             return tuple(self.plain(part, f"{key}[{at}]") for at, part in enumerate(node))
@@ -418,12 +435,23 @@ class _Reader:
             if any(name in kind for name in SEVERAL):
                 return tuple(self.value(f"{key}[{at}]", part, "Input") for at, part in enumerate(value))
             self.refuse(key, f"takes one value, got {as_in_file(value)}; write a file for each case")
+        elif isinstance(value, str) and not self.fits(key, value):
+            return None
         elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             return self.stated(key, Call(key, stated, {"text": value}))
-        elif isinstance(value, str) and (found := _RANGE.fullmatch(value)):
-            low, high = (f"{found[at]} {found[4] or ''}".strip() for at in (1, 3))
+        elif isinstance(value, str) and (found := _RANGE.fullmatch(value.strip())):
+            low, high = (f"{found[at]} {found[3] or ''}".strip() for at in (1, 2))
             self.refuse(key, f'cannot read {as_in_file(value)}; a range has two dots: write "{low} .. {high}"')
         return value
+
+    def fits(self, key: str, text: str) -> bool:
+        """Whether a text is short enough for a number; refused if it is not."""
+        if len(text) > _LONGEST_TEXT:
+            cure = 'such as "80 km/h", "50 km/h +/- 3 km/h" or "0.4 .. 0.7 (95 %)"'
+            limit = f"a number with its unit, or a range, has {_LONGEST_TEXT} at most, {cure}"
+            start = as_in_file(_cut(text, 40))
+            self.refuse(key, f"is a text of {len(text)} characters, {start}; {limit}")
+        return len(text) <= _LONGEST_TEXT
 
     def function(self, key: str, table: Any) -> Any:
         """The result of the function that a table names in place of a number."""
@@ -488,7 +516,9 @@ class _Reader:
     def _observed(self, key: str, value: Any) -> Any:
         """A measured value with its error, or bounds of it: a text, a table that names what it is, or a pair."""
         found = value
-        if isinstance(value, str) and _UNCERTAIN.fullmatch(value):
+        if isinstance(value, str) and not self.fits(key, value):
+            found = None
+        elif isinstance(value, str) and _UNCERTAIN.fullmatch(value):
             # For an observation, two dots say that it lies between, not how probable each place is.
             found = self.stated(key, Call(key, stated, {"text": value, "bounds": uncertainty.Interval}))
         elif isinstance(value, dict) and not value.keys() & {name.partition(".")[0] for name in FUNCTIONS}:

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from .errors import InputError
+
+# By form: what it is called, and the endings of its files, of which the first is the usual one.
+_FORMS = {
+    "html": ("HTML", (".html", ".htm")),
+    "markdown": ("Markdown", (".md", ".markdown", ".txt")),
+    "text": ("plain text", (".txt", ".text")),
+}
+# What follows the last point of a name, if it is an ending: not in "case 1.2" or "Golf vs. Polo".
+_ENDING = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,7}")
 
 
 class Document(str):
@@ -32,7 +42,9 @@ class Document(str):
         Parameters
         ----------
         path : str or path
-            An existing file is replaced. Only a page of HTML may have a name that ends in .html or .htm.
+            An existing file is replaced. The ending of its name has to be one of the form of the
+            page: .html or .htm of HTML, .md, .markdown or .txt of Markdown, .txt or .text of
+            plain text; or there is none. For a PDF save HTML, open it in a browser and print it.
 
         Returns
         -------
@@ -41,16 +53,17 @@ class Document(str):
         Raises
         ------
         InputError
-            The name is that of a page of HTML, and this page is not one.
+            The name ends as that of another form does.
         OSError
             The file cannot be written.
         """
         target = Path(path)
-        kind, suffix = {"html": ("HTML", ".html"), "markdown": ("Markdown", ".md")}.get(self.form, ("plain text", ".txt"))
-        if self.form != "html" and target.suffix.lower() in (".html", ".htm"):
-            instead = str(target.with_suffix(suffix))
+        kind, endings = _FORMS[self.form]
+        suffix = endings[0]
+        ending = target.suffix.lower()
+        if ending not in endings and _ENDING.fullmatch(ending):
             raise InputError(
-                f"path ends in {target.suffix}, but this page is {kind}, not HTML; write save({instead!r})",
+                f"path ends in {target.suffix}, but this page is {kind}{_not_as(ending)}; " + self._instead(target),
                 code="bad_option",
                 argument="path",
             )
@@ -65,6 +78,17 @@ class Document(str):
             raise IsADirectoryError(error.errno, text, str(target)) from None
         return target
 
+    def _instead(self, target: Path) -> str:
+        """What to write in place of a path whose ending is that of another form."""
+        own = f"write save({str(target.with_suffix(_FORMS[self.form][1][0]))!r})"
+        if target.suffix.lower() != ".pdf":
+            return own
+        how = "open that in a browser and print it to a PDF"
+        if self.form != "html":
+            page = str(target.with_suffix(".html"))
+            own += f"; to print, write collisions.report(...).save({page!r})"
+        return f"{own}, {how}"
+
     def _repr_html_(self) -> str | None:
         # In a frame: the page has a style of its own, which is not that of the notebook.
         if self.form != "html":
@@ -76,3 +100,9 @@ class Document(str):
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         printer.text(str(self))
+
+
+def _not_as(ending: str) -> str:
+    """What a page with this ending would be; "" for an ending that is not known."""
+    kinds = {".pdf": "PDF"} | {one: kind for kind, endings in _FORMS.values() for one in endings}
+    return f", not {kinds[ending]}" if ending in kinds else ""

@@ -179,7 +179,9 @@ def decimals_of(kind: str, system: str) -> int | None:
 def scale_of(kind: str, system: str) -> float:
     """The factor from SI to the unit of this kind."""
     inside, label = SI_UNITS[kind], unit_of(kind, system)
-    return 1.0 if inside == label else float(to_quantity(1.0, inside).m_as(label))
+    if inside == label:
+        return 1.0
+    return float(to_quantity(1.0, inside).m_as(to_quantity(1.0, label).units))
 
 
 def check_system(units: Any) -> None:

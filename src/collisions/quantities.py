@@ -49,9 +49,8 @@ class Derived(Generic[T]):
             # Refused cases are NaN or infinite; numpy need not warn of them again.
             with np.errstate(all="ignore"):
                 value = lock(self.work_out(owner))
-        if kept is not None:
-            kept[self.name] = value
-        return value
+        # Of several threads that worked it out, the first keeps its own: all see one object.
+        return value if kept is None else kept.setdefault(self.name, value)
 
     if TYPE_CHECKING:
         # ``Never`` has no values, so type checkers refuse every assignment.

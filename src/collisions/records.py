@@ -318,8 +318,13 @@ def strict(value: Any) -> Any:
 def _count(value: Any) -> Any:
     """An integer, or a batch of them, as ``strict`` wrote it."""
     if isinstance(value, Mapping):
-        return lock(np.array([int(count) for count in value["values"]], dtype=np.int64).reshape(value["shape"]))
-    return math.inf if value == "inf" else int(value)
+        counts = [_count(count) for count in value["values"]]
+        return lock(np.array(counts, dtype=np.int64).reshape(value["shape"]))
+    if value == "inf":
+        return math.inf
+    if type(value) is not int:  # int() would read "1_0" as 10, and cut 2.7 to 2
+        raise bad_record(f"{shown(value)} is no whole number")
+    return value
 
 
 def _read(value: Any) -> Any:
@@ -330,5 +335,8 @@ def _read(value: Any) -> Any:
         if value["dtype"] not in ("float32", "float64"):
             raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
         numbers = [_read(part) for part in value["values"]]
+        # numpy would read the text "1_0" as 10
+        if texts := [part for part in numbers if isinstance(part, str)]:
+            raise bad_record(f"{shown(texts[0])} in an array is no number")
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
     return _INFINITIES.get(value, value) if isinstance(value, str) else value

@@ -9,6 +9,7 @@ import math
 import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from weakref import WeakKeyDictionary
 
@@ -87,12 +88,14 @@ _ROOTS = {
 }
 _SPOKEN_PROPORTIONS = frozenset({"percent", "permille", "ppm"})
 
-# Patterns stay texts until the first unit is read, which compiles them.
-_NUMBER = r"(?a:[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
+# Patterns stay texts until the first unit is read, which compiles them. They match a text in one
+# way at most: where there are several, all are tried before it is refused, and their number grows
+# with its length.
+_NUMBER = r"(?a:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
-_UNIT = rf"\(*{_NAME}{_POWER}\)*(?:\s*(?:/|\*(?!\*)|·|\s)\s*\(*{_NAME}{_POWER}\)*)*"
-_WITH_COMMA = r"[+-]?\d[\d,]*,\d"
+_UNIT = rf"\(*{_NAME}{_POWER}\)*(?:(?:\s*(?:/|\*(?!\*)|·)\s*|\s+)\(*{_NAME}{_POWER}\)*)*"
+_WITH_COMMA = r"(?a:[+-]?\d[\d,]*,\d)"
 _LONGEST_TEXT = 60
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 # Names that mean one thing to pint, or to one version of it, and another to their users.
@@ -115,7 +118,11 @@ _MARKS = {"'": "ft", '"': "in", "''": "in", "#": "lb"}
 _FORCES = {"J", "N*s", "N/m", "N/m**2", "kg*m**2/s"}
 _NEVER_PREFIXED = {"metric_ton", "force_kilogram"}  # "mt" as milli-tonne; the kilopond of older versions of pint, 1000 kgf
 
-# Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive.
+# Held while a registry is asked for the first time: pint loads its own at its first use, and a
+# second thread would find it half loaded. What has been read is looked up without it.
+_first_use = RLock()
+# Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive. A
+# registry that stands in ``_read`` is loaded.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
 _known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
 
@@ -130,11 +137,13 @@ def to_quantity(value: Any, unit: str) -> Any:
     """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's own; pairs part by part."""
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
-    registry = _registry()
+    registry, _ = _registry()
     if registry.non_int_type.__name__ == "Decimal":
         # Such a registry cannot multiply floats. A float is a Decimal exactly.
         value = np.vectorize(registry.non_int_type, otypes=[object])(np.asarray(value, dtype=np.float64))[()]
-    return registry.Quantity(value, unit or "dimensionless")
+    # Not kept among the texts that were read: callers may not write every unit of a result, such
+    # as 1/s.
+    return registry.Quantity(value, _units_of(registry, {}, unit))
 
 
 def magnitude(quantity: Any) -> Any:
@@ -287,8 +296,7 @@ def parse(text: str, unit: str, argument: str) -> Any:
     stripped = text.strip()
     number = re.match(_NUMBER, stripped) if len(stripped) <= _LONGEST_TEXT else None
     name = stripped[number.end() :].strip() if number else ""
-    registry = _registry()
-    read = _read.setdefault(registry.get(), {})
+    registry, read = _registry()
     readable = (name in read or re.fullmatch(_UNIT, name)) if name else not unit
     if number is None or not readable:
         how = "one plain number and one unit" if unit else "one plain number"
@@ -302,26 +310,52 @@ def parse(text: str, unit: str, argument: str) -> Any:
     if math.isinf(value) and "inf" not in number.group():
         raise InputError(f"{argument} is too large: {shown(text)}", code="out_of_range", argument=argument)
     try:
-        units = read.get(name)
-        if units is None:
-            units = read[name] = registry.parse_units(name)._units
-        return registry.Quantity(value, units)
+        return registry.Quantity(value, _units_of(registry, read, name))
+    except UnitsError as error:
+        raise _bad_units(text, unit, argument, None, f"; {error}") from None
     except Exception as error:
         raise _bad_units(text, unit, argument, error) from None
 
 
+def _units_of(registry: Any, read: dict[str, Any], name: str) -> Any:
+    """The units that a text names in a registry, kept in ``read``; UnitsError if it may be several.
+
+    Upper and lower case count first also in a registry that passes over them: there "kg" may be
+    kilogauss, and "kN" knots, as the order of a set has it.
+    """
+    units = read.get(name)
+    if units is None:
+        with _first_use:
+            try:
+                units = registry.parse_units(name, case_sensitive=True)._units
+            except Exception:
+                if registry.case_sensitive:
+                    raise
+                for part in re.findall(_NAME, name):
+                    meant = ["".join(found) for found in registry.parse_unit_name(part)]
+                    if len(meant) > 1 and part not in registry._units:
+                        text = f"in this registry, made with case_sensitive=False, {part!r} may be "
+                        text += f"{' or '.join(sorted(meant))}: write it in its own upper and lower case"
+                        raise UnitsError(text, code="bad_units") from None
+                units = registry.parse_units(name, case_sensitive=False)._units
+            read[name] = units
+    return units
+
+
 def _cure(text: str, unit: str) -> str:
     """The hint for a text that is nearly one number and one unit; "" for others."""
-    if re.match(r"\[[\[\s]*(?:[-+.]?\d|nan\b|[-+]?inf\b)", text):
+    if re.match(r"\[[\[\s]*(?:[-+.]?[0-9]|nan\b|[-+]?inf\b)", text):
         return (
             ": this is a printed array. A model of propagate is called with arrays of cases, and the unit belongs in the "
             "distribution, Normal('30 mph', '2 mph')"
         )
+    if len(text) > _LONGEST_TEXT:
+        return f": a text of {len(text)} characters is no number"
     if unit == "rad" and re.match(r"(north|south|east|west|[ns] ?\d|[nsew]{1,3}$)", text.lower()):
         return ": angles are counted from the x axis, counter-clockwise; with x to the east, north is '90 deg'"
     if mark := re.fullmatch(rf"({_NUMBER})\s*('|\"|''|#|\w+\.)", text):
         return f", {f'{mark[1]} {_MARKS.get(mark[2]) or mark[2][:-1]}'!r} can be read"
-    feet = re.fullmatch(r"""(\d+)\s*(?:'|ft|feet)\s*(\d+(?:\.\d+)?)\s*(?:"|''|in|inch|inches)""", text)
+    feet = re.fullmatch(r"""([0-9]+)\s*(?:'|ft|feet)\s*([0-9]+(?:\.[0-9]+)?)\s*(?:"|''|in|inch|inches)""", text)
     if feet:
         return f": feet and inches are two numbers, '{int(feet[1]) + float(feet[2]) / 12.0:.6g} ft' is one"
     if re.match(_WITH_COMMA, text):
@@ -343,7 +377,7 @@ def without_commas(text: str) -> list[str]:
     text = text.strip()
     if not re.match(_WITH_COMMA, text):
         return []
-    whole = [text.replace(",", "")] if re.match(r"[+-]?\d{1,3}(,\d{3})+(?!\d)", text) else []
+    whole = [text.replace(",", "")] if re.match(r"(?a:[+-]?\d{1,3}(,\d{3})+(?!\d))", text) else []
     return whole + ([text.replace(",", ".")] if text.count(",") == 1 and "." not in text else [])
 
 
@@ -361,24 +395,36 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
     registry = quantity._REGISTRY
     known = _known.get(registry)
     if known is None:
-        known = _known[registry] = {}
+        known = _known.setdefault(registry, {})
     key = (quantity._units, unit)
     found = known.get(key)
     # An active context may give a unit another meaning until it ends, so nothing is kept of it.
     in_context = bool(getattr(getattr(registry, "_active_ctx", None), "contexts", ()))
     if found is None or in_context:
-        try:
-            # Whole numbers, because a registry may count in Decimal.
-            zero, one, two = (float(registry.Quantity(x, quantity.units).m_as(unit or "dimensionless")) for x in (0, 1, 2))
-            found = one, "" if registry.Quantity(1, quantity.units).unitless else f"{quantity.units}"
-        except Exception as error:
-            raise _bad_units(given, unit, argument, error) from None
-        if zero != 0.0 or two != 2.0 * one:
-            raise _bad_units(given, unit, argument, None)
-        if (hint := _out_of_place(quantity, unit)) or (hint := _ambiguous_unit(quantity)):
-            raise _bad_units(given, unit, argument, None, hint)
+        with _first_use:
+            found = _factor(quantity, unit, argument, given)
         if not in_context:
             known[key] = found
+    return found
+
+
+def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, str]:
+    """The factor to SI and the unit's name, as pint finds them."""
+    registry = quantity._REGISTRY
+    try:
+        wanted = registry.Unit(_units_of(registry, {}, unit))
+        # Whole numbers, because a registry may count in Decimal.
+        numbers = [registry.Quantity(number, quantity.units) for number in (0, 1, 2)]
+        zero, one, two = (float(number.m_as(wanted)) for number in numbers)
+        found = one, "" if numbers[1].unitless else f"{quantity.units}"
+    except Exception as error:
+        other = "; its registry, made with case_sensitive=False, may have taken another unit"
+        beside = "" if registry.case_sensitive else other
+        raise _bad_units(given, unit, argument, error, beside=beside) from None
+    if zero != 0.0 or two != 2.0 * one:
+        raise _bad_units(given, unit, argument, None)
+    if (hint := _out_of_place(quantity, unit, wanted)) or (hint := _ambiguous_unit(quantity)):
+        raise _bad_units(given, unit, argument, None, hint)
     return found
 
 
@@ -396,7 +442,7 @@ def example(unit: str) -> str:
     return _EXAMPLES.get(unit) or f"'1 {unit}'"
 
 
-def _out_of_place(quantity: Any, unit: str) -> str:
+def _out_of_place(quantity: Any, unit: str, units_of_it: Any) -> str:
     """The hint for an angle, a proportion or a count that has no place in the wanted unit; "" without one.
 
     To pint they are numbers, by which it multiplies: "5 m/s/deg" would be 286 m/s, and 4 %*% would be 0.0004.
@@ -405,7 +451,7 @@ def _out_of_place(quantity: Any, unit: str) -> str:
     units = {str(name): power for name, power in quantity._units.items()}
     if unit == "" and units in [{name: 1} for name in _SPOKEN_PROPORTIONS]:
         return ""
-    wanted = _radians(registry, unit or "dimensionless")
+    wanted = _radians(registry, units_of_it)
     angles = {name: turned * power for name, power in units.items() if (turned := _radians(registry, name))}
     strange = [] if wanted and list(angles.values()) == [wanted] else list(angles)
     strange += [name for name in units if _is_count(registry, name) or (unit == "" and registry.Unit(name).dimensionless)]
@@ -414,7 +460,7 @@ def _out_of_place(quantity: Any, unit: str) -> str:
     return f"; {strange[0]} has no place in it, though pint takes it for a number" if strange else ""
 
 
-def _radians(registry: Any, unit: str) -> Any:
+def _radians(registry: Any, unit: Any) -> Any:
     """The power of an angle in a unit."""
     return registry.get_root_units(unit)[1]._units.get("radian", 0)
 
@@ -443,7 +489,7 @@ def _ambiguous_unit(quantity: Any) -> str:
     return ""
 
 
-def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "") -> UnitsError:
+def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hint: str = "", beside: str = "") -> UnitsError:
     wanted = unit or "a plain number without a unit"
     text = str(given)
     dimensions = str(getattr(error, "dim1", ""))
@@ -460,7 +506,7 @@ def _bad_units(given: Any, unit: str, argument: str, error: Exception | None, hi
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
     return UnitsError(
-        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}; write for example {example(unit)}",
+        f"{argument}: {shown(given)} cannot be taken as {wanted}{reason}{hint}{beside}; write for example {example(unit)}",
         code="bad_units",
         argument=argument,
         text=text,
@@ -478,9 +524,18 @@ def _to_the_power(unit: str, power: Any) -> str:
     return unit if power == 1 else f"{unit}**{power:g}"
 
 
-def _registry() -> Any:
-    """Pint's application registry, which is the one the caller's own quantities are made with unless they chose another."""
+def _registry() -> tuple[Any, dict[str, Any]]:
+    """Pint's application registry, loaded, and the unit texts that were read in it.
+
+    The caller's own quantities are made with this registry unless they chose another.
+    """
     import pint
 
-    registry: Any = pint
-    return registry.get_application_registry()
+    known: Any = pint
+    registry = known.get_application_registry().get()
+    read = _read.get(registry)
+    if read is None:
+        with _first_use:
+            registry.Quantity  # noqa: B018 - any attribute makes pint load its registry
+            read = _read.setdefault(registry, {})
+    return registry, read

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -82,7 +82,7 @@ def corner(posterior: Posterior, *, unknowns: Sequence[str] | None = None, units
         check_size(one.name, float(np.nanmax(abs(one.values))))
         check_size(f"spread of {one.name}", one.std, SMALLEST)
     first = begin(None, (1.2 + 1.75 * len(names),) * 2)
-    figure: Figure = first.figure.get_figure(root=True)
+    figure = cast(Figure, first.figure)  # made just above, so it is no part of another
     first.remove()
     grid = figure.add_gridspec(len(names), len(names))
     for row, output in enumerate(columns):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import os
 from dataclasses import dataclass, field
@@ -19,6 +18,7 @@ from ..summary import Cells, Part, Summary, all_numbers
 from ..uncertainty import Censored, Normal, Uniform
 from ..units import Input, shown, texts_of
 from ..warning import warn
+from .recorder_table import read_table
 
 Polarity = Literal["49 CFR 563", "ISO 8855"]
 # Sign of a positive lateral reading, counted to the left.
@@ -71,7 +71,12 @@ class RecordedPulse(Shown):
 
     @derived()
     def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
-        """Forward and left components as observations for ``posterior``, with errors; as bounds if the pulse is cut short."""
+        """Forward and left components as observations for ``posterior``, with errors.
+
+        They are bounds if the pulse is cut short. None stands for a component that was not
+        recorded, and for one of exactly 0 in a pulse cut short, as it does not say to which side
+        it went on.
+        """
         return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
 
     def _summary(self, numbers: Cells) -> Summary:
@@ -141,8 +146,13 @@ def recorded_pulse(
     Parameters
     ----------
     time : array [s], or path of a CSV file
-        Times of the samples, increasing. Or a file with a header and columns of time, longitudinal and perhaps lateral delta-V
-        in this order, each with its unit in brackets: ``time [ms],longitudinal [km/h],lateral [km/h]``.
+        Times of the samples, increasing. Or a file whose first row has the heads of the columns,
+        each with its unit in round or square brackets: ``time [ms],longitudinal [km/h],lateral
+        [km/h]``, or as reports write them, ``Time (msec)``, ``"Delta-V, lateral (MPH)"``. The
+        columns are found by their heads, in any order; a head that may be two of them, or none,
+        is refused. Commas, semicolons or tabs separate the columns; with the last two, numbers
+        may have decimal commas. A cell of ``SNA`` is not available: in all of the lateral column,
+        or in the last rows, which are left out.
     delta_v_forward, delta_v_left : array [m/s], optional
         Cumulative delta-V at these times; left out with a file. The lateral one may be missing.
     polarity : {"49 CFR 563", "ISO 8855"}
@@ -180,7 +190,13 @@ def recorded_pulse(
         )
         reader.refuse(InputError(f"{text}; the recorder's report says which", code="bad_option", argument="polarity"))
     if isinstance(time, (str, os.PathLike)):
-        read = _columns(reader, os.fspath(time))
+        for name, beside in (("delta_v_forward", delta_v_forward), ("delta_v_left", delta_v_left)):
+            if beside is not None:
+                file = shown(os.fspath(time))
+                text = f"{name} stands beside the file {file}, which has it; leave one of them out"
+                reader.refuse(InputError(text, code="bad_option", argument=name))
+        reader.close()
+        read = read_table(reader, os.fspath(time), polarity)
     else:
         given = {"time": time, "delta_v_forward": delta_v_forward, "delta_v_left": delta_v_left}
         read = {name: reader.number(value, _NAMES[name], name) for name, value in given.items() if value is not None}
@@ -225,8 +241,11 @@ def _error(value: float) -> float:
 
 
 def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
-    """The reading with the standard deviation of its range; where the record stops early, a bound beyond which it went on."""
-    if value is None:
+    """The reading with the standard deviation of its range; a bound where the record stops early.
+
+    Beyond that bound it went on. One of exactly 0 does not say to which side: it is no evidence.
+    """
+    if value is None or (value == 0.0 and not ended):
         return None
     error = _error(value) / math.sqrt(3.0)
     if ended:
@@ -243,19 +262,3 @@ def _ended(times: Any, size: Any, at: int) -> bool:
     ends = times[at:][times[at:] - _QUIET_TIME >= times[0] - 1e-9]
     changes = abs(np.interp(ends, times, size) - np.interp(ends - _QUIET_TIME, times, size))
     return bool(np.any(changes <= _QUIET_CHANGE + 1e-12))
-
-
-def _columns(reader: ArgumentReader, path: str) -> dict[str, Any]:
-    """The columns of a CSV file in SI, by the units of its header."""
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            header, *rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
-        units = [name.partition("[")[2].partition("]")[0].strip() for name in header]
-        if not 2 <= len(header) <= 3 or not all(units) or any(len(row) != len(header) for row in rows):
-            raise ValueError("it needs two or three columns, each with its unit in brackets in the header, and rows as long")
-        numbers = np.array([[float(cell) for cell in row] for row in rows]).reshape(-1, len(header)).T
-    except (OSError, ValueError) as error:
-        text = f"time: the file {path!r} cannot be used: {error}; write time [ms],longitudinal [km/h],lateral [km/h], or arrays"
-        raise InputError(text, code="bad_file", argument="time") from None
-    columns = zip(units, _NAMES.items(), numbers, strict=False)
-    return {name: reader.number(f"1 {unit}", si, f"unit of {name}") * column for unit, (name, si), column in columns}

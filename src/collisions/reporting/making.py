@@ -49,7 +49,7 @@ _SIZE = (6.5, 4.6)
 # Nothing in a file may depend on chance or on whoever runs it; its letters stay letters, and names are no formulas.
 _SETTINGS: Any = {"svg.hashsalt": "collisions", "svg.fonttype": "none", "text.parse_math": False}
 _UNDATED = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-_TAG = re.compile(r"<[^>]*>")
+_TAG = re.compile(r"<[^<>]*>")
 _ID = re.compile(r'(\bid="|url\(#|href="#)([^")]*)')
 
 

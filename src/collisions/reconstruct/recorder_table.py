@@ -1,0 +1,207 @@
+"""The table of a recorder's report: columns by their heads, in SI, from CSV of three kinds."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..reading import ArgumentReader
+from ..units import shown
+
+_LARGEST_FILE = 1_000_000  # bytes
+_LONGEST_CELL = 200  # characters
+_EXAMPLE = "time [ms],longitudinal [km/h],lateral [km/h]"
+# By column, its SI unit and the words of a head that name it. A lateral head may also say to
+# which side it is positive.
+_COLUMNS = {
+    "time": ("s", {"time", "t"}),
+    "delta_v_forward": ("m/s", {"longitudinal", "long", "forward"}),
+    "delta_v_left": ("m/s", {"lateral", "lat", "left", "right"}),
+}
+_CALLED = {"time": "time", "delta_v_forward": "longitudinal", "delta_v_left": "lateral"}
+# Words of heads whose numbers are not delta-V as it grows forward, though their unit may be the
+# same.
+_OTHERS = {
+    "acceleration", "accel", "angle", "backward", "backwards", "driver", "end", "indicated", "max",
+    "maximum", "maximal", "minus", "neg", "negative", "peak", "rate", "rear", "rearward", "rearwards",
+    "resultant", "total", "vertical", "wheel",
+}  # fmt: skip
+_SPEEDS, _CHANGES = {"speed", "v", "velocity"}, {"change", "delta", "dv", "deltav", "δv", "δ"}
+_SIDES = {"49 CFR 563": "right", "ISO 8855": "left"}
+# How reports write units, in lower case.
+_UNITS = {
+    **dict.fromkeys(("mph", "mi/h", "mi/hr"), "mph"),
+    **dict.fromkeys(("km/h", "km/hr", "kmh", "kmph", "kph"), "km/h"),
+    **dict.fromkeys(("m/s", "m/sec"), "m/s"),
+    **dict.fromkeys(("ft/s", "ft/sec", "fps"), "ft/s"),
+    **dict.fromkeys(("ms", "msec", "msecs", "milliseconds"), "ms"),
+    **dict.fromkeys(("s", "sec", "secs", "seconds"), "s"),
+}
+# What stands for a number that the recorder does not have.
+_NOT_AVAILABLE = {"sna", "n/a", "na", "not available", "data not available", "signal not available"}
+# float() would read more: "1_0" as 10, digits of other scripts, "infinity".
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_WITH_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
+
+
+def read_table(reader: ArgumentReader, path: str, polarity: str) -> dict[str, Any]:
+    """Time and delta-V of a file in SI, by argument of ``recorded_pulse``.
+
+    The lateral one is left out where the file has no such column, or none with numbers.
+    """
+    try:
+        heads, rows, comma = _cells(_text(path))
+        columns = _by_name(reader, heads, polarity)
+        numbers = _numbers(rows, {name: at for name, (at, _) in columns.items()}, comma)
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        text = f"time: the file {path!r} cannot be used: {why}; write {_EXAMPLE}, or give arrays"
+        raise InputError(text, code="bad_file", argument="time") from None
+    return {
+        name: reader.number(f"1 {columns[name][1]}", _COLUMNS[name][0], f"unit of {name}") * column
+        for name, column in numbers.items()
+    }
+
+
+def _text(path: str) -> str:
+    with open(path, "rb") as file:
+        data = file.read(_LARGEST_FILE + 1)
+    if len(data) > _LARGEST_FILE:
+        raise ValueError("it is larger than 1 MB, and the table of a pulse is a page")
+    try:
+        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+    except UnicodeDecodeError:
+        raise ValueError("it is no text in UTF-8; save it as CSV in UTF-8") from None
+    if "\0" in text:
+        raise ValueError("it holds NUL characters, so it is no text; save it as CSV in UTF-8")
+    return text
+
+
+def _cells(text: str) -> tuple[list[str], list[list[str]], bool]:
+    """The heads, the rows that are not empty, and whether cells may have decimal commas."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    bare = re.sub(r'"[^"]*"', "", first)
+    separator = next((mark for mark in "\t;," if mark in bare), ",")
+    try:
+        # With its own line ends, which may stand within quotes.
+        table = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+        heads, *rows = [[cell.strip() for cell in row] for row in table if any(cell.strip() for cell in row)] or [[]]
+    except csv.Error as error:
+        raise ValueError(f"it is no table ({error})") from None
+    if not heads:
+        raise ValueError("it is empty")
+    for number, row in enumerate([heads, *rows], 1):
+        if long := next((cell for cell in row if len(cell) > _LONGEST_CELL), ""):
+            raise ValueError(f"row {number} has a cell of {len(long)} characters, and may have {_LONGEST_CELL}")
+    # A separator at the end of every line makes a column of nothing.
+    while heads and not heads[-1] and all(len(row) < len(heads) or not row[len(heads) - 1] for row in rows):
+        heads, rows = heads[:-1], [row[: len(heads) - 1] for row in rows]
+    for number, row in enumerate(rows, 2):
+        if len(row) != len(heads):
+            quotes = f"a head with {shown(separator)} stands in quotes, and nothing above the heads"
+            raise ValueError(f"row {number} has {len(row)} cells under {len(heads)} heads; it needs rows as long; {quotes}")
+    return heads, rows, separator != ","
+
+
+def _by_name(reader: ArgumentReader, heads: list[str], polarity: str) -> dict[str, tuple[int, str]]:
+    """Place and unit of each column, in the order of the arguments, by the words of its head."""
+    found: dict[str, tuple[int, str]] = {}
+    for at, head in enumerate(heads):
+        words, groups = _parts(head)
+        names = [name for name, (_, own) in _COLUMNS.items() if words & own]
+        if strange := sorted(words & _OTHERS) or sorted(words & _SPEEDS if not words & _CHANGES else ()):
+            raise ValueError(f"the head {shown(head)} says {strange[0]!r}, and a column has to be time or cumulative delta-V")
+        if len(names) != 1:
+            may = " or ".join(_CALLED[name] for name in names) or "neither time, longitudinal nor lateral"
+            raise ValueError(f"the head {shown(head)} may be {may}; each names one, and other columns are to be left out")
+        name = names[0]
+        if name in found:
+            raise ValueError(f"the heads {shown(heads[found[name][0]])} and {shown(head)} are both {_CALLED[name]}")
+        sides = words & {"left", "right"}
+        if len(sides) == 2:  # as 49 CFR 563 has it, "left to right"
+            sides = {side for side in sides if f"to {side}" in " ".join(re.findall(r"\w+", head.lower()))}
+        if words & {"left", "right"} and sides != {_SIDES[polarity]}:
+            says = " or ".join(sorted(sides or words & {"left", "right"}))
+            raise ValueError(
+                f"the head {shown(head)} says {says}, and by polarity={polarity!r} lateral is "
+                f"positive to the {_SIDES[polarity]}"
+            )
+        found[name] = at, _unit(groups, head, _COLUMNS[name][0])
+    if missing := [_CALLED[name] for name in ("time", "delta_v_forward") if name not in found]:
+        raise ValueError(f"it has no column whose head says {missing[0]!r}; its heads are {', '.join(map(shown, heads))}")
+    return {name: found[name] for name in _COLUMNS if name in found}
+
+
+def _parts(head: str) -> tuple[set[str], list[str]]:
+    """The words of a head in lower case, and what stands in its brackets, round or square."""
+    groups: list[str] = []
+    depth = start = 0
+    for at, mark in enumerate(head):
+        if mark in "[(":
+            start, depth = start if depth else at + 1, depth + 1
+        elif mark in "])" and depth:
+            depth -= 1
+            if not depth:
+                groups.append(head[start:at].strip())
+    return set(re.findall(r"[^\W\d_]+", head.lower())), groups
+
+
+def _unit(groups: list[str], head: str, wanted: str) -> str:
+    """The unit in the brackets of a head, as this library writes it."""
+    units = [_UNITS.get(group.lower(), group) for group in groups]
+    fit = [unit for unit in units if _reads(unit, wanted)]
+    if any(mark in unit for unit in units for mark in "[("):
+        raise ValueError(f"the head {shown(head)} has two units; keep one of them, and its number in each cell")
+    if len(fit) > 1 or not units:
+        many = "has two units" if fit else "has no unit"
+        raise ValueError(f"the head {shown(head)} {many}, and needs one, its unit in brackets")
+    return (fit or units[-1:])[0]
+
+
+def _reads(unit: str, wanted: str) -> bool:
+    reader = ArgumentReader()
+    reader.number(f"1 {unit}", wanted, "unit")
+    return not reader.problems
+
+
+def _numbers(rows: list[list[str]], places: dict[str, int], comma: bool) -> dict[str, Any]:
+    """The columns as written, without what the recorder does not have.
+
+    That may be a whole lateral column, and rows at the end.
+    """
+    parts = [name for name in places if name != "time"]
+    missing = {name: [row[places[name]].lower() in _NOT_AVAILABLE for row in rows] for name in parts}
+    if len(parts) == 2 and rows and all(missing["delta_v_left"]):
+        parts, missing = parts[:1], {parts[0]: missing[parts[0]]}
+    count = len(rows)
+    while count and all(missing[name][count - 1] for name in parts):
+        count -= 1
+    for name in parts:
+        if True in missing[name][:count]:
+            at = missing[name].index(True)
+            raise ValueError(
+                f"{_CALLED[name]} is not available in row {at + 2}, and the table is read only where "
+                f"a whole column, or all of the last rows, are not; leave out the rows or the column "
+                f"that cannot be used"
+            )
+    cells = {name: [row[places[name]] for row in rows[:count]] for name in ("time", *parts)}
+    texts = [cell for column in cells.values() for cell in column]
+    commas = [cell for cell in texts if _WITH_COMMA.fullmatch(cell)]
+    if commas and (points := [cell for cell in texts if "." in cell]):
+        raise ValueError(f"{commas[0]!r} has a decimal comma and {points[0]!r} a point; write one of them throughout")
+    if commas and not comma:
+        raise ValueError(f"{commas[0]!r} has a decimal comma, for which semicolons or tabs have to separate the columns")
+    return {name: np.array([_float(cell, at) for at, cell in enumerate(column, 2)]) for name, column in cells.items()}
+
+
+def _float(cell: str, row: int) -> float:
+    text = cell.replace(",", ".") if _WITH_COMMA.fullmatch(cell) else cell
+    if _NUMBER.fullmatch(text) is None:
+        raise ValueError(f"could not convert {shown(cell)} in row {row}; a cell is a number, such as -12.5, or SNA")
+    return float(text)
