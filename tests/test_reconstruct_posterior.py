@@ -533,7 +533,12 @@ def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
         found = posterior(model, {"speed_b_after": Normal(2.0, 0.4)}, {"speed_b": Normal(0.0, 2.0)}, samples=512, seed=1)
     below = int(np.sum(found["speed_b"].values < 0.0))
     assert 0 < below < 512
-    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases"]
+    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases ({100 * below / 512:.3g} %)"]
+    # It stands with the result too, in its table and in its record.
+    said = next(one for one in found.statements if "speed_b is below 0" in one)
+    assert said.startswith(f"{below} of 512 cases")
+    assert said in found.to_dict()["statements"]
+    assert said in str(found.summary())
 
 
 def test_an_output_without_any_answer_has_no_figures():

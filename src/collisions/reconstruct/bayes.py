@@ -19,7 +19,8 @@ from ..uncertainty.model import Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
 from ..units import shown
-from .fit_result import residual_of, warn_of
+from ..warning import notes_of_samples, warn_of
+from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
 from .observations import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
@@ -126,7 +127,6 @@ def posterior(
         islands = list(problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress)))
         found = problem.result(islands, int(samples), seed)
     warn_of(notes_of(found))
-    problem.model.warn_of_noted(found.samples)
     return found
 
 
@@ -259,6 +259,7 @@ class _Problem:
             samples=len(scores),
             seed=seed,
             interrupted=len(islands) < ISLANDS,
+            model_notes=notes_of_samples(self.model.noted, len(scores)),
         )
 
 

@@ -146,6 +146,10 @@ class Cases(NamedTuple):
             return ""
         return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "
 
+    def number(self, where: Any) -> int | None:
+        """The number of these cases; None for a single case, which is the same for every sample of a study."""
+        return None if self.shape is None else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
+
     def provenance(
         self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
     ) -> Reconstruction:
