@@ -1561,6 +1561,19 @@ def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
     plt.close("all")
 
 
+def test_no_residual_and_no_range_is_cut_off():
+    # The reading is ten of its errors from the prior, of the same error: half way, five of them with 1.4 to either side.
+    with pytest.warns(col.CollisionsWarning):
+        prior = {"s": uncertainty.Normal(15.0, 1.0)}
+        found = reconstruct.posterior(lambda s: {"s": s}, prior, {"s": (25.0, 1.0)}, samples=512, seed=1)
+    axes = plot.residuals(found)
+    low, high = axes.get_xlim()
+    drawn = [x for line in axes.get_lines() if line.get_gid() for x in line.get_xdata()]
+    assert len(drawn) == 3
+    assert max(map(abs, drawn)) > 6.0
+    assert low < min(drawn) <= max(drawn) < high
+
+
 def test_residuals_stand_where_they_are(two_speeds):
     """Observed less computed over the error; a sharp bound has none. Of a fit the points alone."""
     axes = plot.residuals(two_speeds)

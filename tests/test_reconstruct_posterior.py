@@ -618,3 +618,9 @@ def test_a_censored_reading_is_a_value():
     assert hash(one) == hash(pickle.loads(pickle.dumps(one)))
     with pytest.raises(col.InputError, match=r"weighed by reconstruct\.posterior"):
         reconstruct.fit(identity, {"x": 1.0}, {"x": one})
+
+
+@pytest.mark.parametrize("samples", [10, 64, 511, None])
+def test_the_least_number_of_samples_is_said_the_same_for_every_number(samples):
+    with pytest.raises(col.InputError, match="samples must be a whole number from 512 to"):
+        posterior(identity, {"x": Normal(0.0, 1.0)}, {"x": (1.0, 1.0)}, samples=samples)

@@ -18,7 +18,6 @@ from ..uncertainty.distributions import Distribution, Normal
 from ..uncertainty.model import Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
-from ..units import shown
 from ..warning import notes_of_samples, warn_of
 from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
@@ -114,11 +113,9 @@ def posterior(
     >>> abs(probability - 0.97725) < 3.0 * error < 0.01
     True
     """
-    check_options("monte_carlo", samples, None, seed, threads, progress)
-    if samples is None or samples < _LEAST_SAMPLES:
-        raise InputError(
-            f"samples must be a whole number from {_LEAST_SAMPLES}, got {shown(samples)}", code="bad_option", argument="samples"
-        )
+    # None is a choice of ``propagate`` alone.
+    given = math.nan if samples is None else samples
+    check_options("monte_carlo", given, None, seed, threads, progress, _LEAST_SAMPLES)
     called, priors, rows = read_evidence(model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading)
     problem = _Problem(called, Joint(priors, correlation), rows)
     seed = int(seed) if seed is not None else secrets.randbits(64)

@@ -201,7 +201,9 @@ def propagate(
     return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted, notes)
 
 
-def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
+def check_options(
+    method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any, least: int = _LEAST_SAMPLES
+) -> None:
     """Raise for an unknown option, or one that this method does not have."""
     if not isinstance(method, str) or method not in METHODS:
         raise _bad_option("method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}")
@@ -210,10 +212,10 @@ def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads:
     for name, value in (("samples", samples), ("tolerance", tolerance)):
         if value is not None and method not in DESIGNS:
             raise _bad_option(name, f"{name} is for methods that draw; method={method!r} does not")
-    samples_fine = samples is None or (is_whole(samples) and _LEAST_SAMPLES <= samples <= MOST_SAMPLES)
+    samples_fine = samples is None or (is_whole(samples) and least <= samples <= MOST_SAMPLES)
     progress_fine = progress is None or isinstance(progress, bool) or callable(progress)
     for name, value, fine, allowed in (
-        ("samples", samples, samples_fine, f"a whole number from {_LEAST_SAMPLES} to {MOST_SAMPLES}"),
+        ("samples", samples, samples_fine, f"a whole number from {least} to {MOST_SAMPLES}"),
         ("seed", seed, seed is None or (is_whole(seed) and seed >= 0), "a whole number from 0, or None"),
         ("threads", threads, is_whole(threads) and threads >= 1, "a whole number from 1"),
         ("progress", progress, progress_fine, "a function of (done, total), or True for a bar"),
