@@ -1563,8 +1563,8 @@ def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
 
 def test_no_residual_and_no_range_is_cut_off():
     # The reading is ten of its errors from the prior, of the same error: half way, five of them with 1.4 to either side.
+    prior = {"s": uncertainty.Normal(15.0, 1.0)}
     with pytest.warns(col.CollisionsWarning):
-        prior = {"s": uncertainty.Normal(15.0, 1.0)}
         found = reconstruct.posterior(lambda s: {"s": s}, prior, {"s": (25.0, 1.0)}, samples=512, seed=1)
     axes = plot.residuals(found)
     low, high = axes.get_xlim()
