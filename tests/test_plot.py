@@ -23,6 +23,7 @@ from matplotlib.text import Text
 
 import collisions as col
 from collisions import plot, reconstruct, travel, uncertainty
+from collisions.plot import drawing
 from collisions.plot.canvas import Units, number
 from scenes import cases, solved
 from strategies import Nasty, other_registry
@@ -1560,6 +1561,19 @@ def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
     plt.close("all")
 
 
+def test_no_residual_and_no_range_is_cut_off():
+    # The reading is ten of its errors from the prior, of the same error: half way, five of them with 1.4 to either side.
+    prior = {"s": uncertainty.Normal(15.0, 1.0)}
+    with pytest.warns(col.CollisionsWarning):
+        found = reconstruct.posterior(lambda s: {"s": s}, prior, {"s": (25.0, 1.0)}, samples=512, seed=1)
+    axes = plot.residuals(found)
+    low, high = axes.get_xlim()
+    drawn = [x for line in axes.get_lines() if line.get_gid() for x in line.get_xdata()]
+    assert len(drawn) == 3
+    assert max(map(abs, drawn)) > 6.0
+    assert low < min(drawn) <= max(drawn) < high
+
+
 def test_residuals_stand_where_they_are(two_speeds):
     """Observed less computed over the error; a sharp bound has none. Of a fit the points alone."""
     axes = plot.residuals(two_speeds)
@@ -1662,3 +1676,26 @@ def test_a_way_that_cannot_be_drawn_and_one_without_length():
         with pytest.raises(col.InputError, match=said) as caught:
             plot.path(*arguments, **options)
         assert caught.value.code == code
+
+
+def test_a_label_is_placed_as_if_the_whole_picture_were_searched():
+    # The search ends early where what lies farther away cannot cost less; here every cell is tried.
+    generator = random.Random(7)
+    for _ in range(30):
+        room = drawing._Room(np.array([0.0, 0.0, generator.uniform(80, 500), generator.uniform(80, 500)]))
+        for _ in range(generator.randrange(40)):
+            ends = np.array([[generator.uniform(-50, 550), generator.uniform(-50, 550)] for _ in range(2)])
+            room.draw(ends, 40.0 * generator.choice([0.8, 1.2, 2.0]))
+        size = np.array([generator.uniform(10, 150), generator.uniform(8, 40)])
+        places = np.array([[generator.uniform(0, 500), generator.uniform(0, 500)] for _ in range(generator.choice([1, 3]))])
+        direction = generator.uniform(-1, 1), 1.0
+        columns, rows = np.minimum(np.ceil((size + 6.0) / 2.0).astype(int), room.cost.shape[::-1])
+        windows = np.lib.stride_tricks.sliding_window_view(room.cost, (rows, columns))
+        x, y = (np.convolve(part, np.ones(n) / n, "valid") for part, n in ((room.x, columns), (room.y, rows)))
+        away = [drawing._away(x - at[0], y[:, None] - at[1], size, direction) + 2.0 * i for i, at in enumerate(places)]
+        least = (windows.sum(axis=(2, 3)) + np.min(away, axis=0)).min()
+        before = room.cost.copy()
+        (at_x, at_y), _ = room.best(size, places, direction, [])
+        column, row = (int(np.argmin(abs(part - at))) for part, at in ((x, at_x), (y, at_y)))
+        found = before[row : row + rows, column : column + columns].sum() + np.min(away, axis=0)[row, column]
+        assert found == pytest.approx(least, rel=1e-9)

@@ -86,14 +86,14 @@ def test_one_thread_is_silent_and_the_other_is_not():
         if not silent:
             meeting.wait()
             try:
-                warn_of_cases(col.CollisionsWarning("said", code="refused_cases"))
+                warn_of_cases(col.CollisionsWarning("said", code="refused_cases"), {})
             except col.CollisionsWarning:
                 seen["other"] = "said"
             meeting.wait()
             return
         with quietly():
             meeting.wait()
-            warn_of_cases(col.CollisionsWarning("not said", code="refused_cases"))
+            warn_of_cases(col.CollisionsWarning("not said", code="refused_cases"), {})
             meeting.wait()
         seen["silent"] = "nothing"
 

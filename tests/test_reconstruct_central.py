@@ -24,6 +24,9 @@ import collisions as col
 from collisions import reconstruct
 from strategies import other_registry
 
+# These ask at the extremes on purpose; that a user is warned there has a test of its own.
+extremes = pytest.mark.filterwarnings("ignore:.*the condition of .* is")
+
 EPS = 2.0**-52
 INF = math.inf
 VELOCITIES = ("va", "vb", "va_after", "vb_after")
@@ -208,6 +211,7 @@ def together(names, family):
         assert (code == 0) == math.isfinite(found.reconstruction.condition[i])
 
 
+@extremes
 @pytest.mark.parametrize("way", [alone, together])
 @pytest.mark.parametrize("family", FAMILIES)
 @twenty
@@ -241,6 +245,7 @@ def test_the_condition_is_that_of_the_exact_equations(names):
     assert compared >= COUNT // 4
 
 
+@extremes
 def test_a_badly_posed_question_says_so():
     """Speeds of 60 m/s that differ by 1e-9: a relative error of a velocity is 1e10 times larger in the closing speed."""
     for names in TWENTY:
@@ -273,6 +278,7 @@ def lost(names, mass_a, mass_b, e):
     return None
 
 
+@extremes
 @pytest.mark.parametrize("e", [0.0, 1.0])
 @pytest.mark.parametrize("family", ["traffic", "barrier a", "barrier b"])
 @twenty
@@ -588,6 +594,7 @@ def test_float32_stays_float32(names, e):
 # Units, and what comes back
 
 
+@extremes
 @twenty
 def test_a_record_and_a_case_of_a_batch_keep_the_digits(names):
     """What leaves as a record or as one of a batch is the closing speed found, not the difference of rounded velocities."""
@@ -750,6 +757,7 @@ def test_the_largest_speed_of_all_beside_an_energy_is_refused_without_a_word_of_
     assert impact.status[0] > col.Status.ENERGY_GAIN
 
 
+@extremes
 def test_a_refused_neighbour_leaves_the_digits_of_a_tiny_closing_speed():
     """A case of a batch, another of which the forward solver refuses, is solved again from the closing speed that was found."""
     known = {"va": 30.0, "restitution": 0.5}
@@ -763,3 +771,16 @@ def test_a_refused_neighbour_leaves_the_digits_of_a_tiny_closing_speed():
     impulse = 1.5 * reduced * math.sqrt(2.0 * 1e-13 / (0.75 * reduced))
     for impact in (alone, both.case(0), col.Impact.from_dict(both.to_dict()).case(0)):
         assert impact.normal_impulse == pytest.approx(impulse, rel=1e-14)
+
+
+@pytest.mark.parametrize("batch", [False, True])
+def test_a_separation_of_one_unit_in_the_last_place_is_warned_of(batch):
+    """What is left of the difference of the velocities after is rounding, and so is the closing speed found from it."""
+    after = np.nextafter(10.0, 11.0)
+    given = np.array([after, 11.0]) if batch else after
+    e = np.array([1e-15, 0.2]) if batch else 1e-15
+    with pytest.warns(col.IllConditionedWarning, match="a change of a millionth of what is known") as caught:
+        found = reconstruct.central(1500.0, 1200.0, va_after=10.0, vb_after=given, restitution=e)
+    assert [one.message.code for one in caught] == ["ill_conditioned"]
+    assert np.max(found.reconstruction.condition) > 1e15
+    assert ("1 of 2 cases" in str(caught[0].message)) is batch

@@ -533,7 +533,12 @@ def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
         found = posterior(model, {"speed_b_after": Normal(2.0, 0.4)}, {"speed_b": Normal(0.0, 2.0)}, samples=512, seed=1)
     below = int(np.sum(found["speed_b"].values < 0.0))
     assert 0 < below < 512
-    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases"]
+    assert [str(one.message).partition(":")[0] for one in caught] == [f"{below} of 512 cases ({100 * below / 512:.3g} %)"]
+    # It stands with the result too, in its table and in its record.
+    said = next(one for one in found.statements if "speed_b is below 0" in one)
+    assert said.startswith(f"{below} of 512 cases")
+    assert said in found.to_dict()["statements"]
+    assert said in " ".join(str(found.summary()).split())
 
 
 def test_an_output_without_any_answer_has_no_figures():
@@ -613,3 +618,9 @@ def test_a_censored_reading_is_a_value():
     assert hash(one) == hash(pickle.loads(pickle.dumps(one)))
     with pytest.raises(col.InputError, match=r"weighed by reconstruct\.posterior"):
         reconstruct.fit(identity, {"x": 1.0}, {"x": one})
+
+
+@pytest.mark.parametrize("samples", [10, 64, 511, None])
+def test_the_least_number_of_samples_is_said_the_same_for_every_number(samples):
+    with pytest.raises(col.InputError, match="samples must be a whole number from 512 to"):
+        posterior(identity, {"x": Normal(0.0, 1.0)}, {"x": (1.0, 1.0)}, samples=samples)

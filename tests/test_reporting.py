@@ -1525,3 +1525,39 @@ def test_an_input_that_does_not_move_a_speed_has_a_zero_without_a_sign():
     found = rows(report(crossed(course_a_after="0 deg", outside_impulse=None), form="markdown", units="us"))
     assert ("speed of A before", "moved by speed of A after", "0 mph per mph") in found
     assert not any(text.startswith(("+0 ", "-0 ")) for *_, text in found)
+
+
+def _planar():
+    ahead = col.eccentric(A, B, 0.3, normal=0.2, point=(0.0, 0.0), friction=0.3)
+    return reconstruct.planar(
+        ahead.a.after, ahead.b.after, restitution=0.3, friction=0.3, normal=0.2, point=(0.0, 0.0), regime=ahead.regime
+    )
+
+
+def _found():
+    yield reconstruct.central(1100.0, 950.0, va=22.0, vb=0.0, vb_after=16.0)
+    yield _planar()
+    known = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, "speed_b": 9.0, "energy_loss": 60000.0}
+    yield from reconstruct.speeds(A, B, **known, normal=0.2, point=(0.0, 0.0), friction=0.3)
+
+
+A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=12.0, x=-2.0, y=0.6, heading=0.0)
+B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=math.pi / 2)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"condition": 2.0},
+        {"condition": 50.0},
+        {"answers": 99},
+        {"method": "guess"},
+        {"known": ["restitution", "energy_loss", "va"]},
+    ],
+)
+def test_what_a_record_says_of_its_reconstruction_is_worked_out_again(changed):
+    for impact in _found():
+        page = report(impact, form="markdown")
+        assert report(replay(page), **options(page)) == page
+        with pytest.raises(col.InputError):
+            replay(tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed)))

@@ -67,7 +67,7 @@ def solve_inputs(
             raise refusal(inputs, raw)
         return Passed(raw.status) if model is TIME_RESOLVED else _REFUSED._replace(status=raw.status)
     if raw.status == Status.ENERGY_GAIN:
-        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss, inputs)
+        _warn_of_gain(f"the impact gains {-raw.energy_loss:.6g} J of energy", -raw.energy_loss, None, inputs)
     return raw
 
 
@@ -172,8 +172,8 @@ def say_of_cases(inputs: Inputs, raw: Any, on_failure: Any, one: Callable[[Calla
             warn_of_refusals(status)
     gaining = status == Status.ENERGY_GAIN
     if gaining.any():
-        most = float(-raw.energy_loss[gaining].min())
-        _warn_of_gain(f"{int(gaining.sum())} of {status.size} cases gain energy, up to {most:.6g} J", most, inputs)
+        most, count = float(-raw.energy_loss[gaining].min()), int(gaining.sum())
+        _warn_of_gain(f"{count} of {status.size} cases gain energy, up to {most:.6g} J", most, count, inputs)
 
 
 def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='raise'") -> None:
@@ -185,7 +185,8 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or on_failure='rai
     }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
-    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds))
+    parts: dict[str, int | None] = {f"refused by a solver, as {label}": count for label, count in kinds.items()}
+    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
 
 
 def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
@@ -240,15 +241,16 @@ def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], A
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
 
-def _warn_of_gain(what: str, gain: float, inputs: Inputs) -> None:
+def _warn_of_gain(what: str, gain: float, count: int | None, inputs: Inputs) -> None:
     if inputs.model == TIME_RESOLVED.name:
-        text = (
-            f"{what}: that is the error of the steps, where the contact gives back nearly all it took; take a restitution "
-            f"below 0.999, or give more steps than {inputs.steps}"
+        why = (
+            f"that is the error of the steps, where the contact gives back nearly all it took; take a "
+            f"restitution below 0.999, or give more steps than {inputs.steps}"
         )
     else:
-        text = (
-            f"{what}: this restitution and tangential impulse cannot occur together without a source of energy; lower the "
-            f"restitution or the ratio, or take law='kudlich-slibar' with friction="
+        why = (
+            "this restitution and tangential impulse cannot occur together without a source of energy; lower "
+            "the restitution or the ratio, or take law='kudlich-slibar' with friction="
         )
-    warn_of_cases(EnergyGainWarning(text, code="energy_gain", gain=gain))
+    warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
+    warn_of_cases(warning, {f"the impact gains energy: {why}": count})

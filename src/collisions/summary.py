@@ -206,6 +206,11 @@ class Summarized:
         return self.summary()._repr_html_()
 
 
+def as_sentence(text: str) -> str:
+    """A statement as a sentence of its own, with a capital and a full stop."""
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
+
+
 def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:
     """The folded part with every attribute of a result."""
     return Part(list(rows), "All numbers, in SI", folded=True)

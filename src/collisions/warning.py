@@ -1,24 +1,52 @@
-"""``warn`` attributes a warning to the caller's own line; ``quietly`` silences warnings about refused cases."""
+"""Warnings: given at the caller's own line, silenced, or counted over the samples of a study and stated with its result."""
 
 from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, TypeAlias
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from .errors import CollisionsWarning
 
-# Of samples of one: what a warning says without its numbers, its class and code, and how many cases it is of.
-Noted: TypeAlias = tuple[str, type[CollisionsWarning], str, int]
+
+class Noted(NamedTuple):
+    """A warning raised while a model was called: what it says without its numbers, and the cases of that call it is of.
+
+    ``cases`` is None where it is of all of them.
+    """
+
+    sentence: str
+    warning: type[CollisionsWarning]
+    code: str
+    cases: int | None
+
+
+class Note(NamedTuple):
+    """A statement about a result; one that is also a warning has a ``code``, and its ``rest`` follows the sentence."""
+
+    warning: type[CollisionsWarning] | None
+    sentence: str
+    rest: str = ""
+    code: str = ""
+    fields: Mapping[str, Any] = MappingProxyType({})
+
+
+# A warning of fewer samples than this share is stated with the result, but not raised.
+_SELDOM = 0.005
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Noted] | None] = ContextVar("sampling", default=None)
 
 
 def warn(warning: CollisionsWarning) -> None:
-    """Warn at the line of the first caller outside this package."""
+    """Warn at the line of the first caller outside this package; within a study it is noted, as of all cases."""
+    noted = _sampling.get()
+    if noted is not None:
+        noted.append(Noted(str(warning), type(warning), warning.code, None))
+        return
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
@@ -27,27 +55,55 @@ def warn(warning: CollisionsWarning) -> None:
     warnings.warn(warning, stacklevel=level)
 
 
-def warn_of_cases(warning: CollisionsWarning, count: int = 0, sentence: str = "") -> None:
-    """Warn of what some cases show, unless within ``quietly``; of samples of one case, number and sentence are noted."""
+def warn_of_cases(warning: CollisionsWarning, parts: Mapping[str, int | None]) -> None:
+    """Warn of what some cases show; nothing within ``quietly()``.
+
+    Within a study the ``parts`` are noted instead: what is said of how many cases, without numbers that belong to one of them.
+    """
     noted = _sampling.get()
-    if not _quiet.get():
+    if noted is not None:
+        noted += (Noted(sentence, type(warning), warning.code, count) for sentence, count in parts.items())
+    elif not _quiet.get():
         warn(warning)
-    elif sentence and noted is not None:
-        noted.append((sentence, type(warning), warning.code, count))
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
-    """Warn of what matters only where the cases are samples of one case: within ``quietly(noted)``."""
+    """Note what matters only where the cases are samples of one case: within a study."""
     if _sampling.get() is not None:
         warn(warning)
 
 
 @contextmanager
 def quietly(noted: list[Noted] | None = None) -> Iterator[None]:
-    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` they are samples of one case."""
+    """Within this context, in this thread only, ``warn_of_cases`` is silent; with ``noted`` the cases are those of a study."""
     token, sampled = _quiet.set(True), _sampling.set(noted)
     try:
         yield
     finally:
         _quiet.reset(token)
         _sampling.reset(sampled)
+
+
+def notes_of_samples(noted: Iterable[Noted], total: int) -> tuple[Note, ...]:
+    """What was noted over all samples of a study: each warning once, with the number and the share of the samples it is of."""
+    counts: dict[tuple[str, type[CollisionsWarning], str], int] = {}
+    for sentence, kind, code, count in noted:
+        key = sentence, kind, code
+        counts[key] = counts.get(key, 0) + (total if count is None else count)
+    notes = []
+    for (sentence, kind, code), found in counts.items():
+        cases = min(found, total)
+        share = cases / total
+        of = "" if total == 1 else f"{cases} of {total} cases ({100.0 * share:.3g} %): "
+        raised = kind if share >= _SELDOM else None
+        notes.append(Note(raised, of + sentence, code=code, fields={"cases": cases, "share": share}))
+    return tuple(sorted(notes, key=lambda note: -note.fields["cases"]))
+
+
+def warn_of(notes: Iterable[Note]) -> None:
+    """Give each warning among the notes, one for each code."""
+    raised = [note for note in notes if note.warning]
+    for note in {note.code: note for note in raised}.values():
+        alike = [one for one in raised if one.code == note.code]
+        assert note.warning is not None
+        warn(note.warning("; ".join(one.sentence for one in alike) + note.rest, code=note.code, **alike[0].fields))

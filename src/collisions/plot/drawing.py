@@ -23,6 +23,7 @@ _FOREIGN = 100.0  # the cost of lying wholly on the other vehicle
 _LONGEST = 5000.0  # points of a line that are mapped
 _RING = np.stack([np.cos(np.linspace(0.0, math.tau, 13)), np.sin(np.linspace(0.0, math.tau, 13))], axis=1)
 _NEAR, _FAR, _TURN = 5.0, 0.4, 3.0  # points that are too near, and the cost of a point and of a radian away
+_NEARBY = 80.0  # points around its places in which a label is looked for first
 # Arrows within this sine of one line hide each other.
 ALONG_ONE_LINE = 0.03
 APART = 0.045  # of the size of the scene: between arrows that would hide each other
@@ -225,21 +226,42 @@ class _Room:
     def best(self, size: Any, places: Any, direction: Place, foreign: list[Any]) -> tuple[Place, tuple[slice, slice]]:
         """The middle of a label of this size next to one of the places, and the cells that it covers: these are taken."""
         columns, rows = np.minimum(np.ceil((size + 2.0 * _CLEAR) / _CELL).astype(int), self.cost.shape[::-1])
-        cost = _sums(self.cost, rows, columns)
+        covered = _sums(self.cost, rows, columns)
         for area in foreign:
-            cost += _FOREIGN * _sums(area, rows, columns) / (rows * columns)
+            covered += _FOREIGN * _sums(area, rows, columns) / (rows * columns)
         x, y = (_sums(part[None], 1, n)[0] / n for part, n in ((self.x, columns), (self.y, rows)))
-        cost += np.min([_away(x - at[0], y[:, None] - at[1], size, direction) + 2.0 * i for i, at in enumerate(places)], axis=0)
-        row, column = np.unravel_index(np.argmin(cost), cost.shape)
+        # What lies farther from every place costs at least the way there, so the search ends where that is too much.
+        reach, least, beyond = _NEARBY, math.inf, 0.0
+        while beyond <= least:
+            (low_x, high_x), (low_y, high_y) = (_around(at, places[:, i], reach) for i, at in ((0, x), (1, y)))
+            window = slice(low_y, high_y), slice(low_x, high_x)
+            near_x, near_y = x[window[1]], y[window[0]][:, None]
+            away = (_away(near_x - at[0], near_y - at[1], size, direction) + 2.0 * i for i, at in enumerate(places))
+            cost = covered[window] + np.min(list(away), axis=0)
+            if cost.size:
+                row, column = np.unravel_index(np.argmin(cost), cost.shape)
+                least = cost[row, column]
+            beyond = _FAR * (reach - 0.5 * max(size)) if cost.size < covered.size else math.inf
+            reach *= 2.0
+        row, column = row + low_y, column + low_x
         # Above each other one label keeps clear of the other, not both; side by side they would read as one line.
         cells = slice(row + 1, row + rows - 1), slice(max(column - 1, 0), column + columns + 1)
         self.cost[cells] += _LABEL
         return (float(x[column]), float(y[row])), cells
 
 
+def _around(cells: Any, places: Any, reach: float) -> tuple[int, int]:
+    """The range of ascending cells that lie within reach of the places."""
+    ends = np.searchsorted(cells, [places.min() - reach, places.max() + reach])
+    return int(ends[0]), int(ends[1])
+
+
 def _sums(cells: Any, rows: int, columns: int) -> Any:
     """The sums over every window of so many cells."""
-    total = np.pad(cells, ((1, 0), (1, 0))).cumsum(axis=0, dtype=float).cumsum(axis=1)
+    total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1))
+    inner = total[1:, 1:]
+    np.cumsum(cells, axis=0, dtype=float, out=inner)
+    np.cumsum(inner, axis=1, out=inner)
     return total[rows:, columns:] - total[:-rows, columns:] - total[rows:, :-columns] + total[:-rows, :-columns]
 
 

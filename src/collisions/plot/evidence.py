@@ -161,15 +161,18 @@ def residuals(found: Posterior | Fit, *, axes: Axes | None = None) -> Axes:
         axes.axvspan(-width, width, color=LIGHT, alpha=shade, lw=0, zorder=0)
     axes.axvline(0.0, color=INK, lw=0.9, zorder=1)
     over = [one.over_sigma for one in rows.values()]
+    # Everything drawn is in view: the readings that contradict most are the ones to look at.
+    reached = [*over]
     axes.plot(over, range(len(rows)), "o", color=INK, ms=7, ls="none", zorder=4, gid="residuals")
     for place, (name, one) in enumerate(rows.items()):
         if isinstance(found, Posterior) and isinstance(found.observed[name], Normal):
             output = found.predicted[name]
             ends = [one.over_sigma + (float(output.mean) - end) / one.sigma for end in output.interval(0.95)]
+            reached += ends
             axes.plot(ends, [place, place], "-", color=FORCE, lw=2.2, zorder=3, gid=f"range of {name}")
     axes.set_yticks(range(len(rows)), [in_lines(name, most=2) for name in rows], parse_math=False)
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_xlim(-(most := max(3.2, 1.15 * max(map(abs, over)))), most)
+    axes.set_xlim(-(most := max(3.2, 1.15 * max(map(abs, reached)))), most)
     axes.set_xlabel("observed less computed, in stated errors")
     shown_by = (
         "point and line: mean and 95 % of what is computed" if isinstance(found, Posterior) else "points: at the estimates"

@@ -18,8 +18,8 @@ from ..uncertainty.distributions import Distribution, Normal
 from ..uncertainty.model import Model, range_hint
 from ..uncertainty.propagation import check_options
 from ..uncertainty.sampling import Correlation, Joint
-from ..units import shown
-from .fit_result import residual_of, warn_of
+from ..warning import notes_of_samples, warn_of
+from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
 from .observations import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
@@ -113,11 +113,9 @@ def posterior(
     >>> abs(probability - 0.97725) < 3.0 * error < 0.01
     True
     """
-    check_options("monte_carlo", samples, None, seed, threads, progress)
-    if samples is None or samples < _LEAST_SAMPLES:
-        raise InputError(
-            f"samples must be a whole number from {_LEAST_SAMPLES}, got {shown(samples)}", code="bad_option", argument="samples"
-        )
+    # None is a choice of ``propagate`` alone.
+    given = math.nan if samples is None else samples
+    check_options("monte_carlo", given, None, seed, threads, progress, _LEAST_SAMPLES)
     called, priors, rows = read_evidence(model, unknowns, observed, "Normal('50 km/h', '10 km/h')", _prior, read_reading)
     problem = _Problem(called, Joint(priors, correlation), rows)
     seed = int(seed) if seed is not None else secrets.randbits(64)
@@ -126,7 +124,6 @@ def posterior(
         islands = list(problem.islands(-(-int(samples) // ISLANDS), seed, int(threads), reporter(progress)))
         found = problem.result(islands, int(samples), seed)
     warn_of(notes_of(found))
-    problem.model.warn_of_noted(found.samples)
     return found
 
 
@@ -259,6 +256,7 @@ class _Problem:
             samples=len(scores),
             seed=seed,
             interrupted=len(islands) < ISLANDS,
+            model_notes=notes_of_samples(self.model.noted, len(scores)),
         )
 
 

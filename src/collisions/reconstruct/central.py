@@ -22,7 +22,7 @@ from ..reading import ArgumentReader
 from ..solving import error_of
 from ..units import Input
 from ..vehicle import Vehicle, moved
-from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward
+from .common import Cases, exactly, finish, input_faults, read_amounts, read_masses, run_forward, warn_of_condition
 
 _ALONG_X: Any = (1.0, 0.0)
 _FRICTIONLESS: Any = 0.0
@@ -184,7 +184,9 @@ def _answer(
         return central(**of_case, incomplete=incomplete)
 
     origin = origin_of(found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK))
-    return finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
+    impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
+    warn_of_condition(origin)
+    return impact
 
 
 def _candidates(known: dict[str, Any], eps: float, incomplete: bool) -> list[Candidate]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CollisionsError, InputError, Status
+from ..errors import CollisionsError, IllConditionedWarning, InputError, Status
 from ..impact import Impact, answer_of, found_by, solved
 from ..inputs import Inputs, body_numbers, first_case
 from ..kernels.batch import precision
@@ -22,7 +22,7 @@ from ..reading import ArgumentReader, amount, broadcast
 from ..solving import check_options, error_of, warn_of_refusals
 from ..units import Texts
 from ..vehicle import Vehicle
-from ..warning import quietly
+from ..warning import quietly, warn_of_cases
 
 # The forward kernel, called with the numbers of two bodies in this order.
 forward: Callable[..., Any] = eccentric
@@ -33,6 +33,8 @@ _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_
 PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
 # Between the courses of two unknown speeds: nearer to one line, they are hardly told apart.
 NEARLY_COLLINEAR = math.radians(10.0)
+# Above it the digits that no measurement has decide the answer.
+_ILL_CONDITIONED = 1e6
 # For functions whose result has no status.
 ASK_ALONE = "asked alone, each says why"
 
@@ -146,6 +148,10 @@ class Cases(NamedTuple):
             return ""
         return f"{int(np.count_nonzero(np.broadcast_to(where, self.shape)))} of {math.prod(self.shape)} cases: "
 
+    def number(self, where: Any) -> int | None:
+        """The number of these cases; None for a single case, which is the same for every sample of a study."""
+        return None if self.shape is None else int(np.count_nonzero(np.broadcast_to(where, self.shape)))
+
     def provenance(
         self, method: str, known: Sequence[str], condition: Any, answers: Any, velocity: Sequence[Any] = (), where: Any = True
     ) -> Reconstruction:
@@ -217,6 +223,24 @@ def finish(
 
     raise_or_warn(found.status, on_failure, refusal_at)
     return found
+
+
+def warn_of_condition(origin: Reconstruction) -> None:
+    """Warn where the speeds before rest on digits that no measurement has."""
+    ill = np.asarray(origin.condition) > _ILL_CONDITIONED
+    if not np.any(ill):
+        return
+    worst = float(np.max(np.where(ill, origin.condition, 0.0)))
+    why = (
+        "a change of a millionth of what is known may move the speeds before by more than the closing speed; give another "
+        "known value in place of one of these"
+    )
+    known = " and ".join(origin.known)
+    of = f"{np.count_nonzero(ill)} of {ill.size} cases: " if ill.ndim else ""
+    text = f"{of}the condition of {known} is {worst:.3g}: {why}"
+    sentence = f"the condition of {known} is above {_ILL_CONDITIONED:.0e}: {why}"
+    warning = IllConditionedWarning(text, code="ill_conditioned", condition=worst)
+    warn_of_cases(warning, {sentence: int(np.count_nonzero(ill)) if ill.ndim else None})
 
 
 def run_forward(inputs_of: Callable[[Any], Inputs], status: Any, origin: Reconstruction, on_failure: Any = None) -> Impact:

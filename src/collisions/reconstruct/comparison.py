@@ -12,10 +12,10 @@ from ..errors import CollisionsWarning, InputError
 from ..hints import hinted
 from ..reading import ArgumentReader
 from ..records import strict
-from ..summary import Cells, Part, Summarized, Summary
+from ..summary import Cells, Part, Summarized, Summary, as_sentence
 from ..units import shown
-from ..warning import warn
-from .posterior_result import Posterior
+from ..warning import Note, warn_of
+from .posterior_result import Posterior, notes_of
 
 _SUM_TOL = 1e-9  # of probabilities that were stated
 _MOST = math.log(1e6)  # beyond it a factor is a matter of the tails of errors that nobody knows
@@ -38,6 +38,8 @@ class Comparison(Summarized):
         By account, the priors of its unknowns: the factors depend on how wide these are.
     sentence : str
         The result in words, for a report.
+    statements : tuple of str
+        The warnings of the posteriors, each with its account, and that of the comparison.
     """
 
     probability: dict[str, float]
@@ -47,6 +49,7 @@ class Comparison(Summarized):
     log_bayes_factor_errors: dict[tuple[str, str], float]
     priors: dict[str, dict[str, str]]
     sentence: str
+    statements: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as strict JSON.
@@ -57,7 +60,7 @@ class Comparison(Summarized):
             Plain values that ``json.dumps`` writes; infinity and NaN as texts.
         """
         factors = [[*pair, value, self.log_bayes_factor_errors[pair]] for pair, value in self.log_bayes_factors.items()]
-        plain = ("probability", "probability_error", "prior", "priors", "sentence")
+        plain = ("probability", "probability_error", "prior", "priors", "sentence", "statements")
         written: dict[str, Any] = strict({name: getattr(self, name) for name in plain} | {"log_bayes_factors": factors})
         return written
 
@@ -68,7 +71,9 @@ class Comparison(Summarized):
         ]
         stated = [(name, "; ".join(f"{key} {prior}" for key, prior in priors.items())) for name, priors in self.priors.items()]
         parts = [Part(rows, "Account", ("probability", "before the evidence")), Part(stated, "Priors")]
-        return Summary("Accounts compared, given the evidence and the priors", parts, (self.sentence,))
+        return Summary(
+            "Accounts compared, given the evidence and the priors", parts, (self.sentence, *map(as_sentence, self.statements))
+        )
 
 
 @hinted
@@ -141,6 +146,14 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
     # To first order in the errors of the logarithms.
     moves = {name: [after[name] * ((other == name) - after[other]) * errors[other] for other in after] for name in after}
     pairs = list(permutations(logs, 2))
+    notes = []
+    if all(one.consistent is False for one in posteriors.values()):
+        sentence = (
+            "the evidence contradicts every account, the stated errors, or itself: the best of these accounts need not be "
+            "good; look at the residuals of each"
+        )
+        notes.append(Note(CollisionsWarning, sentence, code="contradictory"))
+    given = [f"{name}: {note.sentence}" for name, one in posteriors.items() for note in notes_of(one) if note.warning]
     found = Comparison(
         probability=after,
         probability_error={name: math.hypot(*of_each) for name, of_each in moves.items()},
@@ -149,15 +162,9 @@ def compare(posteriors: Mapping[str, Posterior], prior: Mapping[str, float] | No
         log_bayes_factor_errors={(one, other): math.hypot(errors[one], errors[other]) for one, other in pairs},
         priors={name: {unknown: str(one) for unknown, one in each.priors.items()} for name, each in posteriors.items()},
         sentence=_sentence(before, after, logs, errors),
+        statements=(*given, *(note.sentence for note in notes)),
     )
-    if all(one.consistent is False for one in posteriors.values()):
-        warn(
-            CollisionsWarning(
-                "the evidence contradicts every account, the stated errors, or itself: the best of these accounts need not be "
-                "good; look at the residuals of each",
-                code="contradictory",
-            )
-        )
+    warn_of(notes)
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -13,13 +13,13 @@ import numpy as np
 from ..errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..hints import hinted
 from ..quantities import lock
-from ..settings import in_si
 from ..uncertainty.angles import folded
 from ..uncertainty.distribution import read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.model import Model, range_hint
 from ..units import is_quantity
-from .fit_result import Direction, Fit, Values, notes_of, residual_of, warn_of
+from ..warning import notes_of_samples, warn_of
+from .fit_result import Direction, Fit, Values, notes_of, residual_of
 from .least_squares import Determination, Ends, Problem, chi_squared_tail, determination, minimise, spread
 from .observations import Observation, listed, observed_columns, read_evidence, read_value, refused_everywhere
 
@@ -129,8 +129,9 @@ def fit(model: Callable[..., Mapping[str, Any]], unknowns: Mapping[str, Any], ob
         found = fits[0]
         if not any(map(math.isnan, found.values.values())):
             # For the warnings that the model itself gives there.
-            with in_si():
-                inputs.model.function(**{name: np.array([value]) for name, value in found.values.items()})
+            inputs.model.noted.clear()
+            inputs.model({name: np.array([value]) for name, value in found.values.items()}, 1, check=False)
+            found = replace(found, model_notes=notes_of_samples(inputs.model.noted, 1))
     warn_of(notes_of(found))
     return found
 

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from itertools import combinations
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError, NoSolutionError, SuspectUnitsWarning
 from ..quantities import OWN, Shown, derived
 from ..records import strict
-from ..summary import Cells, Part, Summary
+from ..summary import Cells, Part, Summary, as_sentence
 from ..uncertainty.distribution import GivenUnit
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from ..units import shown, to_quantity
-from ..warning import warn
+from ..warning import Note
 from .observations import Observation
 
 _GIVEN_ERRORS = "A standard error holds given the stated errors of the observations and priors."
@@ -182,7 +182,7 @@ class Fit(Shown):
     priors. ``contributions[unknown][observation]`` is the share of the unknown's variance that is due to the error of the
     observation. ``nonlinearity`` is the relative amount by which a 95 percent interval is too narrow or too wide, judged by the
     rise of chi-squared when an unknown is moved by two standard errors (or to its bound) and the others follow the slopes; NaN
-    if the model refuses there.
+    if the model refuses there. ``model_notes`` are the warnings of the model at the answer, which ``statements`` have too.
     """
 
     values: Values
@@ -198,6 +198,7 @@ class Fit(Shown):
     undetermined: tuple[Direction, ...]
     at_bounds: dict[str, str]
     nonlinearity: float = field(metadata={"unit": ""})
+    model_notes: tuple[Note, ...] = ()
 
     _title = "Fit to evidence"
 
@@ -298,7 +299,7 @@ class Fit(Shown):
             Part(misfit, "Evidence", ("observed", "computed", "residual over sigma")),
             Part([("chi-squared", _chi_squared(self))] if self.degrees_of_freedom else []),
         ]
-        return Summary(self._title, parts, (*(f"{text[0].upper()}{text[1:]}." for text in self.statements), _GIVEN_ERRORS))
+        return Summary(self._title, parts, (*map(as_sentence, self.statements), _GIVEN_ERRORS))
 
     def _texts(self) -> Iterator[str]:
         units = (*self.units.values(), *(one.unit for one in self.residuals.values()))
@@ -322,15 +323,6 @@ class Fit(Shown):
                 code="undetermined",
                 unknowns=tuple(left),
             )
-
-
-class Note(NamedTuple):
-    """A statement about a fit; one that is also a warning has a ``code``, and its ``rest`` follows the sentence."""
-
-    warning: type[CollisionsWarning] | None
-    sentence: str
-    rest: str = ""
-    code: str = ""
 
 
 def _chi_squared(found: Fit) -> str:
@@ -372,6 +364,7 @@ def notes_of(found: Fit) -> Iterator[Note]:
                 "",
                 "bare_angle",
             )
+    yield from found.model_notes
 
 
 def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
@@ -390,12 +383,3 @@ def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -
         f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by {abs(worst.over_sigma):.3g} sigma",
         "contradictory",
     )
-
-
-def warn_of(notes: Iterable[Note]) -> None:
-    """Give each warning among the notes, one for each code."""
-    notes = list(notes)
-    for note in {note.code: note for note in notes}.values():
-        if note.warning:
-            sentences = "; ".join(one.sentence for one in notes if one.code == note.code)
-            warn(note.warning(sentences + note.rest, code=note.code))

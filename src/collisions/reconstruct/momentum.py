@@ -368,7 +368,7 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
             worst = float(values[np.argmax(abs(values))])
             number = said(worst, of, texts) if of else worst
             warning = kind(known.cases.how_many(where) + text.format(number), code=code, **{name: worst})
-            warn_of_cases(warning, int(np.count_nonzero(where)), sentence)
+            warn_of_cases(warning, {sentence: known.cases.number(where)})
 
     one, other = (known.terms[name].course for name in solution.unknowns)
     sine = abs(one.to(other)[1])
@@ -386,7 +386,8 @@ def _warn(known: _Known, sure: Any, gains: Any, found: dict[str, Any], solution:
         # A negative speed within rounding of 0 is not a backward motion.
         say(OutOfRangeWarning, sure & (found[name] < -rounding), text, "negative_speed", "speed", sentence, value=found[name])
     text = "the vehicles leave with {} more than they came with, which no impact gives; check courses and speeds"
-    say(EnergyGainWarning, gains, text, "energy_gain", "energy", "", gain=-found["translational_energy_loss"])
+    sentence = "the vehicles leave with more energy than they came with, which no impact gives; check courses and speeds"
+    say(EnergyGainWarning, gains, text, "energy_gain", "energy", sentence, gain=-found["translational_energy_loss"])
     if known.normal is None:
         return
     closing, e = found["closing_speed"], found["restitution"]

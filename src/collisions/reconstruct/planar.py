@@ -270,7 +270,7 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         taken = "taken as 0, a plastic impact, and the motions after changed by as much"
         text = f"{cases.how_many(pressed)}{what}, by up to {most:.3g} m/s: {taken}"
         warning: CollisionsWarning = OutOfRangeWarning(text, code="nearly_plastic", approach=most)
-        warn_of_cases(warning, int(np.count_nonzero(pressed)), f"{what}, by no more than rounding: {taken}")
+        warn_of_cases(warning, {f"{what}, by no more than rounding: {taken}": cases.number(pressed)})
     if np.any(nearly):
         low, high = end.slip_range()
         single = cases.shape is None
@@ -286,7 +286,7 @@ def _warn(cases: Cases, end: End, pressed: Any, nearly: Any) -> None:
         sentence = (
             "the slip after the impact is so small that it may be none: then the contact stuck, and the slip before is open"
         )
-        warn_of_cases(warning, int(np.count_nonzero(nearly)), sentence)
+        warn_of_cases(warning, {sentence: cases.number(nearly)})
 
 
 def _interval(low: float, high: float, unit: str = "") -> str:

@@ -11,13 +11,14 @@ import numpy as np
 
 from ..errors import CollisionsWarning, IllConditionedWarning, InputError
 from ..records import strict
-from ..summary import Cells, Part, Summarized, Summary
+from ..summary import Cells, Part, Summarized, Summary, as_sentence
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.model import described
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.result import Sampled, Shares, correlations, outputs_part, units_of
 from ..units import shown
-from .fit_result import CONTRADICTION, Note, Residual, agreement, with_unit
+from ..warning import Note
+from .fit_result import CONTRADICTION, Residual, agreement, with_unit
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
@@ -102,6 +103,8 @@ class Posterior(Summarized):
         The seed that reproduces the result to the bit, for any number of threads.
     interrupted : bool
         Whether it was stopped early; the figures are those of the finished islands.
+    model_notes : tuple
+        The warnings of the model at the samples, each with the number and share of those it is of; ``statements`` has them.
     """
 
     priors: dict[str, Distribution]
@@ -118,6 +121,7 @@ class Posterior(Summarized):
     samples: int
     seed: int
     interrupted: bool
+    model_notes: tuple[Note, ...] = ()
 
     def __getitem__(self, name: str) -> PosteriorOutput:
         outputs = self.predicted | self.unknowns
@@ -243,7 +247,7 @@ class Posterior(Summarized):
             Part([(name, str(one)) for name, one in self.priors.items()], "Priors"),
             Part([("log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}")]),
         ]
-        notes = (f"{text[0].upper()}{text[1:]}." for text in self.statements)
+        notes = map(as_sentence, self.statements)
         return Summary(f"Given the evidence and the priors ({self.samples} samples)", parts, notes)
 
     def _texts(self) -> Iterator[str]:
@@ -282,3 +286,4 @@ def notes_of(found: Posterior) -> Iterator[Note]:
     if found.interrupted:
         sentence = f"interrupted; the figures are those of {found.samples} samples"
         yield Note(CollisionsWarning, sentence, code="interrupted")
+    yield from found.model_notes

@@ -408,12 +408,12 @@ def _answers(
         warn_of_refusals(impacts[0].status, ASK_ALONE)
     _warn_of_folds(scene, found, count)
     if isinstance(scene, ComponentScene):
-        scene.warn(np.logical_not(impacts[0].refused))
+        scene.warn(np.logical_not(impacts[0].refused), cases)
     if backward < 0.0:
         cure = "backwards along its course; check the courses, and the normal, which must point from A into B"
         text = f"the speed of {whose} came out as {said(backward, 'speed', impacts[0]._texts())}: {cure}"
         warning = OutOfRangeWarning(cases.how_many(turned) + text, code="negative_speed", value=backward)
-        warn_of_cases(warning, int(np.count_nonzero(turned)), f"a speed comes out below 0, {cure}")
+        warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.number(turned)})
     return tuple(impacts)
 
 

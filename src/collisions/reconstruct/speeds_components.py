@@ -19,7 +19,7 @@ from ..errors import IllConditionedWarning
 from ..kernels.contact_laws import FRICTION
 from ..reference import RECORDER_ACCURACY
 from ..warning import warn_of_cases
-from .common import NEARLY_COLLINEAR
+from .common import NEARLY_COLLINEAR, Cases
 from .restitution_roots import RestitutionOf
 from .speeds_algebra import LAW, REDUNDANT, ROOT_TOL, STICK, Root, Scene, Seen, pushed
 
@@ -133,38 +133,35 @@ class ComponentScene(Scene):
         """The length of what remains of the components of one vehicle."""
         return np.sqrt(sum((one * one for kind, one in zip(self.components, left, strict=True) if kind[-1] == label), 0.0))
 
-    def warn(self, answered: Any) -> None:
+    def warn(self, answered: Any, cases: Cases) -> None:
         """Warn of known values that differ beyond their accuracy, of courses near one line, of a contact that may have slid."""
-        worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
-        if worst > ACCURACY:
-            warn_of_cases(
-                IllConditionedWarning(
-                    f"{' and '.join(self.names)} differ from their best common answer by {worst:.0%} of the impulse, where "
-                    f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or the geometry is wrong",
-                    code="recorders_differ",
-                    value=worst,
-                )
-            )
+        differ = answered & (self.misfit > ACCURACY)
+        if np.any(differ):
+            worst = float(np.max(np.where(answered, self.misfit, 0.0), initial=0.0))
+            who = " and ".join(self.names)
+            why = f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or the geometry is wrong"
+            text = f"{who} differ from their best common answer by {worst:.0%} of the impulse, where {why}"
+            sentence = f"{who} differ from their best common answer by more than they may, as {why}"
+            warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
+            warn_of_cases(warning, {sentence: cases.number(differ)})
         (ax, ay), (bx, by) = ([self.given[f"course_{label}[{i}]"] for i in range(2)] for label in "ab")
-        sine = float(np.min(np.where(answered, abs(ax * by - ay * bx), 1.0), initial=1.0))
-        if len(self.unknown) > 1 and sine < math.sin(NEARLY_COLLINEAR):
-            warn_of_cases(
-                IllConditionedWarning(
-                    f"course_a and course_b are {math.degrees(math.asin(sine)):.2g} degrees from one line: small "
-                    f"errors of delta-V and of the courses move both speeds far; give one of them",
-                    code="nearly_collinear",
-                    sine=sine,
-                )
+        sines = np.where(answered, abs(ax * by - ay * bx), 1.0)
+        near = sines < math.sin(NEARLY_COLLINEAR)
+        if len(self.unknown) > 1 and np.any(near):
+            sine = float(np.min(sines))
+            why = "small errors of delta-V and of the courses move both speeds far; give one of them"
+            text = f"course_a and course_b are {math.degrees(math.asin(sine)):.2g} degrees from one line: {why}"
+            sentence = f"course_a and course_b are within {math.degrees(NEARLY_COLLINEAR):.2g} degrees of one line: {why}"
+            warning = IllConditionedWarning(text, code="nearly_collinear", sine=sine)
+            warn_of_cases(warning, {sentence: cases.number(near)})
+        slides = self.near_sliding & answered
+        if np.any(slides):
+            text = (
+                "the direction of the delta-Vs is that of a contact that slides to the end, within the stated accuracy of "
+                "recorders; it was taken to stick, as they lie within the friction. If it slid the slip is open: give one of "
+                "the speeds"
             )
-        if np.any(self.near_sliding & answered):
-            warn_of_cases(
-                IllConditionedWarning(
-                    "the direction of the delta-Vs is that of a contact that slides to the end, within the stated accuracy of "
-                    "recorders; it was taken to stick, as they lie within the friction. If it slid the slip is open: give one "
-                    "of the speeds",
-                    code="may_slide",
-                )
-            )
+            warn_of_cases(IllConditionedWarning(text, code="may_slide"), {text: cases.number(slides)})
 
 
 def _dot(one: Sequence[Any], other: Sequence[Any]) -> Any:

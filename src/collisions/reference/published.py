@@ -137,7 +137,8 @@ def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: 
                 f"({ranges}), and {counts['refused']} have no answer and are NaN",
                 code="outside_reference",
                 counts=counts,
-            )
+            ),
+            {f"{fit.name} outside the range it holds for ({ranges}) or without an answer": sum(counts.values())},
         )
     return answer
 
@@ -151,4 +152,5 @@ def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> 
             code="outside_reference",
             argument=next(iter(fit.ranges)),
         )
-    warn_of_cases(OutOfRangeWarning(f"{text}; the value is an extrapolation", code="outside_reference", given=given))
+    text = f"{text}; the value is an extrapolation"
+    warn_of_cases(OutOfRangeWarning(text, code="outside_reference", given=given), {text: None})

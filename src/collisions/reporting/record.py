@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from functools import partial
 from html import unescape
+from itertools import chain
 from typing import Any
 
 from ..diagnostics import LIMITS
@@ -26,6 +27,7 @@ from ..settings import computing, units_required
 from ..uncertainty import Propagation
 from ..units import Texts, shown
 from ..vehicle import DOMAINS, Vehicle, with_given
+from .found_again import contradicted_origin
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
@@ -169,7 +171,7 @@ def replay(text: str) -> Impact | MomentumSolution:
     except CollisionsError as error:
         raise _bad(str(error)) from error
     _check(found["impact"]["results"], impact.to_dict()["results"])
-    for contradiction in contradicted(impact):
+    for contradiction in chain(contradicted(impact), contradicted_origin(impact)):
         raise _bad(contradiction)
     texts = found.get("other_texts")
     if not isinstance(texts, Mapping) or set(texts) != {"a", "b"}:

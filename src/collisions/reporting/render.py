@@ -57,8 +57,9 @@ def plain(text: str) -> str:
 
 def visible(text: str) -> str:
     """A text with a visible mark in place of each invisible character."""
-    hidden = {sign for sign in set(text) if unicodedata.category(sign)[0] == "C" and sign not in _JOINERS + "\n"}
-    return "".join("\ufffd" if sign in hidden else sign for sign in text)
+    shown_as_is = _JOINERS + "\n"
+    hidden = [s for s in set(text) if unicodedata.category(s)[0] == "C" and s not in shown_as_is]
+    return text.translate(dict.fromkeys(map(ord, hidden), "\ufffd")) if hidden else text
 
 
 class Printed(System):

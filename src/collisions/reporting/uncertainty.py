@@ -13,6 +13,7 @@ from ..formatting import SI_UNITS, Numbers, typeset, with_decimals
 from ..impact import Impact
 from ..kernels.contact_laws import RULES
 from ..reconstruct import Fit, MomentumSolution, Posterior
+from ..summary import as_sentence
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import GivenUnit, from_numbers
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
@@ -67,10 +68,9 @@ class Spread:
             f"± is one standard deviation. Method: {uncertainty.method.replace('_', '-')}, {cases}{seed}. Whatever the stated "
             f"inputs leave out, these figures leave out too."
         )
-        if uncertainty.failed:
-            sheet.say("Cases without an answer are left out: the figures hold for those that have one.")
-        if uncertainty.interrupted:
-            sheet.stress("The run was stopped before its end; the figures are those of the cases done.")
+        if uncertainty.statements:
+            sheet.stress("What was warned of:")
+            sheet.listed([plain(as_sentence(sentence)) for sentence in uncertainty.statements])
 
     def _check(self, sheet: Sheet, name: str, output: Output) -> None:
         """Warn if the result is outside the propagation's interval: one of the two then belongs to another case."""

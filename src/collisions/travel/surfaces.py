@@ -177,7 +177,8 @@ def settle(found: Any, named: Mapping[str, Any], shape: tuple[int, ...], checks:
                 f"{sum(counts.values())} of {answered.size} cases cannot be answered and are NaN ({listed})",
                 code="refused_cases",
                 counts=counts,
-            )
+            ),
+            {f"without an answer on the ground, as {code}": count for code, count in counts.items()},
         )
 
     def settled(answer: Any) -> Any:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -82,8 +82,7 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
     places = _Places(model, bounds, common)
     grid = _grid(len(bounds), effort)
     first = places.count_directions(places.answers(grid))
-    found: dict[str, tuple[float, float]] = {}
-    spots = []
+    searches: list[_Search] = []
     for name, values in first.items():
         if np.isnan(values).all():
             raise NoSolutionError(
@@ -91,15 +90,13 @@ def extremes(model: Model, bounds: Mapping[str, tuple[float, float]], common: Ma
             )
         for figure in _FIGURES if common else _FIGURES[:1]:
             judged = _by_place(figure, values)
-            if np.isnan(judged).all():
-                continue
-
-            def judge(shares: Any, name: str = name, figure: Callable[[Any], Any] = figure) -> Any:
-                return _by_place(figure, places.answers(shares)[name])
-
-            ends = [_search(judge, grid, judged, sign, effort) for sign in (1.0, -1.0)]
-            spots += [place for place, _ in ends]
-            found.setdefault(name, (ends[0][1], ends[1][1]))
+            if not np.isnan(judged).all():
+                searches += (_Search(name, figure, _steps_to(grid, judged, sign, effort)) for sign in (1.0, -1.0))
+    ends = _in_lockstep(places, searches)
+    found: dict[str, tuple[float, float]] = {}
+    for search, (_, least), (_, most) in zip(searches[::2], ends[::2], ends[1::2], strict=True):
+        found.setdefault(search.output, (least, most))
+    spots = [place for place, _ in ends]
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
     wrapped = tuple(name for name, values in first.items() if model.units[name] is None and angles.jump(values.ravel()))
@@ -153,15 +150,62 @@ class _Places:
         return about + math.tau * np.reshape(angles.turns_to(_means(about), self.cuts[name]), (-1, 1))
 
 
-def _search(judge: Callable[[Any], Any], grid: Any, judged: Any, sign: float, effort: _Effort) -> tuple[Any, float]:
-    """The point of the least figure (greatest for a sign of -1) and the figure there, from the best of the grid."""
+class _Search(NamedTuple):
+    """A search for one extreme: the output, the figure of it that is judged, and the steps, which ask for points."""
+
+    output: str
+    figure: Callable[[Any], Any]
+    steps: Generator[Any, Any, tuple[Any, float]]
+
+
+def _in_lockstep(places: _Places, searches: Sequence[_Search]) -> list[tuple[Any, float]]:
+    """The point and the figure where each search ends.
+
+    All searches take each step together, so that the model is called once a step, and no figure is worked out twice: searches
+    for different outputs meet at the same corners.
+    """
+    ends: list[Any] = [None] * len(searches)
+    asked = {at: next(search.steps) for at, search in enumerate(searches)}
+    known: dict[tuple[bytes, str, Any], float] = {}
+    while asked:
+        keys = {
+            at: [(point.tobytes(), searches[at].output, searches[at].figure) for point in points]
+            for at, points in asked.items()
+        }
+        new = {
+            key[0]: point
+            for at, points in asked.items()
+            for key, point in zip(keys[at], points, strict=True)
+            if key not in known
+        }
+        row = {point: i for i, point in enumerate(new)}
+        answers = places.answers(np.array(list(new.values()))) if new else {}
+        for at in list(asked):
+            name, figure, steps = searches[at]
+            missing = [key for key in keys[at] if key not in known]
+            if missing:
+                rows = answers[name][[row[key[0]] for key in missing]]
+                known.update(zip(missing, map(float, _by_place(figure, rows)), strict=True))
+            try:
+                asked[at] = steps.send(np.array([known[key] for key in keys[at]]))
+            except StopIteration as ended:
+                ends[at] = ended.value
+                del asked[at]
+    return ends
+
+
+def _steps_to(grid: Any, judged: Any, sign: float, effort: _Effort) -> Generator[Any, Any, tuple[Any, float]]:
+    """The steps from the best of the grid to the least figure, or the greatest for a sign of -1.
+
+    Each step asks for the figures at the points around the best one; the end is that point and its figure.
+    """
     best = int(np.nanargmin(sign * judged))
     place, value = grid[best], sign * float(judged[best])
     size, smallest = 0.5, 0.5**effort.halvings
     steps = _steps(grid.shape[1], effort)
     for _ in range(_PATIENCE * effort.halvings):
         around = np.clip(place + size * steps, 0.0, 1.0)
-        beside = sign * judge(around)
+        beside = sign * (yield around)
         least = int(np.argmin(np.where(np.isnan(beside), math.inf, beside)))
         if beside[least] < value:
             place, value = around[least], float(beside[least])

@@ -16,7 +16,7 @@ from ..kernels.elementwise import UNCHECKED
 from ..reading import ArgumentReader
 from ..settings import in_si
 from ..units import is_quantity, shown, si_unit
-from ..warning import Noted, quietly, warn
+from ..warning import Noted, quietly
 from . import angles
 from .distributions import Distribution, Interval
 
@@ -60,19 +60,14 @@ class Model:
             self._checked = check_elementwise(lambda cases, count: self._answers(cases, count, []), values, found)
         return found
 
-    def warn_of_noted(self, count: int) -> None:
-        """Warn once of everything that was noted, with the number of cases, out of ``count``, that it concerns."""
-        for about in dict.fromkeys(one[:3] for one in self.noted):
-            sentence, kind, code = about
-            cases = min(sum(one[3] for one in self.noted if one[:3] == about), count)
-            warn(kind(f"{cases} of {count} cases: {sentence}", code=code, cases=cases))
-
     def _answers(self, values: Mapping[str, Any], count: int, noted: list[Noted]) -> dict[str, Any]:
         for value in values.values():
             value.setflags(write=False)
+        here: list[Noted] = []
         try:
-            with quietly(noted), in_si(), np.errstate(all="ignore"):
+            with quietly(here), in_si(), np.errstate(all="ignore"):
                 answered = self.function(**self.fixed, **values)
+            noted += (one._replace(cases=count if one.cases is None else min(one.cases, count)) for one in here)
         except Exception as error:
             called = (
                 f"called with arrays of {count} cases for {', '.join(values) or 'nothing'}, and must work case by case: write "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import secrets
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, partial
 from typing import Any, Literal, TypeAlias
@@ -16,7 +16,7 @@ from ..hints import hinted
 from ..progress import reporter
 from ..reading import ArgumentReader, is_whole
 from ..units import shown
-from ..warning import warn
+from ..warning import Note, notes_of_samples, warn_of
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
 from .distribution import Stated
@@ -149,9 +149,15 @@ def propagate(
     if method == "interval":
         return _by_interval(whole, stated, correlation)
     if not drawn:
+        censored = [name for name, value in stated.items() if isinstance(value, Stated) and name in whole.fixed]
+        advice = "; of intervals alone take method='interval'"
+        if censored:
+            advice = (
+                f"; {censored[0]} is a reading with a bound, which is evidence for reconstruct.posterior: give a "
+                f"distribution of what is known, or Interval(low, high)"
+            )
         raise InputError(
-            f"method={method!r} needs an input with a distribution, and there is none; of intervals alone take "
-            f"method='interval'{pair_hints(whole.fixed)}",
+            f"method={method!r} needs an input with a distribution, and there is none{advice}{pair_hints(whole.fixed)}",
             code="nothing_uncertain",
             argument="inputs",
         )
@@ -189,12 +195,15 @@ def propagate(
             )
         outputs[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
-    _warn(method, runs, len(places), count, failed, whole)
+    notes = _notes(method, runs, len(places), count, failed, whole)
+    warn_of(notes)
     interrupted = len(runs) < len(places) or runs[-1].interrupted
-    return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted)
+    return Propagation(method, stated, outputs, count, failed, None if method in LOCAL else seed, interrupted, notes)
 
 
-def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any) -> None:
+def check_options(
+    method: Any, samples: Any, tolerance: Any, seed: Any, threads: Any, progress: Any, least: int = _LEAST_SAMPLES
+) -> None:
     """Raise for an unknown option, or one that this method does not have."""
     if not isinstance(method, str) or method not in METHODS:
         raise _bad_option("method", f"method must be one of {', '.join(METHODS)}, got {shown(method)}")
@@ -203,10 +212,10 @@ def check_options(method: Any, samples: Any, tolerance: Any, seed: Any, threads:
     for name, value in (("samples", samples), ("tolerance", tolerance)):
         if value is not None and method not in DESIGNS:
             raise _bad_option(name, f"{name} is for methods that draw; method={method!r} does not")
-    samples_fine = samples is None or (is_whole(samples) and _LEAST_SAMPLES <= samples <= MOST_SAMPLES)
+    samples_fine = samples is None or (is_whole(samples) and least <= samples <= MOST_SAMPLES)
     progress_fine = progress is None or isinstance(progress, bool) or callable(progress)
     for name, value, fine, allowed in (
-        ("samples", samples, samples_fine, f"a whole number from {_LEAST_SAMPLES} to {MOST_SAMPLES}"),
+        ("samples", samples, samples_fine, f"a whole number from {least} to {MOST_SAMPLES}"),
         ("seed", seed, seed is None or (is_whole(seed) and seed >= 0), "a whole number from 0, or None"),
         ("threads", threads, is_whole(threads) and threads >= 1, "a whole number from 1"),
         ("progress", progress, progress_fine, "a function of (done, total), or True for a bar"),
@@ -356,58 +365,59 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
         # Each end is an output with nothing uncertain about it.
         outputs[name] = Bounds(name, unit, [Local(name, unit, value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values])
     run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
-    _warn("interval", [run], 1, found.samples, found.failed, model)
-    return Propagation("interval", stated, outputs, found.samples, found.failed)
+    notes = _notes("interval", [run], 1, found.samples, found.failed, model)
+    warn_of(notes)
+    return Propagation("interval", stated, outputs, found.samples, found.failed, notes=notes)
 
 
-def _warn(method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model) -> None:
-    """Warn of what was noted of cases, of cases left out, of a tolerance not reached, and of the limits of a local method."""
-    model.warn_of_noted(count)
+def _notes(method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model) -> tuple[Note, ...]:
+    """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a local method missed."""
+    notes = [*notes_of_samples(model.noted, count)]
     if method in LOCAL:
-        _warn_if_not_local(method, runs, failed)
+        notes += _not_local(method, runs, failed)
     elif failed:
-        warn(
-            OutOfRangeWarning(
+        notes.append(
+            Note(
+                OutOfRangeWarning,
                 f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and are left out: the figures hold "
-                f"only where there is one. Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, high))",
-                code="failed_cases",
-                failed=failed,
+                f"only where there is one",
+                ". Bound inputs that can be impossible, as by Normal(mean, sd, truncate=(low, high))",
+                "failed_cases",
+                {"failed": failed},
             )
         )
     if any(run.unreached for run in runs):
-        warn(
-            CollisionsWarning(
-                f"{max(run.samples for run in runs)} cases do not bring the standard errors below the tolerance; this is what "
-                f"they give",
-                code="tolerance_not_reached",
-            )
-        )
+        cases = max(run.samples for run in runs)
+        sentence = f"{cases} cases do not bring the standard errors below the tolerance; this is what they give"
+        notes.append(Note(CollisionsWarning, sentence, code="tolerance_not_reached"))
     done = sum(not run.interrupted for run in runs)
     if done < places:
         rest = f" at {done} of {places} places between the bounds: they say nothing of the rest" if places > 1 else ""
-        warn(
-            CollisionsWarning(f"interrupted after {count} cases; the figures are theirs{rest}", code="interrupted", done=count)
-        )
+        sentence = f"interrupted after {count} cases; the figures are theirs{rest}"
+        notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
     wrapped = dict.fromkeys(name for run in runs for name in run.wrapped)
     bare = tuple(name for name in wrapped if not runs[0].outputs[name].unit)
     directions = tuple(name for name in wrapped if name not in bare)
-    for names, text in (
+    for names, text, cure in (
         (
             bare,
-            "has values near pi and near -pi: if it is an angle, its mean means nothing. Return it with its unit "
-            "(impact.a.q.pdof), so that it is known to be one",
+            "has values near pi and near -pi: if it is an angle, its mean means nothing",
+            ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
         ),
         (
             directions,
             "has directions so far round the circle from one another that its mean tells little: the mean errs by more than "
             "their spread shows, or another one far from it is about as good",
+            "",
         ),
     ):
         if names:
-            warn(OutOfRangeWarning(f"{', '.join(names)} {text}", code="may_wrap", outputs=names))
+            notes.append(Note(OutOfRangeWarning, f"{', '.join(names)} {text}", cure, "may_wrap", {"outputs": names}))
+    return tuple(notes)
 
 
-def _warn_if_not_local(method: str, runs: Sequence[Run], failed: int) -> None:
+def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
+    """That a local method does not describe the model, as cases drawn from the inputs show."""
     worst: dict[str, float] = {}
     for run in runs:
         for name, by in run.differing.items():
@@ -422,12 +432,11 @@ def _warn_if_not_local(method: str, runs: Sequence[Run], failed: int) -> None:
     if failed:
         reasons.append(f"knows nothing of the {failed} of them without an answer")
     if reasons:
-        warn(
-            OutOfRangeWarning(
-                f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a bend lies within the spread "
-                f"of the inputs, or an input is far from normal; take method='quasi_random'",
-                code="not_local",
-                differences=worst,
-                failed=failed,
-            )
+        yield Note(
+            OutOfRangeWarning,
+            f"method={method!r} {' and '.join(reasons)}. A friction limit, a truncation or a bend lies within the spread of "
+            f"the inputs, or an input is far from normal",
+            "; take method='quasi_random'",
+            "not_local",
+            {"differences": worst, "failed": failed},
         )

@@ -16,8 +16,9 @@ from ..formatting import KIND_OF, Numbers
 from ..quantities import OWN, Derived, Quantities, derived, returns, same, show
 from ..reading import ArgumentReader, is_whole
 from ..records import strict
-from ..summary import Cells, Part, Summarized, Summary, all_numbers
+from ..summary import Cells, Part, Summarized, Summary, all_numbers, as_sentence
 from ..units import shown, unit_as_written
+from ..warning import Note
 from . import angles
 from .designs import REPLICATES
 from .distribution import probability
@@ -542,6 +543,8 @@ class Propagation(Summarized):
         The seed that reproduces the result to the bit; None where nothing was drawn.
     interrupted : bool
         Whether the run was stopped before its end; the figures are then those of the cases done.
+    notes : tuple
+        What ``statements`` say, each with the warning it is, if any, its ``code``, and the number and share of the cases.
     """
 
     method: str
@@ -551,6 +554,7 @@ class Propagation(Summarized):
     failed: int
     seed: int | None = None
     interrupted: bool = False
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         for output in self.outputs.values():
@@ -576,6 +580,11 @@ class Propagation(Summarized):
         """Correlation of every pair of outputs, over the cases with an answer for both; only after sampling."""
         return correlations({name: output for name, output in self.outputs.items() if isinstance(output, Sampled)})
 
+    @property
+    def statements(self) -> tuple[str, ...]:
+        """What belongs with the figures, as sentences: every warning of the model, by how many cases, and of the method."""
+        return tuple(note.sentence for note in self.notes)
+
     def to_dict(self) -> dict[str, Any]:
         """Figures of all outputs and the inputs they are given, as nested plain values that strict JSON can hold.
 
@@ -591,6 +600,7 @@ class Propagation(Summarized):
             "failed": self.failed,
             "seed": self.seed,
             "interrupted": self.interrupted,
+            "statements": list(self.statements),
             "outputs": {name: output.record() for name, output in self.outputs.items()},
         }
 
@@ -606,7 +616,7 @@ class Propagation(Summarized):
         title = f"Given the stated inputs ({self.method}, {self.samples} cases, {self.failed} without an answer)"
         stated = Part([(name, str(value)) for name, value in self.inputs.items()], "Inputs as stated")
         parts = [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())]
-        return Summary(title, parts, _notes(self.outputs.values()))
+        return Summary(title, parts, [*map(as_sentence, self.statements), *_notes(self.outputs.values())])
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.inputs)
