@@ -329,7 +329,7 @@ def test_two_answers_are_told_apart():
         ("linear_central", "linear_centrl", "linear_centrl: is not known here; did you mean linear_central?"),
         ("linear_central", "reconstruct.centrall", "reconstruct.centrall: is not known here; did you mean reconstruct.central?"),
         ('mass = "1100 kg"\n', "", "a.mass: is missing; give it: Mass, > 0"),
-        ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass [m/s]"),
+        ('vx = "80 km/h"', "course = 0.0", "a.speed: is missing; give it: Speed of the centre of mass, >= 0 [m/s]"),
         ("1100 kg", "1100 kgg", "a.mass: '1100 kgg' cannot be taken as kg"),
         ('"1100 kg"', "1100 kg", "a.mass: is not TOML: Expected newline or end of document after a statement (at line 2, column 13), 'mass = 1100 kg'; write mass = \"1100 kg\""),
         ("0.4", "0,4", "linear_central.restitution: is not TOML: Expected newline or end of document after a statement (at line 9, column 16), 'restitution = 0,4'; a decimal has a point: write restitution = 0.4"),
@@ -379,7 +379,7 @@ def test_two_answers_are_told_apart():
         ("80 km/h", "\u221280 km/h", "a.vx: cannot read '\u221280 km/h': a minus is typed as a hyphen, '-80 km/h'"),
         ("0.4", '"0.4 to 0.7"', "linear_central.restitution: cannot read '0.4 to 0.7'; a range has two dots: write \"0.4 .. 0.7\""),
         ("vx", 'speed = "50 km/h"\ncourse = 0\nvx', "a: has its velocity in two ways; leave vx and vy, or speed and course"),
-        ('vx = "80 km/h"', 'speed = "80 km/h"', "a.course: is missing; give it: Direction of motion of the centre of mass [rad], such as 1.57 (rad) or '90 deg'"),
+        ('vx = "80 km/h"', 'speed = "80 km/h"', "a.course: is missing; give it: Direction in which it moves, counter-clockwise from the x axis of the scene [rad], such as 1.57 (rad) or '90 deg'"),
         ('"80 km/h"', "\u201c80 km/h\u201d", "a.vx: is not TOML: Invalid value (at line 3, column 6), 'vx = \u201c80 km/h\u201d'; write straight quotes"),
         ("[b]", "[a]", ": is not TOML: Cannot declare [a] twice (at line 5, column 3), '[a]'; a file is of one case"),
         (REAR_END, "", ": has no table of a solver; write one of [linear_central], "),
@@ -592,7 +592,7 @@ def test_a_study_warns_once_with_the_number_of_its_cases():
     negative = int((whole.propagation["speed_b"].values < 0.0).sum())
     assert 0 < negative < 8192
     assert [line for line in whole.warnings if "backwards" in line] == [
-        f"{negative} of 8192 cases: speed_b is below 0, backwards along its course; check the courses, or turn its course by 180 deg"
+        f"{negative} of 8192 cases ({100 * negative / 8192:.3g} %): speed_b is below 0, backwards along its course; check the courses, or turn its course by 180 deg"
     ]
     alone = re.sub(r"20 deg \.\. 60", "40", re.sub(r" \+/- [^\"]*", "", text))
     (line,) = answers(read_text(alone.encode())).warnings

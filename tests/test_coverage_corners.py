@@ -113,7 +113,7 @@ def test_a_report_says_that_cases_had_no_answer():
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=1.0), col.Vehicle.barrier(), 0.1)
     page = col.report(impact, uncertainty=found, form="markdown")
     assert f"{found.failed} without an answer" in page
-    assert "the figures hold for those that have one" in page
+    assert "had no answer and are left out: the figures hold only where there is one." in page
 
 
 @pytest.mark.parametrize("share", ["half", None, object(), [0.5, 2.0], 1.5, -0.1, math.nan, True])

@@ -115,11 +115,13 @@ def angle_of(x: Any, y: Any) -> Value:
     """Direction of a vector [rad] in (-pi, pi]; NaN without a length."""
     atan2: Any = math.atan2 if isinstance(x, float) and isinstance(y, float) else np.arctan2
     angle = atan2(y, x)
-    # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi. The
-    # comparison of the parts counts too, because some float32 arctan2 round such an angle to the next number.
-    eps = 2.0**-52 if isinstance(angle, float) else float(np.finfo(angle.dtype).eps)
-    back = (angle <= -math.pi) | ((angle < -3.0) & (abs(y) <= eps * abs(x)))
-    angle = select(back, np.asarray(math.pi, angle.dtype) if eps > 2.0**-52 else math.pi, angle)
+    # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi.
+    back = angle <= -math.pi
+    if isinstance(angle, (np.ndarray, np.generic)) and angle.dtype == np.float32:
+        # Some processors round such an angle of float32 to the next number; its vector tells it all the same.
+        back = back | ((angle < -3.0) & (abs(y) <= float(np.finfo(np.float32).eps) * abs(x)))
+        angle = np.where(back, -angle.dtype.type(math.pi), angle)
+    angle = select(back, -angle, angle)
     # Adding 0 turns the -0 of a 0 into 0.
     found: Value = select((x == 0.0) & (y == 0.0), math.nan, angle + 0.0)
     return found

@@ -230,7 +230,9 @@ def _chosen(impact: Any, found: Mapping[str, Any], wanted: Any) -> list[str]:
     """The names of the columns that were asked for, by default all."""
     if wanted is None:
         return list(found)
-    names = list(wanted) if isinstance(wanted, Collection | Iterator) and not isinstance(wanted, str) else [wanted]
+    # An array of no dimensions is one thing, though it has the methods of a collection.
+    several = isinstance(wanted, Collection | Iterator) and getattr(wanted, "ndim", 1) != 0
+    names = list(wanted) if several and not isinstance(wanted, str) else [wanted]
     for name in names:
         if isinstance(name, str) and name not in found:
             side, _, inner = name.rpartition(".")
