@@ -117,10 +117,10 @@ def angle_of(x: Any, y: Any) -> Value:
     angle = atan2(y, x)
     # A vector that points straight back but for the last bit, or for the sign of a 0, has the angle pi.
     back = angle <= -math.pi
-    if isinstance(angle, (np.ndarray, np.generic)) and angle.dtype == np.float32:
+    if getattr(angle, "dtype", None) == np.float32:
         # Some processors round such an angle of float32 to the next number; its vector tells it all the same.
         back = back | ((angle < -3.0) & (abs(y) <= float(np.finfo(np.float32).eps) * abs(x)))
-        angle = np.where(back, -angle.dtype.type(math.pi), angle)
+        angle = np.where(back, np.float32(-math.pi), angle)
     angle = select(back, -angle, angle)
     # Adding 0 turns the -0 of a 0 into 0.
     found: Value = select((x == 0.0) & (y == 0.0), math.nan, angle + 0.0)
