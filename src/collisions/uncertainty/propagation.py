@@ -376,6 +376,8 @@ def _notes(method: str, runs: Sequence[Run], places: int, count: int, failed: in
     if method in LOCAL:
         notes += _not_local(method, runs, failed)
     elif failed:
+        # That cases have no answer is raised once; which solver refused them, and why, is stated beside it.
+        notes = [note._replace(warning=None) if note.code == "refused_cases" else note for note in notes]
         notes.append(
             Note(
                 OutOfRangeWarning,
