@@ -45,6 +45,7 @@ from collisions.reconstruct.posterior_result import PosteriorOutput
 from collisions.side import Side
 from collisions.uncertainty.distribution import GivenUnit
 from collisions.units import Texts
+from collisions.warning import Note
 from strategies import EXTREMES, NEVER, ODD_UNITS, PLACES, RANGES, SPELLINGS, UNITS, YAW_RATES, quantity, registries
 
 _FEW = 12
@@ -75,6 +76,7 @@ MODULES = ("reporting", "diagnostics", "derivation")  # public beside those of c
 # What is given back without being in any __all__.
 GIVEN_BACK = (
     Side, Pulse, LeftOut, LeftOutSide, Findings, Estimate, Residual, Direction, Values, Sensitivity, ByModel, Inputs, PosteriorOutput,
+    Note,
 )  # fmt: skip
 
 

@@ -393,7 +393,9 @@ def answer_of(case: Case) -> Any:
 def test_what_is_made_of_an_impact(case: Case) -> None:
     """left_out, diagnose, explain and the report of one impact; the report is read back, whole and spoiled."""
     impact = answer_of(case)
-    left = case.call("left_out", col.left_out, impact, **case.spoil({name: case.value(name) for name in ("duration", "drag")}))
+    asked = {name: case.value(name) for name in ("duration", "drag")}
+    asked["geometry"] = case.option("maximum_engagement", "first_contact")
+    left = case.call("left_out", col.left_out, impact, **case.spoil(asked))
     if not isinstance(left, Exception):
         case.look(left, None if np.any(impact.refused) else LEFT_OPEN | INCOMPLETE if incomplete(impact) else LEFT_OPEN)
     known = what_is_known(case)
