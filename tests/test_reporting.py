@@ -424,15 +424,15 @@ def test_no_text_prints_a_bare_nan():
     undefined = 0
     for impact in sideswipes():
         # So long that what moves from maximum engagement leaves some of them without an answer.
-        left = col.left_out(impact, duration=3.0)
-        page = report(impact, form="markdown", figures=False, derivation=True, duration=3.0)
+        left = col.left_out(impact, duration="3 s")
+        page = report(impact, form="markdown", figures=False, derivation=True, duration="3 s")
         text = page.partition("```json")[0]
         texts = [
             text,
             col.explain(impact, units="metric"),
             repr(left),
             left._repr_html_(),
-            *(f.sentence for f in diagnose(impact, duration=3.0)),
+            *(f.sentence for f in diagnose(impact, duration="3 s")),
         ]
         assert not [one for text in texts for one in text.split("\n") if BARE.search(one)]
         printed = {row[0]: row[2] for row in rows(section(text, "Assumptions")) if "positions and normal" in row[1]}
