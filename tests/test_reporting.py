@@ -440,7 +440,7 @@ def test_no_text_prints_a_bare_nan():
             lost = math.isnan(side.geometry_delta_v)
             undefined += lost
             assert lost == printed[label].startswith(
-                "not defined: the model has no answer with the places and the normal of later in the contact"
+                "not defined: the model has no answer with the places and the normal of other moments of the contact"
             )
     assert undefined > 4
 
