@@ -1223,6 +1223,7 @@ def propagation(case: Case) -> Any:
 
 
 @fuzzes(
+    "Note",
     "uncertainty.propagate", "uncertainty.Propagation", "uncertainty.Propagation.to_dict", "uncertainty.Output", "uncertainty.Shares",
     "uncertainty.Histogram",
     *(f"uncertainty.Output.{name}" for name in ("quantile", "quantile_standard_error", "interval", "histogram", "row", "record")),
