@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
@@ -14,7 +13,7 @@ from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
 from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, body_numbers, read_inputs
 from .kernels.contact_laws import BRACH
-from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE
+from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
 from .kernels.status import Passed, Status
 from .quantities import lock
 from .reading import ArgumentReader, is_whole
@@ -124,6 +123,21 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
     )
 
 
+def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
+    """A, B and width of the crush stiffness, by vehicle, "a" and "b", of those that have one."""
+    found = {"a": inputs.crush_a, "b": inputs.crush_b}
+    return {label: crush for label, crush in found.items() if crush is not None}
+
+
+def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
+    """By vehicle what is left of its crush, in CRASH's meaning: 0 where the largest crush was not beyond A/B."""
+    found = {}
+    for label, (begins, growth, width) in crushes(inputs).items():
+        left = (peak_force / width - begins) / growth
+        found[label] = select(left < 0.0, 0.0 * left, left)
+    return found
+
+
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
     """Step through one case of plain numbers, every step kept; or through one of a batch, which ``cut`` takes from arrays."""
     # A twentieth of the import of the package, and impulses need none of it.
@@ -187,15 +201,11 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     from .kernels import time_resolved as kernel
 
     contact = inputs.point or (0.0, 0.0)
-    kind = "duration" if inputs.duration is not None else "stiffness" if inputs.stiffness is not None else "crush"
-    if kind == "crush":
-        parts = []
-        for crush in (inputs.crush_a, inputs.crush_b):
-            force, growth, width = (math.inf, math.inf, 1.0) if crush is None else map(cut, crush)
-            parts += [force * width, growth * width]
-        stiffness: tuple[Any, ...] = tuple(parts)
-    else:
-        stiffness = (cut(inputs.duration if kind == "duration" else inputs.stiffness),)
+    spring = cut(inputs.stiffness if inputs.duration is None else inputs.duration)
+    if spring is None:
+        # The force is the same on both, so that what each gives way adds up.
+        growths = [growth * width for _, growth, width in (map(cut, crush) for crush in crushes(inputs).values())]
+        spring = growths[0] if len(growths) == 1 else growths[0] / (1.0 + growths[0] / growths[1])
     bodies = []
     for body in (inputs.a, inputs.b):
         heading = None if body.heading is None else from_radians(cut(body.heading))
@@ -209,7 +219,9 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
         "deceleration": cut(inputs.drag) * GRAVITY,
         "wheelbase": cut(inputs.wheelbase),
         "track": cut(inputs.track),
-        "stiffness": stiffness,
+        "spring": spring,
         "bodies": tuple(bodies),
-        "settings": kernel.Settings(inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, kind, *wheels),
+        "settings": kernel.Settings(
+            inputs.geometry or "maximum_engagement", inputs.steps or _STEPS, inputs.duration is not None, *wheels
+        ),
     }

@@ -19,7 +19,7 @@ from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
 from .models import read_again
 from .provenance import KNOWN, Reconstruction
-from .pulse import Pulse
+from .pulse import CURVES, Pulse
 from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
@@ -272,8 +272,8 @@ def _add(found: dict[str, tuple[Any, str | None]], name: str, value: Any, unit: 
         found[f"{name}.condition"] = value.condition, ""
         found[f"{name}.answers"] = value.answers, None
     elif isinstance(value, Pulse):
-        for field in fields(value)[:5]:
-            found[f"{name}.{field.name}"] = getattr(value, field.name), unit_of(Pulse, field.name)
+        numbers = {f.name: getattr(value, f.name) for f in fields(value) if f.name not in CURVES}
+        found |= {f"{name}.{inner}": (part, unit_of(Pulse, inner)) for inner, part in numbers.items() if part is not None}
     elif isinstance(value, ModelChoice):
         found[f"{name}.tolerance"] = value.tolerance, "m/s"
         found |= {f"{name}.errors.{model}": (error, "m/s") for model, error in value.errors.items()}

@@ -334,9 +334,11 @@ def time_resolved(
     stiffness : float, str, Quantity or array [N/m]
         Stiffness of both vehicles together, force over penetration.
     crush_a, crush_b : tuple (A [N/m], B [N/m**2], width [m])
-        Crush stiffness coefficients as in CRASH: the force per width is A + B times the crush. One is enough, and the other
-        vehicle is then rigid; with both, the force is common to them, and each gives way only above its own A. Exactly one of
-        duration, stiffness and crush must be given.
+        Crush stiffness coefficients as in CRASH, where A + B C is the force per width that leaves a crush C behind. While it
+        acts the structure gives way by C + A/B, so the force grows from 0 with B times that, and up to the largest force it
+        takes up what ``reconstruct.crush_energy`` says of the crush that is left, ``pulse.residual_crush_a``. That is 0 where
+        the force stays below A. One is enough, and the other vehicle is then rigid; with both, the force is common to them.
+        Exactly one of duration, stiffness and crush must be given.
     drag : float, str, Quantity or array [-]
         Drag factor of the tyres on the ground, >= 0, as for ``left_out``: 0.7 is locked wheels on a dry road; 0 means no tyre
         forces.

@@ -19,24 +19,6 @@ _LEFT = 1e-9
 Wheels: TypeAlias = tuple[tuple[float, float], ...]
 
 
-class Spring(NamedTuple):
-    """Force over penetration while it grows: ``force`` at first, ``soft`` per length up to the ``knee``, then ``stiff``."""
-
-    force: Any
-    soft: Any
-    knee: Any
-    stiff: Any
-
-    def at(self, depth: Any) -> tuple[Any, Any]:
-        """Force and work at a penetration that has not been larger before."""
-        first = select(depth < self.knee, depth, self.knee)
-        then = depth - first
-        at_knee = self.force + self.soft * first
-        return at_knee + self.stiff * then, first * (self.force + 0.5 * self.soft * first) + then * (
-            at_knee + 0.5 * self.stiff * then
-        )
-
-
 class Body(NamedTuple):
     """What does not change of a body: how it gives way, its lever, half its wheelbase and half its track, and its tyres.
 
@@ -74,8 +56,12 @@ class Motion(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What does not change of the contact; ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal."""
+    """What does not change of the contact: a spring of this stiffness, which gives back a share of its work.
 
+    ``on_a`` and ``turn_a`` are the shares of A in carrying the point and the normal.
+    """
+
+    stiffness: Any
     restitution: Any
     friction: Any
     nx: Any
@@ -115,14 +101,13 @@ class Place(NamedTuple):
     by: Any
 
 
-def force_back(spring: Spring, e: Any, depth: Any, deepest: Any) -> tuple[Any, Any]:
+def force_back(contact: Contact, depth: Any, deepest: Any) -> tuple[Any, Any]:
     """Force on the way back, or where it is deeper than ever, and the penetration at which the bodies part."""
-    most, work = spring.at(deepest)
-    way = 2.0 * e * e * work / select(most > 0.0, most, 1.0)
+    way = contact.restitution * contact.restitution * deepest
     # 0.0 at the end of a plastic contact, whose way back has no length.
     share = 1.0 - (deepest - depth) / select(way > 0.0, way, 1.0)
-    back = select((share > 0.0) & (way > 0.0), share * most, 0.0)
-    return select(depth > deepest, spring.at(depth)[0], back), deepest - way
+    back = select((share > 0.0) & (way > 0.0), share * deepest, 0.0)
+    return contact.stiffness * select(depth > deepest, depth, back), deepest - way
 
 
 def turned(c: Any, s: Any, half: Any) -> tuple[Any, Any]:
@@ -222,7 +207,6 @@ def _pushed(body: Body, motion: Motion, x: Any, y: Any, arm: tuple[Any, Any], pe
 
 
 def advance(
-    spring: Spring,
     contact: Contact,
     a: Body,
     b: Body,
@@ -239,7 +223,7 @@ def advance(
     step = contact.step if engaging else contact.step_back
     if not engaging:
         # The last step ends where the force does.
-        _, parting = force_back(spring, contact.restitution, crush, deepest)
+        _, parting = force_back(contact, crush, deepest)
         left = crush - parting
         last = (passing.closing < 0.0) & (left < -passing.closing * step)
         step = select(last, left / select(last, -passing.closing, 1.0), step)
@@ -255,7 +239,7 @@ def advance(
     closing, slip = approach(place, on_a, on_b)
     k_nn, k_nt, k_tt = compliance(place, a, b)
     depth = crush + 0.5 * step * closing
-    force = spring.at(depth)[0] if engaging else force_back(spring, contact.restitution, depth, deepest)[0]
+    force = contact.stiffness * depth if engaging else force_back(contact, depth, deepest)[0]
 
     coupled, held = abs(k_nt), contact.friction * k_tt
     opposes = (coupled > held) & (slip * k_nt < 0.0)
@@ -299,7 +283,7 @@ def advance(
     if engaging:
         still = active & (ends ^ True)
     else:
-        _, parting = force_back(spring, contact.restitution, crush, deepest)
+        _, parting = force_back(contact, crush, deepest)
         still = active & (crush - parting > _LEFT * (deepest - parting))
     time = passing.time + took
     passing = passing._replace(

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import inf, pi
+from math import pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,6 @@ from .contact_step import (
     Motion,
     Passing,
     Place,
-    Spring,
     Wheels,
     advance,
     approach,
@@ -36,20 +35,20 @@ _MOST_FRICTION = 1e150
 _LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 _ONE: Wheels = ((0.0, 0.0),)
-_FIXED = (Spring, Contact, Body, Body)
+_FIXED = (Contact, Body, Body)
 _MOVING = (Motion, Motion, Passing)
 
 Moving = tuple[Motion, Motion, Passing]
-Fixed = tuple[Spring, Contact, Body, Body]
+Fixed = tuple[Contact, Body, Body]
 Run = Callable[[Fixed, Moving, bool, Any], Moving]
 
 
 class Settings(NamedTuple):
-    """What is the same of all cases: geometry, steps a nominal duration, kind of stiffness, and the wheels of A and B."""
+    """What is the same of all cases: geometry, steps a nominal duration, whether that is given, and the wheels of A and B."""
 
     geometry: str
     steps: int
-    stiffness: str
+    timed: bool
     wheels_a: Wheels
     wheels_b: Wheels
 
@@ -67,7 +66,7 @@ def time_resolved(
     deceleration: Any,
     wheelbase: Any,
     track: Any,
-    stiffness: tuple[Any, ...],
+    spring: Any,
     bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
     settings: Settings,
     run: Callable[[Settings], Run],
@@ -75,9 +74,8 @@ def time_resolved(
 ) -> Passed:
     """Solve one case of floats, or a block of arrays, as ``run`` does; SI in and out.
 
-    ``stiffness`` is what ``settings.stiffness`` says: the nominal duration, a stiffness, or force at no crush and stiffness of
-    A and of B (infinite if rigid). ``bodies`` have mass, inertia, velocity, yaw rate, position, and cosine and sine of the
-    heading, or None.
+    ``spring`` is the nominal duration or a stiffness, as ``settings.timed`` says. ``bodies`` have mass, inertia, velocity, yaw
+    rate, position, and cosine and sine of the heading, or None.
     """
     e, (nx, ny), steps = restitution, normal, run(settings)
     own = [_own(body, *point) for body in bodies]
@@ -87,7 +85,8 @@ def time_resolved(
     k_nn, k_nt, k_tt = compliance(place, a, b)
     yields = k_nn > (64.0 * EPS) ** 2 * (k_nn + k_tt)
     mass, closing = 1.0 / select(yields, k_nn, 1.0), select(closing_speed > 0.0, closing_speed, 1.0)
-    duration, spring = _spring(settings.stiffness, stiffness, e, mass, closing)
+    swing = 0.5 * pi * (1.0 + e)
+    duration = spring if settings.timed else swing * (mass / spring) ** 0.5
     length = closing * duration
     force = deceleration * (duration / closing)
     (a, on_a), (b, on_b) = (
@@ -102,6 +101,7 @@ def time_resolved(
     soonest = 0.6 * e / (1.0 + e)
     fixed_a, fixed_b = ((body.per_mass == 0.0) & (body.per_inertia == 0.0) for body in (a, b))
     contact = Contact(
+        swing * swing,
         e,
         select(friction < _MOST_FRICTION, friction, _MOST_FRICTION),
         nx,
@@ -121,13 +121,13 @@ def time_resolved(
     moving: Moving = start[0], start[1], passing
     converged: Any = True
     if settings.geometry == "maximum_engagement":
-        (contact, a, b), converged = _start(spring, contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
-    fixed = spring, contact, a, b
+        (contact, a, b), converged = _start(contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
+    fixed = contact, a, b
     first = place_of(contact, a, b, *moving)
     closing_before, slip_before = approach(first, *moving[:2])
     moving = *moving[:2], moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged)
     engaged = steps(fixed, moving, True, None if note is None else note.append)
-    _, parting = force_back(spring, e, engaged[2].crush, engaged[2].deepest)
+    _, parting = force_back(contact, engaged[2].crush, engaged[2].deepest)
     more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
     moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
     passing = moving[2]
@@ -139,7 +139,7 @@ def time_resolved(
     separating, slip_after = approach(place_of(contact, a, b, on_a, on_b, passing), on_a, on_b)
     if note:
         note[-1] = (*on_a, *on_b, *passing)
-    most, absorbed = spring.at(passing.deepest)
+    most = contact.stiffness * passing.deepest
     impulse, energy = mass * closing, mass * closing * closing
     x, y = passing.impulse_x * impulse, passing.impulse_y * impulse
     found: dict[str, Any] = {
@@ -158,7 +158,7 @@ def time_resolved(
         "impulse_x": x,
         "impulse_y": y,
         "separation_speed": -separating * closing,
-        "energy_absorbed": absorbed * energy,
+        "energy_absorbed": 0.5 * most * passing.deepest * energy,
         "duration": passing.time * duration,
         "peak_force": most * (impulse / duration),
         "max_crush": passing.deepest * length,
@@ -190,18 +190,18 @@ def time_resolved(
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
     )
     if note and status == Status.OK:
-        found["history"] = _history(note, spring, e, start, closing, duration, length, impulse / duration)
+        found["history"] = _history(note, contact, start, closing, duration, length, impulse / duration)
     return Passed(status=status, **found)
 
 
-def _history(note: list[tuple[float, ...]], spring: Spring, e: float, start: list[Motion], *units: float) -> tuple[Any, ...]:
+def _history(note: list[tuple[float, ...]], contact: Contact, start: list[Motion], *units: float) -> tuple[Any, ...]:
     """Time, force, crush, delta-V of A and B, and their yaw rates, at the start and after every step."""
     closing, duration, length, newton = units
     on_a, on_b, passing = _moving_of(np.array([(*start[0], *start[1], *Passing()), *note], dtype=np.float64).T)
     crush, deepest = passing.crush, passing.deepest
     with np.errstate(all="ignore"):
-        force = np.where(crush < deepest, force_back(spring, e, crush, deepest)[0], spring.at(deepest)[0])
-    if e == 0.0 or crush[-1] < deepest[-1]:
+        force = np.where(crush < deepest, force_back(contact, crush, deepest)[0], contact.stiffness * deepest)
+    if contact.restitution == 0.0 or crush[-1] < deepest[-1]:
         force[-1] = 0.0
     return (
         passing.time * duration,
@@ -246,34 +246,7 @@ def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead:
     )
 
 
-def _spring(kind: str, given: tuple[Any, ...], e: Any, mass: Any, closing: Any) -> tuple[Any, Spring]:
-    """The nominal duration, which is that of a linear spring with the same largest force, and the spring in its units."""
-    swing = 0.5 * pi * (1.0 + e)
-    linear = Spring(0.0, swing * swing, inf, 0.0)
-    if kind == "duration":
-        return given[0], linear
-    if kind == "stiffness":
-        return swing * (mass / given[0]) ** 0.5, linear
-    force_a, stiff_a, force_b, stiff_b = given
-    swap = force_b < force_a
-    low, high = select(swap, force_b, force_a), select(swap, force_a, force_b)
-    first, second = select(swap, stiff_b, stiff_a), select(swap, stiff_a, stiff_b)
-    # Both in series, each giving way only above its own force; a rigid one never does.
-    alone = second == inf
-    both = select(alone, first, first / (1.0 + first / select(alone, 1.0, second)))
-    energy = mass * closing * closing
-    squared = low * low + first * energy
-    at_high = high * high
-    squared = select(squared <= at_high, squared, at_high + both * (energy - (at_high - low * low) / first))
-    most = squared**0.5
-    duration = swing * (mass * closing / most)
-    unit, length = duration / (mass * closing), closing * duration
-    return duration, Spring(low * unit, first * (length * unit), (high - low) / first / length, both * (length * unit))
-
-
-def _start(
-    spring: Spring, contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any
-) -> tuple[tuple[Contact, Body, Body], Any]:
+def _start(contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any) -> tuple[tuple[Contact, Body, Body], Any]:
     """Levers, headings and normal at first contact for which those given are reached at maximum engagement.
 
     What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant.
@@ -289,9 +262,7 @@ def _start(
             guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
             start = _moved_back(contact._replace(step=step), a, b, guess)
             closing, _ = approach(place_of(*start, *moving), on_a, on_b)
-            end = run(
-                (spring, *start), (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None
-            )
+            end = run(start, (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None)
             reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
             off = [new - old for new, old in zip(reached, guess, strict=True)]
             far: Any = sum(abs(one) for one in off)

@@ -350,6 +350,10 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
         ("contact", "largest force along the normal", answer(float(found.peak_force), "force")),
         ("contact", "mutual crush, at its most", answer(float(found.max_crush), "length")),
     ]
+    for index, left in enumerate((found.residual_crush_a, found.residual_crush_b)):
+        if left is not None:
+            text = answer(float(left), "length") if left > 0.0 else "none: the force stays below that which leaves some"
+            rows.append((plain(who(index, (impact.a, impact.b)[index].before)), "residual crush", text))
     for index, (side, most) in enumerate(((impact.a, found.peak_acceleration_a), (impact.b, found.peak_acceleration_b))):
         if math.isfinite(float(side.before.mass)):
             name = plain(who(index, side.before))
