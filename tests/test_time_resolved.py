@@ -548,6 +548,25 @@ def test_answers_do_not_depend_on_the_unit(power):
         assert found.energy_loss == pytest.approx(impact.energy_loss * (m * x * x / (t * t)), rel=1e-12)
 
 
+@pytest.mark.parametrize("drag", [0.0, 0.7])
+def test_how_near_the_start_is_found(monkeypatch, drag):
+    """Against the start that leads to the places given to 1e-9: delta-V by 0.002 m/s in the median, 0.03 at most."""
+    kernel = "collisions.kernels.time_resolved"
+    found = {}
+    for near in (3e-3, 1e-9):
+        monkeypatch.setattr(f"{kernel}._NEAR", near)
+        found[near] = np.array(
+            [
+                [(side.delta_vx, side.delta_vy) for side in (impact.a, impact.b)]
+                for a, b, e, contact in scenes(60, 21)
+                for impact in [col.time_resolved(a, b, e, **contact, duration=0.1, drag=drag)]
+            ]
+        )
+    apart = np.linalg.norm(found[3e-3] - found[1e-9], axis=2).max(axis=1)
+    assert 0.0 < np.median(apart) < 0.002
+    assert apart.max() < 0.03
+
+
 # Batches, records, pictures
 
 
@@ -609,13 +628,15 @@ def test_blocks_threads_and_progress():
 
 @pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact"])
 @pytest.mark.parametrize("drag", [0.0, 0.7])
-def test_blocks_and_single_cases_are_the_same(monkeypatch, geometry, drag):
-    """The steps of a block of arrays, whose cases end at different times, are those of plain floats."""
+@pytest.mark.parametrize("least", [0, 2, 32])
+def test_blocks_and_single_cases_are_the_same(monkeypatch, geometry, drag, least):
+    """The steps of a block of arrays, whose last cases are followed one by one, are those of plain floats."""
     speeds = np.array([20.0, 4.0, -1.0, 11.0])
     changes = {"a": col.Vehicle(**A | {"vx": speeds}), "geometry": geometry, "drag": drag, "steps": 20, "on_failure": "nan"}
     changes["restitution"] = np.array([0.1, 0.0, 0.2, 1.0])
     one_by_one = t_bone(**changes)
     monkeypatch.setattr("collisions.contact_time._FEW", 0)
+    monkeypatch.setattr("collisions.kernels.time_resolved._LEAST", least)
     together = t_bone(**changes)
     assert together.status.tolist() == one_by_one.status.tolist()
     assert together.regime.tolist() == one_by_one.regime.tolist()

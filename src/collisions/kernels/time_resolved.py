@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import pi
+from math import nan, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,13 +25,14 @@ from .contact_step import (
 from .elementwise import first_status, select
 from .status import EPS, Passed, Status
 
-# How often the start is corrected, and how near the last correction has to be, in closing speed times duration and in radians.
-_CORRECTIONS, _NEAR = 20, 1e-6
-# The start is first looked for roughly, with few steps.
-_COARSE, _ROUGHLY = 0.08, 3e-3
+# How often the start is corrected with all steps. How near what is reached has to be to the places given, in closing speed
+# times duration and in radians: at 100 steps, and at most. By the cube of the steps it stays below their own error.
+_CORRECTIONS, _NEAR, _NEAREST = 20, 3e-3, 1e-2
+# Before that it is corrected with these parts of the steps; with fewer a contact is not followed.
+_PARTS, _FEWEST = (0.05, 0.1, 0.2), 5
 # A friction whose product with a force of 0 is 0.
 _MOST_FRICTION = 1e150
-# Blocks of fewer cases are not made smaller.
+# So few cases are followed one by one.
 _LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 _ONE: Wheels = ((0.0, 0.0),)
@@ -119,14 +120,17 @@ def time_resolved(
     none = zero != zero
     passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
     moving: Moving = start[0], start[1], passing
+    begun = (contact, a, b), moving
     converged: Any = True
     if settings.geometry == "maximum_engagement":
-        (contact, a, b), converged = _start(contact, a, b, moving, steps, (closing_speed > 0.0) & yields)
-    fixed = contact, a, b
+        begun, engaged, converged = _found(*begun, steps, (closing_speed > 0.0) & yields, settings.steps, note)
+    fixed, moving = begun
+    contact, a, b = fixed
     first = place_of(contact, a, b, *moving)
     closing_before, slip_before = approach(first, *moving[:2])
-    moving = *moving[:2], moving[2]._replace(closing=closing_before, active=(closing_before > 0.0) & converged)
-    engaged = steps(fixed, moving, True, None if note is None else note.append)
+    if settings.geometry != "maximum_engagement":
+        moving = *moving[:2], passing._replace(closing=closing_before, active=closing_before > 0.0)
+        engaged = steps(fixed, moving, True, None if note is None else note.append)
     _, parting = force_back(contact, engaged[2].crush, engaged[2].deepest)
     more = (engaged[2].crush > parting) & (engaged[2].time < LONGEST)
     moving = steps(fixed, (*engaged[:2], engaged[2]._replace(active=more)), False, None if note is None else note.append)
@@ -246,32 +250,60 @@ def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead:
     )
 
 
-def _start(contact: Contact, a: Body, b: Body, moving: Moving, run: Run, usable: Any) -> tuple[tuple[Contact, Body, Body], Any]:
-    """Levers, headings and normal at first contact for which those given are reached at maximum engagement.
+def _found(
+    fixed: Fixed, moving: Moving, run: Run, usable: Any, steps: int, note: list[tuple[float, ...]] | None
+) -> tuple[tuple[Fixed, Moving], Moving, Any]:
+    """The geometry at first contact for which that given is reached at maximum engagement, with the motions there.
 
-    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant.
+    What the bodies move and turn until then is guessed, and corrected by what they do, with the step of a secant: first with
+    few steps, as their error hardly matters, then with more, and with all until what is reached is near enough.
     """
     on_a, on_b, passing = moving
     names = ("dx", "dy", "c", "s")
     guess = [*(getattr(one, name) for one in (on_a, on_b) for name in names), passing.c, passing.s]
-    usable = usable & (passing.closing == passing.closing)
-    for step, enough in ((max(_COARSE, contact.step), _ROUGHLY), (contact.step, _NEAR)):
-        left, trial, older = usable, guess, None
-        for _ in range(_CORRECTIONS):
-            # Of a block only the cases that have not arrived are followed again.
-            guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
-            start = _moved_back(contact._replace(step=step), a, b, guess)
-            closing, _ = approach(place_of(*start, *moving), on_a, on_b)
-            end = run(start, (on_a, on_b, passing._replace(closing=closing, active=(closing > 0.0) & left)), True, None)
-            reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
-            off = [new - old for new, old in zip(reached, guess, strict=True)]
-            far: Any = sum(abs(one) for one in off)
-            left = left & (((far <= enough) & (closing > 0.0)) ^ True)
-            if not np.any(left):
-                break
-            trial = reached if older is None else _secant(reached, off, *older)
-            older = off, reached
-    return _moved_back(contact, a, b, guess), usable & (left ^ True)
+    left: Any = usable & (passing.closing == passing.closing)
+    older: tuple[list[Any], list[Any]] | None = None
+
+    def followed(step: Any) -> tuple[Fixed, Moving, Any, list[Any], list[Any]]:
+        """Start, end, whether they approach there, what is reached, and what by rights should be the next guess."""
+        nonlocal older
+        start = _moved_back(fixed[0]._replace(step=step), *fixed[1:], guess)
+        closing, _ = approach(place_of(*start, *moving), on_a, on_b)
+        before = passing._replace(closing=closing, active=(closing > 0.0) & left)
+        end = run(start, (on_a, on_b, before), True, None if note is None else note.append)
+        reached = [*(getattr(one, name) for one in end[:2] for name in names), end[2].c, end[2].s]
+        off = [new - old for new, old in zip(reached, guess, strict=True)]
+        trial = reached if older is None else _secant(reached, off, *older)
+        older = off, reached
+        return start, end, closing > 0.0, off, trial
+
+    fewest = max(_FEWEST / _PARTS[0] / steps, 1.0)
+    for part in _PARTS:
+        if part * fewest < 0.5:
+            *_, guess = followed(1.0 / (part * fewest * steps))
+    near = min(_NEAR * (100.0 / steps) ** 3.0, _NEAREST)
+    begun: Fixed | None = None
+    engaged = moving
+    for _ in range(_CORRECTIONS):
+        if note is not None:
+            note.clear()
+        start, end, approaching, off, trial = followed(fixed[0].step)
+        # Of a block only the cases that have not arrived are followed again.
+        begun, engaged = (start, end) if begun is None else (_where(left, start, begun), _where(left, end, engaged))
+        far: Any = sum(abs(one) for one in off)
+        left = left & (((far <= near) & approaching) ^ True)
+        if not np.any(left):
+            break
+        guess = [select(left, new, old) for new, old in zip(trial, guess, strict=True)]
+    return (begun or fixed, moving), engaged, usable & (left ^ True)
+
+
+def _where(some: Any, new: Any, old: Any) -> Any:
+    """The new parts of some cases, and the old ones of the others."""
+    if isinstance(new, tuple):
+        parts = (_where(some, *pair) for pair in zip(new, old, strict=True))
+        return type(new)(*parts) if hasattr(new, "_fields") else tuple(parts)
+    return new if new is old else select(some, new, old)
 
 
 def cases_of(parts: Any, some: Any) -> Any:
@@ -354,8 +386,8 @@ def float_run(settings: Settings) -> Run:
 
 
 def block_run(settings: Settings) -> Run:
-    """Step through a block of arrays, until the last case ends."""
-    moves = settings.geometry != "fixed"
+    """Step through a block of arrays, and through its last cases one by one."""
+    moves, one = settings.geometry != "fixed", float_run(settings)
 
     def run(fixed: Fixed, moving: Moving, engaging: bool, note: Any) -> Moving:
         for _ in range(40 * settings.steps):
@@ -363,7 +395,9 @@ def block_run(settings: Settings) -> Run:
             count = np.count_nonzero(active)
             if not count:
                 break
-            if 2 * count < active.size and active.size > _LEAST:
+            if count <= _LEAST:
+                return _one_by_one(one, fixed, moving, engaging)
+            if 2 * count < active.size:
                 # Most have ended: go on without them.
                 whole: Moving = put(moving, active, run(cases_of(fixed, active), cases_of(moving, active), engaging, note))
                 return whole
@@ -371,3 +405,29 @@ def block_run(settings: Settings) -> Run:
         return moving
 
     return run
+
+
+def _one_by_one(run: Run, fixed: Fixed, moving: Moving, engaging: bool) -> Moving:
+    """Step through the active cases of a block as floats."""
+    lost = Motion(*[nan] * len(Motion._fields))
+    nowhere: Moving = lost, lost, Passing(*[nan] * len(Passing._fields))._replace(sticks=False, active=False)
+
+    def ended(at: Any) -> Moving:
+        try:
+            return run(_case_of(fixed, at), _case_of(moving, at), engaging, None)
+        except ArithmeticError:
+            # As where arrays are divided by 0.
+            return nowhere
+
+    some = np.flatnonzero(moving[2].active)
+    numbers = zip(*([value for part in one for value in part] for one in map(ended, some)), strict=True)
+    whole: Moving = put(moving, some, _moving_of([np.array(column) for column in numbers]))
+    return whole
+
+
+def _case_of(parts: Any, at: Any) -> Any:
+    """One case of the arrays in a tuple, as floats and truths."""
+    if isinstance(parts, tuple):
+        values = (_case_of(part, at) for part in parts)
+        return type(parts)(*values) if hasattr(parts, "_fields") else tuple(values)
+    return parts[at].item() if isinstance(parts, np.ndarray) else parts
