@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..directions import angle_of
-from ..drag import HIGHEST_DRAG, one_value
+from ..drag import one_value, read_friction
 from ..errors import InputError, OutOfRangeWarning
 from ..hints import hinted
-from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
+from ..kernels.elementwise import UNIT_INTERVAL, select
 from ..quantities import Shown, derived, hypot, in_units_of, numeric
 from ..quantity_names import RunOutQuantities
-from ..reading import ArgumentReader, at_least_zero, warn_if_large
+from ..reading import ArgumentReader
 from ..units import Input, Pair, Texts, Value, shown, texts_of
 from ..warning import warn
 from .surfaces import (
@@ -333,19 +333,6 @@ def _wrapped(angle: Any) -> Any:
 
 def _leg(i: int) -> str:
     return f"points[{i}] to points[{i + 1}]"
-
-
-def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """The friction of locked tyres, >= 0 and finite."""
-    wrong = len(reader.problems)
-    read = one_value(reader, value, "", name, UNCHECKED)
-    if len(reader.problems) > wrong:
-        return read
-    if isinstance(read, float) and not math.isfinite(read):
-        return reader.refuse(InputError(f"{name} must be finite, got {shown(value)}", code="not_finite", argument=name))
-    read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
-    warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
-    return read
 
 
 def _read_lock(reader: ArgumentReader, value: Any, name: str) -> Any:

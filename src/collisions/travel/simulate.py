@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..drag import one_value
+from ..drag import one_value, read_friction
 from ..errors import InputError, NoSolutionError, ShapeError
 from ..hints import hinted
 from ..kernels.batch import precision
@@ -21,7 +21,6 @@ from ..summary import Cells, Summary
 from ..units import Input, Pair, Texts, shown, texts_of
 from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
-from .run_out import read_friction
 from .surfaces import out_of_range, settle
 
 WHEELS = ("front left", "front right", "rear left", "rear right")
