@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .drag import HIGHEST_DRAG, one_value, read_friction
+from .drag import one_value, read_friction
 from .errors import InputError, ShapeError
 from .hints import no_argument, open_to_hints
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, UNIT_INTERVAL
@@ -222,9 +222,9 @@ def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:
     if lifts(tyres, friction):
         most = 0.5 / (friction * math.hypot(1.0 / tyres["wheelbase"], 1.0 / tyres["track"]))
         raise InputError(
-            f"height is {shown(tyres['height'])} m, and from {most:.3g} m on a wheel lifts off at friction {friction:g} where all "
-            f"of it is used between the axes, so that the vehicle might tip over, which is not followed here; correct it, or "
-            f"leave height out",
+            f"height is {shown(tyres['height'])} m, and from {most:.3g} m on a wheel lifts off where a "
+            f"friction of {friction:g} is used between the axes of the vehicle, which might then tip over: that "
+            f"is not followed here; correct it, or leave height out",
             code="wheel_lifts",
             argument="height",
         )

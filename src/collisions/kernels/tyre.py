@@ -7,6 +7,8 @@ acts Fiala's side force, at most what the circle leaves. All forces are over fri
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from .elementwise import select
 
 # Of the speed of the vehicle: a wheel that moves slower counts as standing. Its force grows from none with its motion, so that
@@ -22,9 +24,17 @@ def brake_share(lock: Any, friction: Any, here: Any, load: Any) -> Any:
     The moment of a brake is ``lock`` times what locks its wheel on the ground of ``friction`` at the load at rest, wherever
     the wheel is. A wheel of ``lock`` 1 does not turn at all, on any ground.
     """
-    most = here * load
+    most = load * here
     holds = most > 0.0
     return select((lock >= 1.0) | (holds ^ True), 1.0, lock * friction / select(holds, most, 1.0))
+
+
+def circle(cosine: Any, brake: Any) -> tuple[Any, Any]:
+    """The force along a wheel, from the cosine of its slip angle, and what the circle leaves across; over friction times load."""
+    # Negative: against the motion.
+    forward = select(cosine > brake, -brake, select(cosine < -brake, brake, -cosine))
+    left = 1.0 - forward * forward
+    return forward, select(left > 0.0, left, 0.0) ** 0.5
 
 
 def tyre_force(along: Any, across: Any, brake: Any, friction: Any, cornering: Any, standing: Any = STANDING) -> tuple[Any, Any]:
@@ -35,11 +45,7 @@ def tyre_force(along: Any, across: Any, brake: Any, friction: Any, cornering: An
     """
     side = abs(across)
     slip = _not_standing((along * along + across * across) ** 0.5, standing)
-    # Negative: against the motion.
-    forward = -along / slip
-    forward = select(forward > brake, brake, select(forward < -brake, -brake, forward))
-    left = 1.0 - forward * forward
-    most = select(left > 0.0, left, 0.0) ** 0.5
+    forward, most = circle(along / slip, brake)
     # Fiala: 1 at and beyond the slip angle at which the whole contact slides.
     steep, whole = cornering * side, 3.0 * friction * abs(along)
     sticks = steep < whole
@@ -60,10 +66,11 @@ class Tyres(NamedTuple):
     """What the forces of four tyres depend on; each ``lock`` is of front left, front right, rear left, rear right.
 
     ``ahead`` and ``left`` are half the wheelbase and half the track, ``cos`` and ``sin`` of the steer of the front wheels.
-    ``over_ahead`` and ``over_left`` are height over wheelbase and over track.
+    ``over_ahead`` and ``over_left`` are height over wheelbase and over track. Of many vehicles, ``locks`` may have one array
+    instead, with a row for each wheel, and so has whatever is of each wheel.
     """
 
-    locks: tuple[Any, Any, Any, Any]
+    locks: tuple[Any, ...]
     friction: Any
     cornering: Any
     ahead: Any
@@ -74,13 +81,14 @@ class Tyres(NamedTuple):
     over_left: Any = 0.0
 
 
-# Ahead and left of the centre of mass, by half the wheelbase and half the track.
-CORNERS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
+# Ahead and left of the centre of mass, by half the wheelbase and half the track; and whether a wheel is steered.
+CORNERS = ((1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (-1.0, 1.0, 0.0), (-1.0, -1.0, 0.0))
+_ROWS = (tuple(np.array(CORNERS).T[:, :, None]),)
 
 
 def tyre_forces(
     tyres: Tyres,
-    here: tuple[Any, Any, Any, Any],
+    here: tuple[Any, ...],
     forward: Any,
     left: Any,
     turning: Any,
@@ -88,45 +96,94 @@ def tyre_forces(
     *,
     steered: bool = True,
     transfers: bool = False,
+    brakes: list[Any] | None = None,
 ) -> tuple[Any, Any, Any]:
     """Force ahead and to the left over the weight, and moment over the weight, of four tyres on a moving vehicle.
 
     ``forward`` and ``left`` are the velocity of the centre of mass in the axes of the vehicle, ``turning`` the yaw rate, in
     units in which ``standing`` is. ``here`` is the friction under each wheel. ``steered`` and ``transfers`` are settings: with
-    False, steer and height are taken as none.
+    False, steer and height are taken as none. ``brakes`` are ``brake_shares`` where they were worked out before.
     """
-    moving = []
-    for ahead, aside in CORNERS:
+    wheels = wheel_forces(
+        tyres, here, forward, left, turning, standing, steered=steered, transfers=transfers, brakes=brakes
+    )
+    parts = []
+    for (ahead, aside, _), mu, (along, across, load) in zip(_corners(tyres), here, wheels, strict=True):
+        x, y = (load * mu) * along, (load * mu) * across
+        parts.append((x, y, (ahead * tyres.ahead) * y - (aside * tyres.left) * x))
+    x, y, yaw = (0.25 * _sum([part[at] for part in parts]) for at in range(3))
+    return x, y, yaw
+
+
+def brake_shares(tyres: Tyres, here: tuple[Any, ...], loads: tuple[Any, ...] = (1.0, 1.0, 1.0, 1.0)) -> list[Any]:
+    """``brake_share`` of each wheel."""
+    return [brake_share(lock, tyres.friction, mu, load) for lock, mu, load in zip(tyres.locks, here, loads, strict=False)]
+
+
+def wheel_forces(
+    tyres: Tyres,
+    here: tuple[Any, ...],
+    forward: Any,
+    left: Any,
+    turning: Any,
+    standing: Any = STANDING,
+    *,
+    steered: bool = True,
+    transfers: bool = False,
+    brakes: list[Any] | None = None,
+) -> list[tuple[Any, Any, Any]]:
+    """For each wheel its force ahead and to the left over friction times load, and its load over that at rest."""
+    corners = _corners(tyres)
+    moving, turns = [], []
+    for ahead, aside, front in corners:
         ux, uy = forward - turning * (aside * tyres.left), left + turning * (ahead * tyres.ahead)
-        turned = steered and ahead > 0.0
-        moving.append((tyres.cos * ux + tyres.sin * uy, tyres.cos * uy - tyres.sin * ux) if turned else (ux, uy))
+        # A rear wheel in a row with the others is turned by an angle of 0.
+        turn = None if not (steered and np.any(front)) else (_of_front(tyres.cos, front, 1.0), _of_front(tyres.sin, front, 0.0))
+        turns.append(turn)
+        moving.append((ux, uy) if turn is None else (turn[0] * ux + turn[1] * uy, turn[0] * uy - turn[1] * ux))
     loads: tuple[Any, ...] = (1.0, 1.0, 1.0, 1.0)
+    found: list[tuple[Any, Any]] = []
     for _ in range(_PASSES if transfers else 1):
-        forces = []
-        for (ahead, _), (along, across), lock, mu, load in zip(CORNERS, moving, tyres.locks, here, loads, strict=True):
-            brake = brake_share(lock, tyres.friction, mu, load)
+        found = []
+        shares = brake_shares(tyres, here, loads) if brakes is None else brakes
+        for turn, (along, across), brake, mu in zip(turns, moving, shares, here, strict=True):
             x, y = tyre_force(along, across, brake, mu, tyres.cornering, standing)
-            if steered and ahead > 0.0:
-                x, y = tyres.cos * x - tyres.sin * y, tyres.sin * x + tyres.cos * y
-            forces.append((mu * x, mu * y))
+            found.append((x, y) if turn is None else (turn[0] * x - turn[1] * y, turn[1] * x + turn[0] * y))
         if transfers:
-            loads = _loads(tyres, forces)
-    x, y, yaw = 0.0, 0.0, 0.0
-    for (ahead, aside), (one_x, one_y), load in zip(CORNERS, forces, loads, strict=True):
-        one_x, one_y = load * one_x, load * one_y
-        x, y = x + one_x, y + one_y
-        yaw = yaw + (ahead * tyres.ahead) * one_y - (aside * tyres.left) * one_x
-    return 0.25 * x, 0.25 * y, 0.25 * yaw
+            loads = _loads(tyres, [(mu * x, mu * y) for mu, (x, y) in zip(here, found, strict=True)])
+    return [(x, y, load) for (x, y), load in zip(found, loads, strict=False)]
+
+
+def _corners(tyres: Tyres) -> Any:
+    """The wheels one by one, or all in the rows of an array."""
+    return CORNERS if len(tyres.locks) == len(CORNERS) else _ROWS
+
+
+def _of_front(turn: Any, front: Any, none: float) -> Any:
+    """Cosine or sine of the steer, of a rear wheel that of none."""
+    return np.where(front > 0.0, turn, none) if isinstance(front, np.ndarray) else turn
+
+
+def _sum(parts: list[Any]) -> Any:
+    """The sum over the wheels."""
+    if len(parts) == 1:
+        (rows,) = parts
+        return rows[0] + rows[1] + rows[2] + rows[3]
+    one, two, three, four = parts
+    return one + two + three + four
 
 
 def _loads(tyres: Tyres, forces: list[tuple[Any, Any]]) -> tuple[Any, ...]:
     """The loads of the wheels over those at rest, where each has this force over its load: they hold the vehicle upright."""
+    corners = _corners(tyres)
     back, over = 2.0 * tyres.over_ahead, 2.0 * tyres.over_left
-    x, y = 0.25 * sum(one for one, _ in forces), 0.25 * sum(one for _, one in forces)
+    x, y = (0.25 * _sum([force[at] for force in forces]) for at in (0, 1))
     # The forces on all four are those of these loads, which depend on them: two linear equations.
-    x_ahead, y_ahead = (0.25 * sum(ahead * one[at] for one, (ahead, _) in zip(forces, CORNERS, strict=True)) for at in (0, 1))
-    x_left, y_left = (0.25 * sum(aside * one[at] for one, (_, aside) in zip(forces, CORNERS, strict=True)) for at in (0, 1))
+    (x_ahead, y_ahead), (x_left, y_left) = (
+        [0.25 * _sum([corner[side] * force[at] for corner, force in zip(corners, forces, strict=True)]) for at in (0, 1)]
+        for side in (0, 1)
+    )
     one, two, three, four = 1.0 + back * x_ahead, over * x_left, back * y_ahead, 1.0 + over * y_left
     size = one * four - two * three
     x, y = (four * x - two * y) / size, (one * y - three * x) / size
-    return tuple(1.0 - ahead * back * x - aside * over * y for ahead, aside in CORNERS)
+    return tuple(1.0 - ahead * back * x - aside * over * y for ahead, aside, _ in corners)

@@ -13,13 +13,14 @@ import numpy as np
 
 from ..directions import angle_of
 from ..drag import one_value, read_friction
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import OutOfRangeWarning
 from ..hints import hinted
 from ..kernels.elementwise import UNIT_INTERVAL, select
+from ..kernels.tyre import circle
 from ..quantities import Shown, derived, hypot, in_units_of, numeric
 from ..quantity_names import RunOutQuantities
 from ..reading import ArgumentReader
-from ..units import Input, Pair, Texts, Value, shown, texts_of
+from ..units import Input, Pair, Texts, Value, texts_of
 from ..warning import warn
 from .surfaces import (
     Segments,
@@ -279,10 +280,7 @@ def _run_out(
         _wrapped(before + 0.5 * (after - before) - numeric(dx, dy).atan2(dy, dx))
         for (dx, dy), (before, after) in zip(steps, pairwise(turned), strict=True)
     ]
-    drags = [
-        mu * hypot(numeric(crab).sin(crab), part * numeric(crab).cos(crab))
-        for mu, part, crab in zip(frictions, locks, crabs, strict=True)
-    ]
+    drags = [_drag(mu, part, crab) for mu, part, crab in zip(frictions, locks, crabs, strict=True)]
     speeds = speeds_along(lengths, [drag + rise for drag, rise in zip(drags, grades, strict=True)], end, _leg)
     durations = durations_along(lengths, grades, speeds)
     found = {
@@ -297,6 +295,13 @@ def _run_out(
         "drags": tuple(drags),
     }
     return found, durations
+
+
+def _drag(friction: Any, lock: Any, crab: Any) -> Any:
+    """The drag of tyres that all slip at the crab angle."""
+    cosine, sine = numeric(crab).cos(crab), numeric(crab).sin(crab)
+    along, across = circle(cosine, lock)
+    return friction * (across * abs(sine) - along * cosine)
 
 
 def _errors(
