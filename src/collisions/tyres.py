@@ -12,11 +12,11 @@ import numpy as np
 from .drag import one_value, read_friction
 from .errors import InputError, ShapeError
 from .hints import no_argument, open_to_hints
-from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, UNIT_INTERVAL
+from .kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
 from .kernels.tyre import Tyres as Numbers
 from .quantities import Shown, lock
 from .quantity_names import TyresQuantities
-from .reading import ArgumentReader, warn_if_large
+from .reading import ArgumentReader, at_least_zero, warn_if_large
 from .settings import Default
 from .units import Input, Texts, Value, shown, texts_of
 
@@ -113,7 +113,10 @@ class Tyres(Shown):
         for name in ("wheelbase", "track", "cornering"):
             read[name] = one_value(reader, given[name], _UNITS[name], name, POSITIVE_FINITE)
         read["steer"] = one_value(reader, steer, "rad", "steer")
-        read["height"] = None if height is None else one_value(reader, height, "m", "height", AT_LEAST_ZERO)
+        read["height"] = None
+        if height is not None:
+            found = one_value(reader, height, "m", "height")
+            read["height"] = at_least_zero(reader, found, height, "height", "negative_length", "it is above the ground")
         for name, value in (("wheelbase", wheelbase), ("track", track), ("height", height)):
             if value is not None:
                 warn_if_large(value, read[name], _LIKELY[name], name, "metres", "cm", "in")

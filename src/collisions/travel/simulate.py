@@ -200,8 +200,10 @@ def simulate(
 
     The integration is of orders 5 and 4 with its own step for each case, in a time that slows down with the vehicle, in which
     the end of the motion is regular. Where the motion is straight, it goes on in closed form to its rest or to the next edge;
-    steps end at edges of areas. A wheel that nearly stands still, at less than 0.02 of the speed of the vehicle, has less than
-    its full force: it is held without chatter. At the default ``tolerance``, the place of rest is off by at most 1e-3 of the
+    steps end at edges of areas. A wheel that nearly stands still has less than its full force, so that it is held without
+    chatter: below s = 0.02 of the speed of the vehicle (of which the yaw rate times the distance of the wheels from the centre
+    of mass is a part), its slip v counts as (s + v**2 / s) / 2, and across it acts at most the part of the friction that is its
+    side slip over that side slip counted in the same way. At the default ``tolerance``, the place of rest is off by at most 1e-3 of the
     distance travelled and the heading by 1e-3 rad, mostly by a hundredth of that.
 
     Examples
@@ -274,7 +276,7 @@ def simulate(
         checks += [("infinite_mass", np.isinf(body["mass"]))]
         checks += [("bad_friction", np.less(mu, 0.0)) for mu in (wheels["friction"], *ground.values())]
         checks += [("bad_friction", unknown)]
-        checks += [("negative_size", np.less(wheels.get("height", 0.0), 0.0))]
+        checks += [("negative_length", np.less(wheels.get("height", 0.0), 0.0))]
         checks += [("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())]
         ended = ended.reshape(shape)
         checks += [("never_stops", ended == GOES_ON), ("no_convergence", ended != RESTS)]
