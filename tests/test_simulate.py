@@ -49,9 +49,7 @@ def accelerations(state, tyres, ground, slope=(0.0, 0.0), mass=1500.0, inertia=2
         y_part = np.sign(across) * most
         px = -mu * loads * (np.cos(steer) * x_part - np.sin(steer) * y_part) / 4
         py = -mu * loads * (np.sin(steer) * x_part + np.cos(steer) * y_part) / 4
-        ahead, aside = (
-            (math.cos(turned) * px + math.sin(turned) * py).sum() for turned in (heading, heading + math.pi / 2)
-        )
+        ahead, aside = ((math.cos(turned) * px + math.sin(turned) * py).sum() for turned in (heading, heading + math.pi / 2))
         before = loads
         loads = 1.0 - 2.0 * height * (np.sign(a) * ahead / length + np.sign(b) * aside / width)
         if np.max(np.abs(loads - before)) < 1e-9:
@@ -346,9 +344,8 @@ def test_load_transfer_moves_the_rest_of_spins_only():
     """Locked wheels straight ahead use the whole friction under any load; spun, the rest moves by some percent."""
     assert drive(CAR, height=0.55).rest.x == pytest.approx(drive(CAR).rest.x, rel=1e-9)
     spun = moving(12.0, 2.0, 4.0)
-    plain, high = drive(spun, lock=0.3), drive(spun, lock=0.3, height=0.55)
+    plain, high, low = (drive(spun, lock=0.3, height=height, tolerance=1e-9) for height in (None, 0.55, 1e-9))
     assert 1e-3 < math.dist((plain.rest.x, plain.rest.y), (high.rest.x, high.rest.y)) / plain.rest.x < 0.15
-    low = drive(spun, lock=0.3, height=1e-9)
     assert (low.rest.x, low.rest.heading) == pytest.approx((plain.rest.x, plain.rest.heading), rel=1e-5)
 
 
@@ -360,9 +357,8 @@ def test_a_braked_wheel_that_stands_does_not_chatter():
 
     for i in range(60):
         vx, vy, w = generator.normal(0.0, [4.0, 3.0, 4.0])
-        lock = generator.choice([0.0, 0.05, 0.5, 1.0], 4).tolist()
-        if not any(lock):
-            continue
+        # One wheel at least that is held; a car that hardly slows takes many steps because it goes far.
+        lock = generator.permuted([1.0, *generator.choice([0.0, 0.05, 0.5, 1.0], 3)]).tolist()
         steps = 0
 
         def counting(settings):
@@ -379,7 +375,7 @@ def test_a_braked_wheel_that_stands_does_not_chatter():
             patch.setattr(motion, "_of_floats", counting)
             drive(moving(vx, vy, w), lock=lock, moments=2)
         most = max(most, steps)
-    assert most < 2500
+    assert most < 1000
 
 
 def test_all_cases_of_a_long_run_keep_the_promise(request):
@@ -392,7 +388,7 @@ def test_all_cases_of_a_long_run_keep_the_promise(request):
     )  # fmt: skip
     lock = [generator.uniform(0.05, 1.0, count) for _ in range(4)]
     for surfaces in (None, [(STRIP, 0.15)]):
-        fine, plain = (drive(cars, lock=lock, surfaces=surfaces, tolerance=tol) for tol in (3e-8, 3e-6))
+        fine, plain = (drive(cars, lock=lock, surfaces=surfaces, tolerance=tol) for tol in (5e-9, 5e-7))
         way = np.hypot(np.diff(fine.x, axis=0), np.diff(fine.y, axis=0)).sum(axis=0)
         off = np.hypot(fine.rest.x - plain.rest.x, fine.rest.y - plain.rest.y) / way
         assert np.max(off) < PROMISE
@@ -407,9 +403,7 @@ def test_the_scene_may_be_turned_moved_and_mirrored():
         moving(-vy, vx, w, heading + math.pi / 2).replace(x=500.0, y=-200.0), friction=0.7, lock=list(lock), steer=steer
     )
     assert (there.rest.x - 500.0, there.rest.y + 200.0) == pytest.approx((-here.rest.y, here.rest.x), abs=1e-6)
-    mirrored = drive(
-        moving(vx, -vy, -w, -heading), friction=0.7, lock=[lock[1], lock[0], lock[3], lock[2]], steer=-steer
-    )
+    mirrored = drive(moving(vx, -vy, -w, -heading), friction=0.7, lock=[lock[1], lock[0], lock[3], lock[2]], steer=-steer)
     assert (mirrored.rest.x, -mirrored.rest.y, -mirrored.rest.heading) == pytest.approx(
         (here.rest.x, here.rest.y, here.rest.heading), abs=1e-9
     )
@@ -511,8 +505,8 @@ def test_units_of_every_kind():
         steer=f"{math.degrees(0.1)} deg",
     )  # fmt: skip
     assert (found.rest.x, found.rest.y, found.rest.heading) == pytest.approx(
-        (wanted.rest.x, wanted.rest.y, wanted.rest.heading), rel=1e-9
-    )
+        (wanted.rest.x, wanted.rest.y, wanted.rest.heading), rel=1e-6
+    )  # numbers that differ in their last digit may take other steps
 
 
 # Evidence for fit
@@ -544,14 +538,16 @@ def test_places_of_rest_are_evidence_for_fit():
     [
         (CAR, {"friction": -0.7}, "bad_friction", "friction must be >= 0, got -0.7"),
         (CAR, {"friction": math.nan}, "not_finite", "friction"),
-        (CAR, {"friction": 0.0}, "never_stops", "friction or lock slow it too little"),
-        (
-            CAR,
-            {"lock": 0.0},
-            "never_stops",
-            "not at rest after 30 s: friction or lock slow it too little (a wheel of lock 0 rolls on)",
-        ),
-        (CAR, {"lock": 0.5, "limit": "1 s"}, "never_stops", "not at rest after 1 s"),
+        (CAR, {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
+        (CAR.replace(yaw_rate=2.0), {"friction": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0"),
+        (CAR, {"lock": 0.0}, "never_stops", "nothing slows it, since friction or lock are 0 (a wheel of lock 0 rolls on)"),
+        (CAR.replace(vy=2.0, yaw_rate=2.0), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
+        (CAR.replace(vx=0.01), {"lock": 0.0}, "never_stops", "a wheel of lock 0 rolls on"),
+        (CAR, {"friction": 0.0, "lock": 0.5, "surfaces": [(STRIP, 0.7)]}, "bad_friction", "the friction of the common ground"),
+        (CAR, {"height": 0.6, "surfaces": [(STRIP, 1.2)]}, "wheel_lifts", "a wheel lifts off"),
+        (CAR, {"slope": 0.05}, "bad_shape", "slope must be a pair"),
+        (CAR, {"tolerance": 1.0}, "bad_option", "tolerance must be one number from 1e-10 to 0.01, got 1.0"),
+        (CAR, {"tolerance": np.ones(2)}, "bad_option", "tolerance must be one number"),
         (CAR, {"lock": 1.1}, "bad_fraction", "lock must be from 0 to 1, got 1.1"),
         (CAR, {"lock": math.nan}, "bad_fraction", "lock must be from 0 to 1"),
         (CAR, {"lock": [1, 1, 1, -1]}, "bad_fraction", "lock[3] must be from 0 to 1"),
@@ -563,7 +559,6 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR, {"track": -math.inf}, "not_positive", "track must be > 0, got -inf"),
         (CAR, {"steer": math.nan}, "not_finite", "steer is NaN"),
         (CAR, {"cornering": 0}, "not_positive", "cornering must be > 0"),
-        (CAR, {"limit": "5 m"}, "bad_units", "limit"),
         (CAR, {"moments": 1}, "bad_option", "moments must be a whole number from 2 to 100000, got 1"),
         (CAR, {"moments": 10.0}, "bad_option", "got 10.0"),
         (CAR, {"surfaces": 0.7}, "bad_shape", "surfaces[0] must be a pair of corners"),
@@ -576,7 +571,7 @@ def test_places_of_rest_are_evidence_for_fit():
         (CAR.replace(mass=math.inf), {}, "infinite_mass", "infinite"),
         (CAR.replace(pivot=(0.0, 5.0), vx=0.0), {}, "pinned", "is on a pivot"),
         ("car", {}, "not_a_vehicle", "vehicle must be a Vehicle, got str"),
-        (CAR.replace(vx=1e200), {}, "never_stops", "not at rest"),
+        (CAR.replace(vx=1e200), {}, "out_of_range", "too large"),
     ],
 )
 def test_refused_simulations(vehicle, options, code, said):
@@ -591,8 +586,12 @@ def test_refused_simulations(vehicle, options, code, said):
 def test_all_wrong_arguments_are_named_at_once():
     """One error, one line for each."""
     with pytest.raises(col.InputError) as caught:
-        drive("x", friction="y", lock=2, wheelbase=-1, track="z", steer="north", limit=-1, moments=0)
-    for name in ("friction", "lock", "wheelbase", "track", "steer", "limit", "moments", "vehicle"):
+        travel.Tyres("y", 2, -1, "z", steer="north", cornering=-1)
+    for name in ("friction", "lock", "wheelbase", "track", "steer", "cornering"):
+        assert f"\n- {name}" in str(caught.value)
+    with pytest.raises(col.InputError) as caught:
+        travel.simulate("x", 0.7, slope=("a", 0), moments=0, tolerance=-1)
+    for name in ("slope", "moments", "tolerance", "vehicle", "tyres"):
         assert f"\n- {name}" in str(caught.value)
 
 

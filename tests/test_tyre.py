@@ -101,7 +101,11 @@ def test_forces_never_leave_the_circle_nor_push():
     """100,000 random wheels: within the circle, against both parts of the motion."""
     generator = np.random.default_rng(3)
     along, across = generator.normal(0.0, 1.0, (2, 100_000)) * 10.0 ** generator.uniform(-6, 1, 100_000)
-    lock, mu, cornering = generator.uniform(0.0, 1.2, 100_000), generator.uniform(0.0, 1.0, 100_000), generator.uniform(1, 30, 100_000)
+    lock, mu, cornering = (
+        generator.uniform(0.0, 1.2, 100_000),
+        generator.uniform(0.0, 1.0, 100_000),
+        generator.uniform(1, 30, 100_000),
+    )
     x, y = tyre_force(along, across, lock, mu, cornering)
     assert np.all(np.hypot(x, y) <= 1.0 + 1e-12)
     assert np.all(x * along <= 0.0)

@@ -119,12 +119,14 @@ def step(*numbers: Any) -> tuple[Any, ...]:
         further, after = rates(now)
         stages.append(further)
     way = [width * part for part in _sum(_STAGES[-1], stages, 5, 9)]
-    off = [abs(part) for part in (*_sum(_ERRORS, stages, 0, 3), *_sum(_ERRORS, stages, 7, 8))]
+    off = [*_sum(_ERRORS, stages, 0, 3), *_sum(_ERRORS, stages, 7, 8)]
     # What it moves and turns the place of rest: an error in velocity lasts for a time that is as long as the speed is high.
     left = size(*now[:3])
     relative = _RELATIVE / select(left > 0.0, left, 1.0)
     wrong = width * (
-        larger(off[0], off[1]) * (left + relative) + off[2] * (left * (1.0 + ground.spin) + relative) + off[3]
+        (off[0] * off[0] + off[1] * off[1]) ** 0.5 * (left + relative)
+        + abs(off[2]) * (left * (1.0 + ground.spin) + relative)
+        + abs(off[3])
     )
     return (*now[:3], *way, *after, wrong)
 
@@ -159,6 +161,8 @@ def ending(vx: Any, vy: Any, turn: Any, ax: Any, ay: Any, yaw: Any) -> tuple[Any
     scale = select(speed > 0.0, speed, 1.0)
     ux, uy, turning = vx / scale, vy / scale, turn / scale
     slowing = -(ux * ax + uy * ay + turning * yaw)
-    aside = larger(larger(abs(ax + slowing * ux), abs(ay + slowing * uy)), abs(yaw + slowing * turning))
+    aside = size(ax + slowing * ux, ay + slowing * uy, yaw + slowing * turning)
     straight = aside <= _STRAIGHT * larger(slowing, _SLOWEST + 0.0 * slowing)
-    return speed, slowing, aside, straight & (abs(turning) <= _STRAIGHT), straight & (larger(abs(ux), abs(uy)) <= _STRAIGHT)
+    # Without any force it turns on for ever, on the spot or not.
+    spins = (ux * ux + uy * uy <= _STRAIGHT * _STRAIGHT) | ((slowing == 0.0) & (aside == 0.0))
+    return speed, slowing, aside, straight & (abs(turning) <= _STRAIGHT), straight & spins

@@ -104,9 +104,7 @@ def tyre_forces(
     units in which ``standing`` is. ``here`` is the friction under each wheel. ``steered`` and ``transfers`` are settings: with
     False, steer and height are taken as none. ``brakes`` are ``brake_shares`` where they were worked out before.
     """
-    wheels = wheel_forces(
-        tyres, here, forward, left, turning, standing, steered=steered, transfers=transfers, brakes=brakes
-    )
+    wheels = wheel_forces(tyres, here, forward, left, turning, standing, steered=steered, transfers=transfers, brakes=brakes)
     parts = []
     for (ahead, aside, _), mu, (along, across, load) in zip(_corners(tyres), here, wheels, strict=True):
         x, y = (load * mu) * along, (load * mu) * across

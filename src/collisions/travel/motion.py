@@ -222,7 +222,9 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         if fresh.any():
             some = np.flatnonzero(fresh)
             if areas is not None:
-                ground[12:16, some] = areas.of(some).under(*state[1:4, some], *state[4:6, some], state[6, some] * ground[17, some])
+                ground[12:16, some] = areas.of(some).under(
+                    *state[1:4, some], *state[4:6, some], state[6, some] * ground[17, some]
+                )
             state[7:10, some] = accelerations(*ground[:, some], *state[4:7, some], c[some], s[some], *motion.settings)
             if first.any():
                 noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
@@ -238,7 +240,9 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             some = np.flatnonzero(straight)
             edge[some] = areas.of(some).ahead(*state[1:4, some], *(state[4:6, some] / speed[some]), left[some])
         goes_on = straight & ~stops & ~np.isfinite(edge)
-        rests = usable & ((straight & stops & (left <= edge)) | (~straight & (left <= last * last * state[10])) | (speed == 0.0))
+        rests = usable & (
+            (straight & stops & (left <= edge)) | (~straight & (left <= last * last * state[10])) | (speed == 0.0)
+        )
         moved = rests & (speed > 0.0)
         noted(moved, _to_rest(state[:10, moved], spin[moved]))
         found[going[rests]], found[going[goes_on]] = RESTS, GOES_ON
@@ -320,7 +324,10 @@ def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
     along = abs(math.cos(heading) * ground[18] + math.sin(heading) * ground[19])
     if slope == 0.0:
         return True
-    brakes = [min(1.0, lock * ground[4] / max(mu, 1e-300)) if lock < 1.0 else 1.0 for lock, mu in zip(ground[:4], ground[12:16], strict=True)]
+    brakes = [
+        min(1.0, lock * ground[4] / max(mu, 1e-300)) if lock < 1.0 else 1.0
+        for lock, mu in zip(ground[:4], ground[12:16], strict=True)
+    ]
     if ground[9] == 0.0 and not motion.settings.steered and not motion.settings.transfers:
         # Every wheel can hold what it carries.
         if all(mu * brake > along * 1.001 and mu > slope * 1.001 for mu, brake in zip(ground[12:16], brakes, strict=True)):

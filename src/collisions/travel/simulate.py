@@ -16,12 +16,12 @@ from ..kernels.batch import precision
 from ..kernels.elementwise import POSITIVE_FINITE
 from ..kernels.run_out import Settings, ground_of
 from ..kernels.tyre import wheel_forces
-from ..quantities import Shown, hypot, in_units_of, returns
+from ..quantities import Shown, hypot, in_units_of
 from ..quantities import lock as write_locked
 from ..reading import ArgumentReader, broadcast, is_whole
 from ..settings import Default
 from ..summary import Cells, Summary
-from ..tyres import LOCKS, WHEELS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
+from ..tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
 from ..units import Input, Pair, Texts, shown, texts_of
 from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .areas import Areas
@@ -34,7 +34,7 @@ _MOST_MOMENTS = 100_000
 _MOTION = ("vx", "vy", "yaw_rate", "x", "y", "heading")
 # A tyre that uses this share of the friction leaves a mark.
 _MARKS = 0.9
-_TOLERANCE = Default(3e-6)
+_TOLERANCE = Default(5e-7)
 _FINEST, _COARSEST = 1e-10, 1e-2
 
 
@@ -292,9 +292,7 @@ def simulate(
     marks = tuple(zip(tracks[::2], tracks[1::2], strict=True))
     texts = texts_of(vehicle.given)
     rest = vehicle_of(state, given=Texts(units=texts))
-    path = SimulatedPath(
-        time=time, x=x, y=y, heading=heading, vx=vx, vy=vy, yaw_rate=yaw_rate, marks=marks, rest=rest
-    )
+    path = SimulatedPath(time=time, x=x, y=y, heading=heading, vx=vx, vy=vy, yaw_rate=yaw_rate, marks=marks, rest=rest)
     return in_units_of(path, texts)
 
 
@@ -374,7 +372,11 @@ def _way(motion: Motion, units: Any, moments: int) -> tuple[Any, Any]:
     ux, uy, turn = (part / np.where(speed > 0.0, speed, 1.0) for part in moving)
     steered, transfers, _ = motion.settings
     ((along, across, _),) = wheel_forces(
-        ground.tyres, here, *(part.ravel() for part in (c * ux + s * uy, c * uy - s * ux, turn)), steered=steered, transfers=transfers
+        ground.tyres,
+        here,
+        *(part.ravel() for part in (c * ux + s * uy, c * uy - s * ux, turn)),
+        steered=steered,
+        transfers=transfers,
     )
     used = zip(along.reshape(4, moments, count), across.reshape(4, moments, count), strict=True)
     x, y = origin_x + length * x, origin_y + length * y
