@@ -355,7 +355,7 @@ def test_a_braked_wheel_that_stands_does_not_chatter():
     most = 0
     counted_steps = motion._of_floats
 
-    for i in range(60):
+    for _ in range(60):
         vx, vy, w = generator.normal(0.0, [4.0, 3.0, 4.0])
         # One wheel at least that is held; a car that hardly slows takes many steps because it goes far.
         lock = generator.permuted([1.0, *generator.choice([0.0, 0.05, 0.5, 1.0], 3)]).tolist()

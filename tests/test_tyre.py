@@ -172,7 +172,8 @@ def test_tyres_are_a_frozen_record_with_units():
         assert tyres.replace(friction=0.5).steer == tyres.steer
         with pytest.raises(AttributeError):
             tyres.friction = 0.3
-    assert tyres_of(None) is None and tyres_record(None) is None
+    assert tyres_of(None) is None
+    assert tyres_record(None) is None
     first = travel.Tyres("70 %", [1, 0.05, "5 %", 0.05], "270 cm", "60 in", steer="3 deg")
     assert first.locks == (1.0, 0.05, 0.05, 0.05)
     assert tyres_record(first)["track"] == "60 in"
@@ -212,7 +213,7 @@ def test_refused_tyres(options, code, said):
 
 def test_the_size_of_the_vehicle_is_asked_for():
     """A truck with the wheelbase of a car comes to rest metres elsewhere: no default, and a hint for other words."""
-    with pytest.raises(col.InputError, match="wheelbase.*was not given"):
+    with pytest.raises(col.InputError, match=r"wheelbase.*was not given"):
         travel.Tyres(0.7, 1)
     with pytest.raises(TypeError, match="write friction="):
         travel.Tyres(mu=0.7, lock=1, wheelbase=2.7, track=1.5, friction=0.7)

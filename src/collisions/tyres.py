@@ -138,7 +138,7 @@ class Tyres(Shown):
 
     def as_given(self, name: str) -> Any:
         """The text that an argument was given as, or its number; of four locks a list."""
-        value, texts = getattr(self, name), self._inputs_as_texts
+        value, texts = getattr(self, name), _given(self)
         if isinstance(value, tuple):
             return [texts.get(f"{name}[{i}]", part) for i, part in enumerate(value)]
         return texts.get(name, value)
@@ -167,13 +167,13 @@ class Tyres(Shown):
         return self.height is not None and bool(np.any(self.height != 0.0))
 
     def _texts(self) -> Iterable[Any]:
-        return texts_of(self._inputs_as_texts)
+        return texts_of(_given(self))
 
     def _values(self, prefix: str = "") -> Iterator[tuple[str, Any, str | None]]:
         yield from ((name, value, unit) for name, value, unit in Shown._values(self, prefix) if value is not None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, ({name: getattr(self, name) for name in NAMES}, self._inputs_as_texts)
+        return _restored, ({name: getattr(self, name) for name in NAMES}, _given(self))
 
 
 NAMES = tuple(f.name for f in fields(Tyres))
@@ -185,6 +185,12 @@ _HINTS = {
     "slope": "it is an argument of simulate",
     "surfaces": "they are an argument of simulate",
 }
+
+
+def _given(tyres: Tyres) -> Texts:
+    """The texts that the arguments were given as."""
+    texts: Texts = getattr(tyres, "_inputs_as_texts")  # noqa: B009
+    return texts
 
 
 def _set(tyres: Tyres, values: Mapping[str, Any], texts: Texts) -> None:
@@ -238,7 +244,7 @@ def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
     height = flat.get("height", 0.0)
     locks = tuple(flat[name] if name in flat else flat["lock"] for name in LOCKS)
     return Numbers(
-        locks,  # type: ignore[arg-type]
+        locks,
         flat["friction"],
         flat["cornering"],
         0.5 * flat["wheelbase"],

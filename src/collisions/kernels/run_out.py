@@ -106,11 +106,11 @@ def step(*numbers: Any) -> tuple[Any, ...]:
     brakes = None if settings.transfers else brake_shares(ground.tyres, ground.here)
 
     def rates(now: Any, found: tuple[Any, ...] | None = None) -> tuple[Any, tuple[Any, ...]]:
-        speed = size(*now[:3])
-        x, y, turning = _accelerations(ground, settings, *now, brakes=brakes) if found is None else found
-        rate = speed * (now[2] * ground.spin)
-        of_speeds = speed * x, speed * y, speed * turning
-        row = *of_speeds, -rate * now[4], rate * now[3], speed * now[0], speed * now[1], rate, speed
+        vx, vy, turn, c, s = now
+        speed = size(vx, vy, turn)
+        x, y, turning = found or _accelerations(ground, settings, vx, vy, turn, c, s, brakes)
+        rate = speed * (turn * ground.spin)
+        row = speed * x, speed * y, speed * turning, -rate * s, rate * c, speed * vx, speed * vy, rate, speed
         return np.array(row) if rows else row, (x, y, turning)
 
     stages, now = [rates(start, (ax, ay, yaw))[0]], start
@@ -123,11 +123,8 @@ def step(*numbers: Any) -> tuple[Any, ...]:
     # What it moves and turns the place of rest: an error in velocity lasts for a time that is as long as the speed is high.
     left = size(*now[:3])
     relative = _RELATIVE / select(left > 0.0, left, 1.0)
-    wrong = width * (
-        (off[0] * off[0] + off[1] * off[1]) ** 0.5 * (left + relative)
-        + abs(off[2]) * (left * (1.0 + ground.spin) + relative)
-        + abs(off[3])
-    )
+    off_velocity, off_turn, off_heading = (off[0] * off[0] + off[1] * off[1]) ** 0.5, abs(off[2]), abs(off[3])
+    wrong = width * (off_velocity * (left + relative) + off_turn * (left * (1.0 + ground.spin) + relative) + off_heading)
     return (*now[:3], *way, *after, wrong)
 
 

@@ -30,7 +30,10 @@ def brake_share(lock: Any, friction: Any, here: Any, load: Any) -> Any:
 
 
 def circle(cosine: Any, brake: Any) -> tuple[Any, Any]:
-    """The force along a wheel, from the cosine of its slip angle, and what the circle leaves across; over friction times load."""
+    """The force along a wheel from the cosine of its slip angle, and what the circle leaves across.
+
+    Both are over friction times load.
+    """
     # Negative: against the motion.
     forward = select(cosine > brake, -brake, select(cosine < -brake, brake, -cosine))
     left = 1.0 - forward * forward
@@ -166,9 +169,10 @@ def _sum(parts: list[Any]) -> Any:
     """The sum over the wheels."""
     if len(parts) == 1:
         (rows,) = parts
-        return rows[0] + rows[1] + rows[2] + rows[3]
+        parts = [rows[0], rows[1], rows[2], rows[3]]
     one, two, three, four = parts
-    return one + two + three + four
+    # Left and right first: mirrored scenes come out the same to the bit.
+    return (one + two) + (three + four)
 
 
 def _loads(tyres: Tyres, forces: list[tuple[Any, Any]]) -> tuple[Any, ...]:

@@ -62,15 +62,16 @@ def follow(motion: Motion) -> tuple[Any, Any]:
     """The rows of all steps of all cases, each of (``ROWS``, steps) in order of time, and what became of each case."""
     count = motion.start.shape[1]
     parts: list[list[Any]] = [[] for _ in range(count)]
-    found = np.full(count, NO_END)
+    found: Any = np.full(count, NO_END)
     if count <= _FEW:
         for case in range(count):
-            rows, found[case] = _one(motion.of([case]))
+            rows, ended = _one(motion.of([case]))
+            found[case] = ended
             parts[case].append(rows)
     else:
         _several(motion, parts, found)
     if motion.settings.sloped:
-        for case in np.flatnonzero(found == RESTS):
+        for case in np.flatnonzero(found == RESTS).tolist():
             last = parts[case][-1]
             if not _holds(motion.of([case]), *last[1:4, -1]):
                 found[case] = GOES_ON
@@ -80,13 +81,14 @@ def follow(motion: Motion) -> tuple[Any, Any]:
 def _wider(wrong: Any, tolerance: float) -> Any:
     """By how much the next step may be wider, from the error of the last one; NaN counts as a large error."""
     if isinstance(wrong, float):
-        return min(4.0, max(0.2, 0.9 * (tolerance / max(wrong, 1e-300)) ** 0.2)) if wrong == wrong else 0.2
+        ratio: float = (tolerance / max(wrong, 1e-300)) ** 0.2
+        return min(4.0, max(0.2, 0.9 * ratio)) if wrong == wrong else 0.2
     return np.fmin(4.0, np.fmax(0.2, 0.9 * (tolerance / np.maximum(wrong, 1e-300)) ** 0.2))
 
 
 def _last(motion: Motion) -> float:
     """The part of the motion that goes on straight."""
-    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(1.0, (motion.tolerance / 1e-5) ** 0.5)
+    return (_ENDING if motion.areas is None else _ENDING_ON_AREAS) * min(1.0, math.sqrt(motion.tolerance / 1e-5))
 
 
 def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int]:
@@ -106,7 +108,7 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         c, s = math.cos(heading), math.sin(heading)
         if known is None:
             if areas is not None:
-                ground[12:16] = areas.under(*_columns(x, y, heading), *_columns(vx, vy, turn * spin))[:, 0].tolist()
+                ground[12:16] = areas.under(*_columns(x, y, heading, vx, vy, turn * spin))[:, 0].tolist()
             known = forced((*ground, vx, vy, turn, c, s))
             if known is None:
                 break
@@ -122,7 +124,7 @@ def _one(motion: Motion, going: Sequence[float] | None = None) -> tuple[Any, int
         if slides or (spins and alone):
             edge = math.inf
             if areas is not None:
-                edge = float(areas.ahead(*_columns(x, y, heading), *_columns(vx / speed, vy / speed), left)[0])
+                edge = float(areas.ahead(*_columns(x, y, heading, vx / speed, vy / speed, left))[0])
             if left <= edge:
                 found = RESTS if stops else GOES_ON
                 break
@@ -205,11 +207,13 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
     """The rows of all cases, followed together in arrays; those that are left over one by one."""
     areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
     alone = areas is None and not motion.settings.sloped
-    ground, going = motion.ground.copy(), np.arange(motion.start.shape[1])
+    ground: Any = motion.ground.copy()
+    going: Any = np.arange(motion.start.shape[1])
     # Rows: time, place, heading, velocities, accelerations, way, width, and the width that was wanted before an edge.
-    state = np.zeros((13, len(going)))
+    state: Any = np.zeros((13, len(going)))
     state[4:7], state[3], state[11] = motion.start[:3], motion.start[3], _FIRST_STEP
-    first = fresh = np.ones(len(going), dtype=bool)
+    first: Any = np.ones(len(going), dtype=bool)
+    fresh: Any = first
     kept: list[tuple[Any, Any]] = []
 
     def noted(which: Any, rows: Any) -> None:
@@ -222,9 +226,8 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         if fresh.any():
             some = np.flatnonzero(fresh)
             if areas is not None:
-                ground[12:16, some] = areas.of(some).under(
-                    *state[1:4, some], *state[4:6, some], state[6, some] * ground[17, some]
-                )
+                turning = state[6, some] * ground[17, some]
+                ground[12:16, some] = areas.of(some).under(*(*state[1:6, some], turning))
             state[7:10, some] = accelerations(*ground[:, some], *state[4:7, some], c[some], s[some], *motion.settings)
             if first.any():
                 noted(some, np.concatenate([state[:10, some], state[7:10, some]]))
@@ -238,7 +241,8 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         edge = np.full(len(going), np.inf)
         if areas is not None and straight.any():
             some = np.flatnonzero(straight)
-            edge[some] = areas.of(some).ahead(*state[1:4, some], *(state[4:6, some] / speed[some]), left[some])
+            towards = state[4, some] / speed[some], state[5, some] / speed[some]
+            edge[some] = areas.of(some).ahead(*(*state[1:4, some], *towards, left[some]))
         goes_on = straight & ~stops & ~np.isfinite(edge)
         rests = usable & (
             (straight & stops & (left <= edge)) | (~straight & (left <= last * last * state[10])) | (speed == 0.0)
@@ -249,12 +253,12 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
         fresh = np.zeros(len(going), dtype=bool)
         slid = straight & ~rests & ~goes_on
         if slid.any():
-            some, before = state[:, slid], speed[slid]
+            sliding, before = state[:, slid], speed[slid]
             after = np.maximum(before * before - 2.0 * slowing[slid] * edge[slid], 0.0) ** 0.5
             took, share = 2.0 * edge[slid] / (before + after), after / before
             mean = 0.5 * (1.0 + share) * took
             state[0, slid] += took
-            state[1:4, slid] += mean * np.array([some[4], some[5], some[6] * spin[slid]])
+            state[1:4, slid] += mean * np.array([sliding[4], sliding[5], sliding[6] * spin[slid]])
             state[4:7, slid] *= share
             state[10, slid] += edge[slid]
             noted(slid, np.concatenate([state[:10, slid], state[7:10, slid]]))
@@ -295,9 +299,12 @@ def _several(motion: Motion, parts: list[list[Any]], found: Any) -> None:
             ground, state, going, fresh, first = ground[:, on], state[:, on], going[on], fresh[on], first[on]
             areas = None if areas is None else areas.of(on)
     _sorted_into(parts, kept)
-    for at, case in enumerate(going):
-        rows, found[case] = _one(motion.of([case]), [*state[:7, at].tolist(), *state[10:12, at].tolist()] if kept else None)
-        parts[case].append(rows)
+    for left_over, one in enumerate(going.tolist()):
+        rows, ended = _one(
+            motion.of([one]), [*state[:7, left_over].tolist(), *state[10:12, left_over].tolist()] if kept else None
+        )
+        found[one] = ended
+        parts[one].append(rows)
 
 
 def _sorted_into(parts: list[list[Any]], kept: list[tuple[Any, Any]]) -> None:
@@ -318,20 +325,17 @@ def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
     """
     ground = [float(number) for number in motion.ground[:, 0]]
     if motion.areas is not None:
-        still = np.zeros(1)
-        ground[12:16] = motion.areas.under(*_columns(x, y, heading), still, still, still)[:, 0].tolist()
+        ground[12:16] = motion.areas.under(*_columns(x, y, heading, 0.0, 0.0, 0.0))[:, 0].tolist()
     slope, spin = math.hypot(ground[18], ground[19]), 0.0
     along = abs(math.cos(heading) * ground[18] + math.sin(heading) * ground[19])
     if slope == 0.0:
         return True
-    brakes = [
-        min(1.0, lock * ground[4] / max(mu, 1e-300)) if lock < 1.0 else 1.0
-        for lock, mu in zip(ground[:4], ground[12:16], strict=True)
-    ]
-    if ground[9] == 0.0 and not motion.settings.steered and not motion.settings.transfers:
+    wheels = list(zip(ground[:4], ground[12:16], strict=True))
+    held = [mu if lock >= 1.0 else min(mu, lock * ground[4]) for lock, mu in wheels]
+    plain = not (motion.settings.steered or motion.settings.transfers)
+    if plain and all(one > 1.001 * along and mu > 1.001 * slope for one, (_, mu) in zip(held, wheels, strict=True)):
         # Every wheel can hold what it carries.
-        if all(mu * brake > along * 1.001 and mu > slope * 1.001 for mu, brake in zip(ground[12:16], brakes, strict=True)):
-            return True
+        return True
     ground[17] = spin
     stepped, forced = _of_floats(motion.settings)
     c, s = math.cos(heading), math.sin(heading)
