@@ -54,3 +54,9 @@ class RunOutQuantities:
 
     course = course_difference = course_error = crab_angles = distance = drags = speed = speed_error = _QUANTITY
     speeds = straight_course = time = yaw_rate = yaw_rate_error = _QUANTITY
+
+
+class TyresQuantities:
+    """Those of ``Tyres``."""
+
+    cornering = friction = height = lock = locks = named = steer = steered = track = transfers = wheelbase = _QUANTITY

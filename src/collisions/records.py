@@ -24,6 +24,8 @@ from .quantities import attributes, lock, same, unit_of
 from .reading import ArgumentReader
 from .side import Side
 from .summary import Cells, cells
+from .tyres import NAMES as TYRES
+from .tyres import Tyres
 from .units import Texts, shown
 from .vehicle import DOMAINS, NAMES, Vehicle, moved, vehicle_of, with_given
 
@@ -78,6 +80,21 @@ def _vehicle_inputs(vehicle: Vehicle) -> dict[str, Any]:
         del found["vx"], found["vy"]
         found |= polar
     return found
+
+
+def tyres_record(tyres: Tyres | None) -> dict[str, Any] | None:
+    """The arguments of tyres, each as the text it was given as or else in SI."""
+    return None if tyres is None else {name: strict(tyres.as_given(name)) for name in TYRES}
+
+
+def tyres_of(found: Mapping[str, Any] | None) -> Tyres | None:
+    """The tyres of a record, validated like a caller's."""
+    if found is None:
+        return None
+    if found.keys() != set(TYRES):
+        raise bad_record(f"tyres have {', '.join(TYRES)}, and it has {', '.join(map(str, found))}")
+    values = {name: _read(value) for name, value in found.items()}
+    return Tyres(**values)
 
 
 def _velocity(polar: Mapping[str, str]) -> tuple[Any, Any]:
