@@ -220,8 +220,9 @@ def lifts(tyres: Mapping[str, Any], friction: Any) -> Any:
     """Whether the greatest force on this friction could lift a wheel off the ground."""
     if tyres.get("height") is None:
         return False
-    lever = friction * tyres["height"]
-    return 2.0 * lever * np.hypot(1.0 / tyres["wheelbase"], 1.0 / tyres["track"]) >= 1.0
+    with np.errstate(all="ignore"):
+        sizes = np.hypot(1.0 / np.asarray(tyres["wheelbase"]), 1.0 / np.asarray(tyres["track"]))
+        return 2.0 * friction * tyres["height"] * sizes >= 1.0
 
 
 def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:

@@ -326,6 +326,8 @@ def _holds(motion: Motion, x: float, y: float, heading: float) -> bool:
     ground = [float(number) for number in motion.ground[:, 0]]
     if motion.areas is not None:
         ground[12:16] = motion.areas.under(*_columns(x, y, heading, 0.0, 0.0, 0.0))[:, 0].tolist()
+    if not math.isfinite(sum(ground) + x + y + heading):
+        return True  # refused for that
     slope, spin = math.hypot(ground[18], ground[19]), 0.0
     along = abs(math.cos(heading) * ground[18] + math.sin(heading) * ground[19])
     if slope == 0.0:

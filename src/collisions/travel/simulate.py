@@ -281,11 +281,14 @@ def simulate(
         checks += [("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())]
         ended = ended.reshape(shape)
         checks += [("never_stops", ended == GOES_ON), ("no_convergence", ended != RESTS)]
-        checks += [("out_of_range", ~np.isfinite(way[:4, -1].sum(axis=0).reshape(shape)))]
+        kind = precision(named.values())
+        with np.errstate(all="ignore"):
+            checks += [("out_of_range", ~np.isfinite(way[:4].astype(kind)).all(axis=(0, 1)).reshape(shape))]
         finite = {name: number for name, number in named.items() if name not in ("mass", "yaw_inertia")}
         # 0, or NaN where a case is refused.
-        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(precision(named.values())))
-        found = (way.reshape(len(way), moments, *shape) + still).astype(still.dtype)
+        still = write_locked(settle(np.zeros(shape), finite, shape, checks).astype(kind))
+        with np.errstate(all="ignore"):
+            found = (way.reshape(len(way), moments, *shape) + still).astype(kind)
     time, x, y, heading, vx, vy, yaw_rate, *tracks = write_locked(tuple(found))
     end = {"x": x[-1], "y": y[-1], "heading": heading[-1]}
     state = {name: getattr(vehicle, name) for name in NAMES} | dict.fromkeys(("vx", "vy", "yaw_rate"), still)
