@@ -15,7 +15,8 @@ from .elementwise import select
 # it does not jump from side to side where a wheel is held while the others move; any faster wheel has its whole force.
 STANDING = 2e-2
 # Loads under load transfer depend on the forces, and through the brakes the forces on the loads.
-_PASSES = 3
+_PASSES = 8
+_PART = 0.75
 
 
 def brake_share(lock: Any, friction: Any, here: Any, load: Any) -> Any:
@@ -151,7 +152,10 @@ def wheel_forces(
             x, y = tyre_force(along, across, brake, mu, tyres.cornering, standing)
             found.append((x, y) if turn is None else (turn[0] * x - turn[1] * y, turn[1] * x + turn[0] * y))
         if transfers:
-            loads = _loads(tyres, [(mu * x, mu * y) for mu, (x, y) in zip(here, found, strict=True)])
+            pulls = zip(loads, here, found, strict=False)
+            new = _loads(tyres, [(load * mu * x, load * mu * y) for load, mu, (x, y) in pulls])
+            # More load on a braked wheel lets it roll more freely: the whole change would go to and fro.
+            loads = tuple(old + _PART * (one - old) for old, one in zip(loads, new, strict=False))
     return [(x, y, load) for (x, y), load in zip(found, loads, strict=False)]
 
 
@@ -176,16 +180,7 @@ def _sum(parts: list[Any]) -> Any:
 
 
 def _loads(tyres: Tyres, forces: list[tuple[Any, Any]]) -> tuple[Any, ...]:
-    """The loads of the wheels over those at rest, where each has this force over its load: they hold the vehicle upright."""
-    corners = _corners(tyres)
+    """The loads of the wheels over those at rest, where each has this force over its load at rest: they keep it upright."""
     back, over = 2.0 * tyres.over_ahead, 2.0 * tyres.over_left
     x, y = (0.25 * _sum([force[at] for force in forces]) for at in (0, 1))
-    # The forces on all four are those of these loads, which depend on them: two linear equations.
-    (x_ahead, y_ahead), (x_left, y_left) = (
-        [0.25 * _sum([corner[side] * force[at] for corner, force in zip(corners, forces, strict=True)]) for at in (0, 1)]
-        for side in (0, 1)
-    )
-    one, two, three, four = 1.0 + back * x_ahead, over * x_left, back * y_ahead, 1.0 + over * y_left
-    size = one * four - two * three
-    x, y = (four * x - two * y) / size, (one * y - three * x) / size
-    return tuple(1.0 - ahead * back * x - aside * over * y for ahead, aside, _ in corners)
+    return tuple(1.0 - ahead * back * x - aside * over * y for ahead, aside, _ in _corners(tyres))
