@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
@@ -17,7 +18,9 @@ from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
 from .kernels.status import Passed, Status
 from .quantities import lock
 from .reading import ArgumentReader, is_whole
+from .tyres import Tyres, kernel_numbers, not_tyres
 from .units import shown
+from .vehicle import Vehicle, missing
 
 Geometry: TypeAlias = Literal["maximum_engagement", "first_contact", "fixed"]
 # Of its numbers, those that have to be above 0; the others may be 0.
@@ -61,13 +64,44 @@ def read_contact_time(
         reader.refuse(InputError(text, code="bad_option", argument="steps"))
     else:
         found["steps"] = int(found["steps"])
-    found |= read_times(reader, {name: value for name, value in extra.items() if name not in _SIZES or value is not None})
-    found = _SIZES | found
+    found |= read_tyres(reader, "time_resolved", a, b, extra)
+    times = {name: value for name, value in extra.items() if name not in _SIZES or value is not None}
+    if found["tyres_a"] is None and found["tyres_b"] is None:
+        found |= _SIZES
+    elif times["drag"] is None or (type(times["drag"]) is float and times["drag"] == 0.0):
+        del times["drag"]
+    found |= read_times(reader, times)
     arguments = a, b, restitution, normal, point, (friction, None, None), BRACH
-    beside = [part for name in DOMAINS for part in (found[name] if isinstance(found[name], tuple) else (found[name],))]
+    given_numbers = [found.get(name) for name in DOMAINS]
+    beside = [part for value in given_numbers for part in (value if isinstance(value, tuple) else (value,))]
+    beside += [part for label in "ab" if found[f"tyres_{label}"] for part in found[f"tyres_{label}"].named.values()]
     inputs = read_inputs("time_resolved", arguments, reader.problems, beside)
     given = {**(inputs.given or {}), **reader.texts} or None
     return replace(inputs, given=given, **found)
+
+
+def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[str, Any]) -> dict[str, Any]:
+    """The tyres of both vehicles, where given; they stand in place of a drag, and their wheels along the heading."""
+    found: dict[str, Any] = {}
+    for label, vehicle in (("a", a), ("b", b)):
+        name = f"tyres_{label}"
+        found[name] = extra.get(name)
+        if found[name] is None:
+            continue
+        if not isinstance(found[name], Tyres):
+            reader.refuse(not_tyres(name, found[name]))
+            found[name] = None
+        elif isinstance(vehicle, Vehicle) and vehicle.heading is None and not np.all(np.isinf(vehicle.mass)):
+            reader.refuse(missing(vehicle, "heading", f"{model} with {name}", label))
+    stray = {name: extra.get(name) for name in ("drag", *_SIZES)}
+    stray = {name: given for name, given in stray.items() if not (given is None or (type(given) is float and given == 0.0))}
+    if stray and any(tyres is not None for tyres in found.values()):
+        text = (
+            f"give {' and '.join(stray)} or tyres, not both: tyres_a and tyres_b have friction, braking, wheelbase "
+            "and track of the wheels of each vehicle; one without tyres is not held"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument=next(iter(stray))))
+    return found
 
 
 def read_least_time(reader: ArgumentReader, duration: Any, drag: Any) -> dict[str, Any]:
@@ -136,6 +170,25 @@ def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
         left = (peak_force / width - begins) / growth
         found[label] = select(left < 0.0, 0.0 * left, left)
     return found
+
+
+def tyres_numbers(inputs: Inputs, label: str, cut: Callable[[Any], Any]) -> Any:
+    """The tyres of a vehicle as the kernels take them; where there is only a drag, those of wheels that slide."""
+    from .kernels.tyre import Tyres as Numbers
+
+    tyres = getattr(inputs, f"tyres_{label}")
+    if tyres is None:
+        drag, *sizes = (0.0 if one is None else cut(one) for one in (inputs.drag, inputs.wheelbase, inputs.track))
+        return Numbers((1.0,) * 4, drag, 0.0, *(0.5 * size for size in sizes))
+    named = {name: cut(value) for name, value in tyres.named.items()}
+    return kernel_numbers(named, np if any(isinstance(value, np.ndarray) for value in named.values()) else math)
+
+
+def wheels_that_roll(tyres: Tyres) -> Any:
+    """The settings of the kernel for these tyres."""
+    from .kernels.contact_step import Rolling
+
+    return Rolling(tyres.steered, tyres.transfers)
 
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:
@@ -210,15 +263,19 @@ def _arguments(inputs: Inputs, cut: Any) -> dict[str, Any]:
     for body in (inputs.a, inputs.b):
         heading = None if body.heading is None else from_radians(cut(body.heading))
         bodies.append((*map(cut, body_numbers(body, inputs.point)[:7]), heading))
-    wheels = (kernel.wheels_of(body.heading, inputs.drag) for body in (inputs.a, inputs.b))
+    wheels = [
+        kernel.wheels_of(body.heading, 0.0 if inputs.drag is None else inputs.drag)
+        if tyres is None
+        else wheels_that_roll(tyres)
+        for body, tyres in ((inputs.a, inputs.tyres_a), (inputs.b, inputs.tyres_b))
+    ]
     return {
         "restitution": cut(inputs.restitution),
         "normal": tuple(map(cut, inputs.normal)),
         "friction": cut(inputs.rule_value),
         "point": tuple(map(cut, contact)),
-        "deceleration": cut(inputs.drag) * GRAVITY,
-        "wheelbase": cut(inputs.wheelbase),
-        "track": cut(inputs.track),
+        "gravity": GRAVITY,
+        "tyres": tuple(tyres_numbers(inputs, label, cut) for label in "ab"),
         "spring": spring,
         "bodies": tuple(bodies),
         "settings": kernel.Settings(

@@ -18,6 +18,8 @@ from .kernels.elementwise import restitution_domain
 from .quantities import lock, same
 from .reading import OUTSIDE_UNITS, ArgumentReader, broadcast, is_whole, largest
 from .settings import units_required
+from .tyres import NAMES as TYRE_NUMBERS
+from .tyres import Tyres, tyres_with
 from .units import Value, has_unit, is_quantity, shown, texts_of
 from .vehicle import NAMES, Vehicle, missing, not_a_vehicle, numbers_of, vehicle_of, with_name, without_turning
 
@@ -32,6 +34,7 @@ _new = object.__new__
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
 _NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
+TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
 STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
 # By solver, its arguments beyond vehicles, restitution and normal.
@@ -40,7 +43,7 @@ ARGUMENTS = {
     "oblique_central": _SLIP,
     "eccentric": (*_SLIP, "point", *OUTSIDE),
     "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag"),
-    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", "geometry", "steps"),
+    "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", *TYRES, "geometry", "steps"),
 }
 # The models that need places, and the solvers that take pinned bodies.
 PLACED, _PINNED = ("eccentric", "time_resolved"), ("eccentric", "solve")
@@ -77,7 +80,7 @@ class Inputs:
         Impulse on A and on B from other things than the contact, along x and y, and about the centre of mass.
     contact_velocity : tuple of float or array [m/s], optional
         From a reverse solver: closing speed and slip before, to more digits than the rounded motions would give.
-    duration, stiffness, crush_a, crush_b, drag, wheelbase, track, geometry, steps
+    duration, stiffness, crush_a, crush_b, drag, wheelbase, track, tyres_a, tyres_b, geometry, steps
         As for ``time_resolved``.
     """
 
@@ -105,6 +108,8 @@ class Inputs:
     incomplete: bool = False
     outside_a: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
     outside_b: tuple[Value, ...] | None = field(default=None, metadata={"unit": OUTSIDE_UNITS})
+    tyres_a: Tyres | None = None
+    tyres_b: Tyres | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...] | None:
@@ -119,8 +124,14 @@ class Inputs:
 
     @property
     def texts(self) -> tuple[Any, ...]:
-        """What was given with a unit, as texts, by the vehicles too."""
-        return *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
+        """What was given with a unit, as texts, by the vehicles and tyres too."""
+        found = *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
+        return *found, *(text for one in self.tyres.values() for text in one.given.values())
+
+    @property
+    def tyres(self) -> dict[str, Tyres]:
+        """The tyres by vehicle, "a" and "b", of those that have some."""
+        return {label: one for label, one in (("a", self.tyres_a), ("b", self.tyres_b)) if one is not None}
 
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal; the texts they were given as do not count."""
@@ -149,6 +160,8 @@ def named_numbers(inputs: Inputs) -> dict[str, Any]:
             found[name] = value
     for label, vehicle in (("a", inputs.a), ("b", inputs.b)):
         found |= {f"{label}.{name}": value for name, value in numbers_of(vehicle).items()}
+    for label, tyres in inputs.tyres.items():
+        found |= {f"tyres_{label}.{name}": value for name, value in tyres.named.items()}
     return found
 
 
@@ -179,6 +192,8 @@ def part_of(whole: Any, take: Callable[[Any], Any]) -> Any:
         return take(whole)
     if isinstance(whole, Vehicle):
         return vehicle_of({name: part_of(getattr(whole, name), take) for name in NAMES}, given=whole.given)
+    if isinstance(whole, Tyres):
+        return tyres_with({name: part_of(getattr(whole, name), take) for name in TYRE_NUMBERS}, whole)
     if isinstance(whole, Mapping):
         return {name: part_of(value, take) for name, value in whole.items()}
     if isinstance(whole, tuple):

@@ -12,7 +12,7 @@ import numpy as np
 
 from .contact_time import DOMAINS, read_contact_time, read_least_time, solve_case_in_time
 from .errors import InputError
-from .inputs import OUTSIDE, Arguments, Inputs, body_numbers, first_case, read_inputs
+from .inputs import OUTSIDE, TYRES, Arguments, Inputs, body_numbers, first_case, read_inputs
 from .kernels.central import from_closing_speed, linear_central, oblique_central
 from .kernels.contact_laws import BRACH, RULES
 from .kernels.eccentric import eccentric, from_contact_velocity, with_outside
@@ -175,7 +175,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
     arguments = inputs.a, inputs.b, *contact, tangential, BRACH if inputs.law is None else inputs.law
     with in_si():
         if inputs.model == TIME_RESOLVED.name:
-            extra = {name: getattr(inputs, name) for name in (*DOMAINS, "geometry", "steps")}
+            extra = {name: getattr(inputs, name) for name in (*DOMAINS, *TYRES, "geometry", "steps")}
             again = read_contact_time(inputs.a, inputs.b, *contact, inputs.rule_value, extra)
         elif inputs.model == "solve":
             again = read_for_solve(arguments, inputs.tolerance, inputs.duration, inputs.drag, **more)

@@ -14,6 +14,7 @@ from .directions import direction
 from .errors import InputError, Status
 from .formatting import KIND_OF
 from .inputs import ARGUMENTS, OUTSIDE, UNITS, Inputs
+from .inputs import TYRES as TYRES_OF
 from .kernels.contact_laws import RULES
 from .kernels.elementwise import UNCHECKED
 from .model_choice import ModelChoice
@@ -59,6 +60,7 @@ def _inputs(inputs: Inputs) -> dict[str, Any]:
         "a": _vehicle_inputs(inputs.a),
         "b": _vehicle_inputs(inputs.b),
         **{name: _given_input(texts, name, getattr(inputs, name), unit) for name, unit in UNITS.items()},
+        **{name: tyres_record(getattr(inputs, name)) for name in TYRES_OF},
         "normal": text if as_text else strict(inputs.normal),
         "bare_normal": strict(inputs.bare_normal),
         "rule_value": _given(texts.pop(inputs.rule, None), inputs.rule_value, ""),
@@ -145,6 +147,7 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             given["normal"] = reader.number(_read(found["bare_normal"]), "", "bare_normal")
             reader.close()
         numbers = {name: _read(found[name]) for name in ("normal", "rule_value", "tolerance", *UNITS, *_OPTIONS)}
+        numbers |= {name: tyres_of(found[name]) for name in TYRES_OF}
         inputs = Inputs(model=model, a=a, b=b, rule=rule, law=law, given=given, contact_velocity=velocity, **numbers)
         inputs = read_again(inputs, found=origin is not None)
         _check_texts(found, inputs, record["results"])

@@ -27,6 +27,8 @@ from .kernels.elementwise import (
 from .kernels.status import Answer, Passed, Status
 from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
 from .progress import reporter
+from .tyres import DOMAINS as TYRE_DOMAINS
+from .tyres import could_lift
 from .units import shown
 from .vehicle import DOMAINS, with_name
 from .warning import warn_of_cases
@@ -215,6 +217,12 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
+    for tyres in inputs.tyres.values():
+        for name, value in tyres.named.items():
+            add_arrays(TYRE_DOMAINS[name.partition("[")[0]], value)
+        if any(isinstance(value, np.ndarray) for value in tyres.named.values()):
+            lifted = tyres.friction, tyres.height or 0.0, tyres.wheelbase, tyres.track
+            found.append(Check(((could_lift, Status.WHEEL_LIFTS),), lifted))
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):

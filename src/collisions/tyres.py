@@ -12,12 +12,12 @@ import numpy as np
 from .drag import one_value, read_friction
 from .errors import InputError, ShapeError
 from .hints import no_argument, open_to_hints
-from .kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
+from .kernels.elementwise import AT_LEAST_ZERO, FINITE, NOT_NEGATIVE, POSITIVE_FINITE, UNIT_INTERVAL
 from .kernels.tyre import Tyres as Numbers
 from .quantities import Shown, lock
 from .quantity_names import TyresQuantities
 from .reading import ArgumentReader, at_least_zero, warn_if_large
-from .settings import Default
+from .settings import Default, in_si
 from .units import Input, Texts, Value, shown, texts_of
 
 WHEELS = ("front left", "front right", "rear left", "rear right")
@@ -144,6 +144,11 @@ class Tyres(Shown):
         return texts.get(name, value)
 
     @property
+    def given(self) -> Texts:
+        """The texts that the arguments were given as."""
+        return _given(self)
+
+    @property
     def locks(self) -> tuple[Any, Any, Any, Any]:
         """The lock of each wheel: front left, front right, rear left, rear right."""
         return self.lock if isinstance(self.lock, tuple) else (self.lock,) * 4
@@ -178,6 +183,14 @@ class Tyres(Shown):
 
 NAMES = tuple(f.name for f in fields(Tyres))
 _UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Tyres)}
+# Of the values of a batch, which are looked at case by case where the tyres are used.
+DOMAINS = {
+    "friction": FINITE._replace(name="friction", faults=(*FINITE.faults, *NOT_NEGATIVE.faults)),
+    "lock": UNIT_INTERVAL,
+    **dict.fromkeys(("wheelbase", "track", "cornering"), POSITIVE_FINITE),
+    "steer": FINITE,
+    "height": AT_LEAST_ZERO,
+}
 _HINTS = {
     "mu": "write friction=",
     "drag": "write friction= and lock=",
@@ -206,6 +219,14 @@ def _restored(values: Mapping[str, Any], texts: Texts) -> Tyres:
     return tyres
 
 
+def tyres_with(values: Mapping[str, Any], other: Tyres) -> Tyres:
+    """Tyres of these numbers, validated, with the texts of others: those of some cases of a batch, or of one."""
+    with in_si():
+        found = Tyres(**values)
+    _set(found, values, _given(other))
+    return found
+
+
 def _read_lock(reader: ArgumentReader, given: Any) -> Any:
     """One lock, or a tuple of four."""
     if not isinstance(given, (list, tuple)):
@@ -220,9 +241,13 @@ def lifts(tyres: Mapping[str, Any], friction: Any) -> Any:
     """Whether the greatest force on this friction could lift a wheel off the ground."""
     if tyres.get("height") is None:
         return False
+    return could_lift(friction, tyres["height"], tyres["wheelbase"], tyres["track"])
+
+
+def could_lift(friction: Any, height: Any, wheelbase: Any, track: Any) -> Any:
+    """Whether the greatest force between the axes of the vehicle takes the load of a wheel."""
     with np.errstate(all="ignore"):
-        sizes = np.hypot(1.0 / np.asarray(tyres["wheelbase"]), 1.0 / np.asarray(tyres["track"]))
-        return 2.0 * friction * tyres["height"] * sizes >= 1.0
+        return 2.0 * friction * height * np.hypot(1.0 / np.asarray(wheelbase), 1.0 / np.asarray(track)) >= 1.0
 
 
 def refuse_lifting(tyres: Mapping[str, Any], friction: Any) -> None:

@@ -140,7 +140,8 @@ class Status(IntEnum):
         "the contact does not end within three times its nominal duration: the bodies stay together, pushed or held by tyres; "
         "give a shorter duration, less drag, or a higher restitution",
     )
-    NEGATIVE_SIZE = _Outcome(31, "input", "a drag or a stiffness is below 0")
+    NEGATIVE_SIZE = _Outcome(31, "input", "a drag, a stiffness or a height is below 0")
+    WHEEL_LIFTS = _Outcome(32, "input", "at this height of its centre of mass a vehicle could lift a wheel off the ground")
 
     @property
     def label(self) -> str:

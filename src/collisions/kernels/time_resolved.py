@@ -24,6 +24,7 @@ from .contact_step import (
 )
 from .elementwise import first_status, select
 from .status import EPS, Passed, Status
+from .tyre import Tyres
 
 # How often the start is corrected with all steps. How near what is reached has to be to the places given, in closing speed
 # times duration and in radians: at 100 steps, and at most. By the cube of the steps it stays below their own error.
@@ -55,7 +56,7 @@ class Settings(NamedTuple):
 
 
 def wheels_of(heading: Any, drag: Any) -> Wheels:
-    """The wheels of a vehicle: none without drag; all of its weight at the centre of mass without a heading."""
+    """The wheels of a vehicle that slide: none without drag; all of its weight at the centre of mass without a heading."""
     return () if isinstance(drag, float) and drag == 0.0 else _ONE if heading is None else _FOUR
 
 
@@ -64,9 +65,8 @@ def time_resolved(
     normal: tuple[Any, Any],
     friction: Any,
     point: tuple[Any, Any],
-    deceleration: Any,
-    wheelbase: Any,
-    track: Any,
+    gravity: float,
+    tyres: tuple[Tyres, Tyres],
     spring: Any,
     bodies: tuple[tuple[Any, ...], tuple[Any, ...]],
     settings: Settings,
@@ -89,13 +89,13 @@ def time_resolved(
     swing = 0.5 * pi * (1.0 + e)
     duration = spring if settings.timed else swing * (mass / spring) ** 0.5
     length = closing * duration
-    force = deceleration * (duration / closing)
+    weight = gravity * (duration / closing)
     (a, on_a), (b, on_b) = (
         (
-            _scaled(body, numbers[7], mass, length, force, 0.5 * (wheelbase / length), 0.5 * (track / length)),
+            scaled(body, numbers[7], mass, length, weight, held),
             Motion(motion.vx / closing, motion.vy / closing, motion.spin * duration),
         )
-        for body, motion, numbers in ((a, on_a, bodies[0]), (b, on_b, bodies[1]))
+        for body, motion, numbers, held in ((a, on_a, bodies[0], tyres[0]), (b, on_b, bodies[1], tyres[1]))
     )
     step = 1.0 / settings.steps
     back = e**0.5 * step
@@ -113,9 +113,7 @@ def time_resolved(
         step_back=select(back < soonest, back, soonest),
     )
     # Broadcast, so that all that moves has the shape of the cases.
-    zero = 0.0 * (
-        closing + contact.step_back + a.per_mass + b.per_mass + contact.friction + on_a.vx + on_b.vx + a.grip + b.grip
-    )
+    zero = 0.0 * (closing + contact.step_back + contact.friction + on_a.vx + on_b.vx + sum((*a, *b)))
     start = [Motion(*(value + zero for value in motion)) for motion in (on_a, on_b)]
     none = zero != zero
     passing = Passing(*(zero for _ in Passing._fields))._replace(c=1.0 + zero, sticks=none, active=none ^ True)
@@ -225,29 +223,21 @@ def _moving_of(numbers: Any) -> Moving:
 def _own(body: tuple[Any, ...], px: Any, py: Any) -> tuple[Body, Motion]:
     """A body and its motion in SI, without what only tyres need."""
     mass, inertia, vx, vy, spin, x, y, *_ = body
-    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), Motion(vx, vy, spin)
+    return Body(1.0 / mass, 1.0 / inertia, px - x, py - y), Motion(vx, vy, spin)
 
 
-def _scaled(body: Body, heading: Any, mass: Any, length: Any, force: Any, ahead: Any, left: Any) -> Body:
-    """The body in units of the contact, with its wheels; ``force`` is what the tyres hold of its weight, over its mass."""
+def scaled(body: Body, heading: Any, mass: Any, length: Any, weight: Any, tyres: Tyres) -> Body:
+    """The body in units of the contact, with its wheels; ``weight`` is that of a unit of mass."""
+    ahead, left = tyres.ahead / length, tyres.left / length
     if heading is None:
         heading, ahead, left = (1.0, 0.0), 0.0, 0.0
-    cos, sin = heading
     per_mass, per_inertia = body.per_mass * mass, body.per_inertia * ((mass * length) * length)
     moves = per_mass > 0.0
     turning = (ahead * ahead + left * left) * per_inertia
-    return Body(
-        per_mass,
-        per_inertia,
-        body.rx / length,
-        body.ry / length,
-        ahead_x=ahead * cos,
-        ahead_y=ahead * sin,
-        left_x=-left * sin,
-        left_y=left * cos,
-        grip=select(moves, 0.25 * force / select(moves, per_mass, 1.0), 0.0),
-        cap=select(moves, 0.25 / select(moves, per_mass + turning, 1.0), 0.0),
-    )
+    grip = select(moves, 0.25 * weight / select(moves, per_mass, 1.0), 0.0)
+    cap = select(moves, 0.25 / select(moves, per_mass + turning, 1.0), 0.0)
+    numbers = grip, cap, *tyres.locks, *tyres._replace(ahead=ahead, left=left)[1:]
+    return Body(*(per_mass, per_inertia, body.rx / length, body.ry / length, *heading, *numbers))
 
 
 def _found(
@@ -351,10 +341,8 @@ def _moved_back(contact: Contact, a: Body, b: Body, moved: list[Any]) -> tuple[C
         body._replace(
             rx=point_x + rx,
             ry=point_y + ry,
-            ahead_x=c * body.ahead_x + s * body.ahead_y,
-            ahead_y=c * body.ahead_y - s * body.ahead_x,
-            left_x=c * body.left_x + s * body.left_y,
-            left_y=c * body.left_y - s * body.left_x,
+            cos=c * body.cos + s * body.sin,
+            sin=c * body.sin - s * body.cos,
         )
         for body, rx, ry, c, s in turned
     ]
