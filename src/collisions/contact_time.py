@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -12,10 +13,11 @@ import numpy as np
 from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
-from .inputs import CRUSH_UNITS, STIFFNESSES, Inputs, body_numbers, read_inputs
+from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, read_inputs
 from .kernels.contact_laws import BRACH
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
-from .kernels.status import Passed, Status
+from .kernels.status import Answer, Passed, Status, WithTyres
+from .pulse import passed
 from .quantities import lock
 from .reading import ArgumentReader, is_whole
 from .tyres import Tyres, kernel_numbers, not_tyres
@@ -104,20 +106,22 @@ def read_tyres(reader: ArgumentReader, model: str, a: Any, b: Any, extra: dict[s
     return found
 
 
-def read_least_time(reader: ArgumentReader, duration: Any, drag: Any) -> dict[str, Any]:
-    """Duration and drag as ``solve`` takes them, both optional: without a duration there is no contact that takes time."""
-    if duration is None and drag is not None:
-        text = f"drag = {shown(drag)} needs a duration, in which the tyres slide; write duration='100 ms', or leave drag out"
+def read_least_time(reader: ArgumentReader, a: Any, b: Any, duration: Any, drag: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and drag or tyres as ``solve`` takes them, all optional: without a duration no contact takes time."""
+    found = read_tyres(reader, "solve", a, b, {**dict(zip(TYRES, tyres, strict=True)), "drag": drag})
+    if duration is None:
+        what = f"drag = {shown(drag)} needs" if drag is not None else "tyres need"
+        text = f"{what} a duration, in which the tyres act; write duration='100 ms', or leave them out"
         reader.refuse(InputError(text, code="one_stiffness", argument="duration"))
     given = {name: value for name, value in (("duration", duration), ("drag", drag)) if value is not None}
-    return read_times(reader, given) if "duration" in given else {}
+    return found | (read_times(reader, given) if "duration" in given else {})
 
 
 def timed(inputs: Inputs, steps: int = _STEPS) -> Inputs:
     """What ``solve`` was given as inputs of ``time_resolved``."""
-    drag: Any = 0.0 if inputs.drag is None else inputs.drag
+    drag: Any = 0.0 if inputs.drag is None and not inputs.tyres else inputs.drag
     own: dict[str, Any] = {"law": None, "tolerance": None, "given": None, "contact_velocity": None}
-    own |= {**_SIZES, "geometry": "maximum_engagement"}
+    own |= {**({} if inputs.tyres else _SIZES), "geometry": "maximum_engagement"}
     return replace(inputs, model="time_resolved", drag=drag, steps=steps, **own)
 
 
@@ -189,6 +193,88 @@ def wheels_that_roll(tyres: Tyres) -> Any:
     from .kernels.contact_step import Rolling
 
     return Rolling(tyres.steered, tyres.transfers)
+
+
+def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
+    """The answer of an impulse, with that of the tyres during its contact as one from outside.
+
+    Solved twice: without the tyres for the motion before and after, between which their force is taken, and with what they
+    give. ``solve`` solves inputs, quietly or not.
+    """
+    bare = replace(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
+    first = solve(bare, True)
+    pushes = {label: _held(inputs, first, label) for label in "ab"}
+    outside: dict[str, Any] = {
+        name: tuple(one + more for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True))
+        for name in OUTSIDE
+    }
+    # A case that has no answer without tyres is refused for that.
+    with np.errstate(all="ignore"):
+        refused = first.status > Status.ENERGY_GAIN
+        outside = {name: tuple(select(refused, 0.0, part) for part in parts) for name, parts in outside.items()}
+    raw = solve(replace(bare, **outside, given=inputs.given), False)
+    found: dict[str, Any] = {}
+    with np.errstate(all="ignore"):
+        answered = 0.0 * raw.normal_impulse
+        for label, body in (("a", inputs.a), ("b", inputs.b)):
+            push = [part + answered for part in pushes[label]]
+            means = (
+                was + 0.5 * getattr(raw, f"delta_{name}_{label}")
+                for name, was in (("vx", body.vx), ("vy", body.vy), ("yaw_rate", body.yaw_rate))
+            )
+            names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
+            found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
+            found[f"tyre_loss_{label}"] = answered - sum(part * mean for part, mean in zip(push, means, strict=True))
+    if inputs.shape is not None:
+        found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
+    return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
+
+
+def _held(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
+    """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of mass."""
+    tyres, body = inputs.tyres.get(label), getattr(inputs, label)
+    if tyres is None or body.heading is None:
+        return NO_IMPULSE
+    from .kernels.held import held
+
+    changes = [getattr(answer, f"delta_{name}_{label}") for name in ("vx", "vy", "yaw_rate")]
+    inertia = math.inf if body.yaw_inertia is None else body.yaw_inertia
+    numbers = [body.mass, inertia, *from_radians(body.heading), body.vx, body.vy, body.yaw_rate, *changes]
+    numbers += [passed(inputs.restitution, 0.5), inputs.duration, GRAVITY]
+    own = tyres_numbers(inputs, label, lambda value: value)
+    numbers += [*own.locks, *own[1:]]
+    settings = tyres.steered, tyres.transfers
+    found = _held_function(*settings)(numbers) if inputs.shape is None else None
+    if found is None:
+        with np.errstate(all="ignore"):
+            found = held(*(value if inputs.shape is None else np.asarray(value, np.float64) for value in numbers), *settings)
+    return tuple(found)
+
+
+@lru_cache(maxsize=8)
+def _held_function(steered: bool, transfers: bool) -> Callable[[Any], Any]:
+    """``held`` compiled for plain floats."""
+    from .kernels.floats import compile_for_floats
+    from .kernels.held import NUMBERS, held
+
+    return compile_for_floats(held, tuple(f"[{at}]" for at in range(NUMBERS)), (steered, transfers))
+
+
+def read_lasting(reader: ArgumentReader, model: str, a: Any, b: Any, duration: Any, tyres: tuple[Any, Any]) -> dict[str, Any]:
+    """Duration and tyres of an impulse with those of its wheels: both, or neither."""
+    given = dict(zip(TYRES, tyres, strict=True))
+    found = read_tyres(reader, model, a, b, given)
+    if duration is None:
+        text = "tyres need a duration, over which they act; write duration='100 ms'"
+        reader.refuse(MissingInputError(text, code="one_stiffness", argument="duration"))
+        return found
+    if tyres == (None, None):
+        text = (
+            f"{model} takes a duration for tyres_a and tyres_b alone, and neither was given; give travel.Tyres, or use "
+            "time_resolved"
+        )
+        reader.refuse(InputError(text, code="bad_combination", argument="duration"))
+    return found | read_times(reader, {"duration": duration})
 
 
 def solve_case_in_time(inputs: Inputs, cut: Callable[[Any], Any] | None = None) -> Passed:

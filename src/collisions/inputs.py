@@ -32,7 +32,7 @@ _ALONG_X = (1.0, 0.0)
 _new = object.__new__
 # Of a crush stiffness: force at no crush and its growth with crush, each for a width, and the width.
 CRUSH_UNITS = ("N/m", "N/m**2", "m")
-_NO_IMPULSE = (0.0, 0.0, 0.0)
+NO_IMPULSE = (0.0, 0.0, 0.0)
 OUTSIDE = ("outside_a", "outside_b")
 TYRES = ("tyres_a", "tyres_b")
 _SLIP = (*RULES, "law", "incomplete")
@@ -41,8 +41,8 @@ STIFFNESSES = ("duration", "stiffness", "crush_a", "crush_b")
 ARGUMENTS = {
     "linear_central": ("incomplete",),
     "oblique_central": _SLIP,
-    "eccentric": (*_SLIP, "point", *OUTSIDE),
-    "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag"),
+    "eccentric": (*_SLIP, "point", *OUTSIDE, "duration", *TYRES),
+    "solve": (*_SLIP, "point", *OUTSIDE, "tolerance", "duration", "drag", *TYRES),
     "time_resolved": (FRICTION, "point", *STIFFNESSES, "drag", "wheelbase", "track", *TYRES, "geometry", "steps"),
 }
 # The models that need places, and the solvers that take pinned bodies.
@@ -127,6 +127,11 @@ class Inputs:
         """What was given with a unit, as texts, by the vehicles and tyres too."""
         found = *texts_of(self.a.given), *texts_of(self.b.given), *texts_of(self.given)
         return *found, *(text for one in self.tyres.values() for text in one.given.values())
+
+    @property
+    def pushed(self) -> bool:
+        """Whether impulses other than that of the contact act in the same instant: given ones, or those of tyres."""
+        return self.outside_a is not None or (self.model != "time_resolved" and bool(self.tyres))
 
     @property
     def tyres(self) -> dict[str, Tyres]:
@@ -309,7 +314,7 @@ def read_inputs(
     vehicles = (number for vehicle in (a, b) if isinstance(vehicle, Vehicle) for number in numbers_of(vehicle).values())
     pushes: dict[str, Any] = dict(zip(OUTSIDE, (outside_a, outside_b), strict=True))
     if outside_a is not None or outside_b is not None:
-        pushes = {name: _NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
+        pushes = {name: NO_IMPULSE if given is None else reader.impulse(given, name) for name, given in pushes.items()}
     of_contact = e, value, *(contact or ()), *(pushes["outside_a"] or ()), *(pushes["outside_b"] or ())
     unit: Any = direction(reader, normal, "normal", chain(of_contact, vehicles, beside))
     lawful, _, _ = _TAKES[model]

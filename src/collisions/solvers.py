@@ -10,7 +10,17 @@ from .hints import hinted, no_argument, open_to_hints
 from .impact import Impact, build, solved
 from .inputs import Law, OnFailure, plain_inputs, read_inputs
 from .kernels.contact_laws import FRICTION
-from .models import ECCENTRIC, LINEAR, OBLIQUE, TIME_RESOLVED, Model, float_function, in_form, read_for_solve
+from .models import (
+    ECCENTRIC,
+    LINEAR,
+    OBLIQUE,
+    TIME_RESOLVED,
+    Model,
+    float_function,
+    in_form,
+    read_for_solve,
+    read_lasting_impulse,
+)
 from .progress import Progress
 from .quantities import in_units_of
 from .solving import solve_inputs
@@ -27,6 +37,7 @@ _ELSEWHERE = {
     **dict.fromkeys(("friction", "impulse_ratio", "critical_fraction", "law"), "oblique_central and eccentric have it"),
     **dict.fromkeys(("point", "outside_a", "outside_b"), "eccentric has it"),
     **dict.fromkeys(("duration", "stiffness", "crush_a", "crush_b", "drag"), "time_resolved has it"),
+    **dict.fromkeys(("tyres_a", "tyres_b"), "eccentric and time_resolved have it"),
 }
 
 
@@ -190,6 +201,9 @@ def eccentric(
     incomplete: bool = False,
     outside_a: Impulse | None = None,
     outside_b: Impulse | None = None,
+    duration: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -231,6 +245,13 @@ def eccentric(
         ground: its components along the scene axes at the centre of mass, and its moment about it. ``left_out`` estimates that
         of the tyres. The impulse is a given number; an object that stops a vehicle with whatever impulse that takes, such as a
         kerb of unknown impulse, is to be solved as a second impact, against a barrier.
+    duration : float, str, Quantity or array [s], optional
+        How long the contact lasts, for the impulse of the tyres; with ``tyres_a`` or ``tyres_b``.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle, which then needs a ``heading``. Their mean force is worked out from the motion without
+        them, before, half-way through and after the contact (Simpson's rule); times the duration it acts as an impulse from
+        outside, ``impact.a.tyre_impulse_x``, and the impact is solved once more. This costs two calls; the motion during the
+        contact, which ``time_resolved`` has too, is left out.
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
@@ -276,6 +297,11 @@ def eccentric(
     if unknown:
         raise no_argument("eccentric()", signature(eccentric).parameters, unknown, _ELSEWHERE)
     tangential = friction, impulse_ratio, critical_fraction
+    if duration is not None or tyres_a is not None or tyres_b is not None:
+        arguments = a, b, restitution, normal, point, tangential, law
+        more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
+        inputs = read_lasting_impulse(arguments, duration, (tyres_a, tyres_b), **more)
+        return build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
         ECCENTRIC, a, b, restitution, normal, point, tangential, law, incomplete, on_failure, threads, progress, outside
@@ -429,6 +455,8 @@ def required_model(
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
 ) -> ModelChoice:
     """The simplest model whose answer stays within a tolerance of the eccentric one.
 
@@ -454,8 +482,9 @@ def required_model(
     tolerance : float, str, Quantity or array [m/s]
         Largest error that is accepted, >= 0. With 0 the eccentric model is required, even where a simpler one would be exact;
         with ``duration`` it is ``time_resolved``, unless that is not a candidate or has no answer.
-    duration, drag
-        As for ``time_resolved``, optional; without ``drag`` there are no tyre forces.
+    duration, drag, tyres_a, tyres_b
+        As for ``time_resolved``, optional; without ``drag`` or tyres there are no tyre forces. With tyres the eccentric model
+        has them too, as ``eccentric`` does, and the central ones have not.
 
     Returns
     -------
@@ -480,7 +509,7 @@ def required_model(
     """
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
     from .model_choice import choose
 
     return in_units_of(choose(inputs)[0], inputs.texts)
@@ -504,6 +533,8 @@ def solve(
     tolerance: Input = 0.0,
     duration: Input | None = None,
     drag: Input | None = None,
+    tyres_a: Tyres | None = None,
+    tyres_b: Tyres | None = None,
     on_failure: OnFailure | None = None,
     threads: int = 1,
     progress: Progress | None = None,
@@ -524,6 +555,8 @@ def solve(
     duration, drag : float, str, Quantity or array [s], [-], optional
         Duration of the contact and drag of the tyres, as for ``required_model``; a time-resolved contact is solved in 100
         steps.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle in place of a drag, as for ``required_model``.
     incomplete, outside_a, outside_b, on_failure, threads, progress
         As for ``eccentric``.
 
@@ -551,7 +584,7 @@ def solve(
         raise no_argument("solve()", signature(solve).parameters, unknown, _ELSEWHERE)
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
-    inputs = read_for_solve(arguments, tolerance, duration, drag, **more)
+    inputs = read_for_solve(arguments, tolerance, duration, drag, (tyres_a, tyres_b), **more)
     return solved(inputs, on_failure, threads, progress)
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from .contact_time import DOMAINS as TIME_DOMAINS
-from .contact_time import solve_case_in_time, solve_cases_in_time
+from .contact_time import solve_case_in_time, solve_cases_in_time, with_tyres
 from .errors import CollisionsError, CollisionsWarning, EnergyGainWarning, InputError, NoImpactError, NoSolutionError
 from .inputs import Inputs, first_case, named_numbers, part_of_inputs
 from .kernels.contact_laws import RULES
@@ -25,13 +27,13 @@ from .kernels.elementwise import (
     without_length,
 )
 from .kernels.status import Answer, Passed, Status
-from .models import TIME_RESOLVED, Model, float_function, kind_of, model_of, read_again
+from .models import TIME_RESOLVED, Model, float_function, in_form, kind_of, model_of, read_again
 from .progress import reporter
 from .tyres import DOMAINS as TYRE_DOMAINS
 from .tyres import could_lift
 from .units import shown
 from .vehicle import DOMAINS, with_name
-from .warning import warn_of_cases
+from .warning import quietly, warn_of_cases
 
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 
@@ -50,6 +52,16 @@ def solve_inputs(
     """
     if on_failure is not None or progress is not None or type(threads) is not int or threads != 1:
         check_options(on_failure, threads, progress)
+    if inputs.tyres_a is not None or inputs.tyres_b is not None:
+        if model.name == "eccentric":
+
+            def solve(one: Inputs, quiet: bool) -> Any:
+                with quietly() if quiet else nullcontext():
+                    return solve_inputs(in_form(model, one), one, "nan" if quiet else on_failure, threads, progress, carrying)
+
+            return with_tyres(inputs, solve)
+        if model is not TIME_RESOLVED:
+            inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
     if inputs.shape is not None:
         if model is TIME_RESOLVED:
             raw: Any = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))

@@ -194,7 +194,7 @@ def eccentric(page: Page, s: Symbols) -> None:
     page.equation("Slip, of B relative to A", s.slip, s.relative("t", contact=True))
     page.heading("Impulse")
     impulses(page, s, _mobility(page, s, levers)._replace(push=_from_outside(page, s, levers)))
-    if s.impact.inputs.outside_a is not None and not (a.pinned or b.pinned):
+    if s.impact.inputs.pushed and not (a.pinned or b.pinned):
         impulse_in_scene_axes(page, s)
     page.heading("Motions after")
     for body in levers:
@@ -350,7 +350,7 @@ def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
 def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> None:
     """Equations (20) and (21) of Example 3: both bodies as one system about the pivot of one of them, without friction."""
     body, other = sorted(levers, key=lambda body: not body.pinned)
-    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0 or s.impact.inputs.outside_a is not None:
+    if not body.pinned or other.pinned or other.fixed or s.tangential.value != 0.0 or s.impact.inputs.pushed:
         return
     page.heading("Check by moments about the pivot, as in Example 3")
     page.say(
@@ -384,7 +384,7 @@ def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
         page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
         return
     page.balance("Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed")
-    if s.impact.inputs.outside_a is not None or not s.impact.complete:
+    if s.impact.inputs.pushed or not s.impact.complete:
         return
     # From the body that changes more; if they are equal, max takes A.
     body = max(levers, key=lambda body: abs(body.along("n", AFTER, True).value - body.along("n", contact=True).value))

@@ -179,6 +179,43 @@ class Answer(NamedTuple):
     separation_speed: Any = 0.0
 
 
+class WithTyres(NamedTuple):
+    """An ``Answer`` of which a part is due to tyres, and what they did."""
+
+    status: Any
+    closing_speed: Any
+    slip_before: Any
+    slip_after: Any
+    normal_impulse: Any
+    tangential_impulse: Any
+    compression_impulse: Any
+    no_slip_normal: Any
+    no_slip_tangential: Any
+    sticks: Any
+    effective_mass: Any
+    coupling: Any
+    energy_loss_normal: Any
+    energy_loss_tangential: Any
+    energy_loss: Any
+    impulse_x: Any
+    impulse_y: Any
+    delta_vx_a: Any
+    delta_vy_a: Any
+    delta_yaw_rate_a: Any
+    delta_vx_b: Any
+    delta_vy_b: Any
+    delta_yaw_rate_b: Any
+    separation_speed: Any
+    tyre_impulse_x_a: Any
+    tyre_impulse_y_a: Any
+    tyre_moment_a: Any
+    tyre_loss_a: Any
+    tyre_impulse_x_b: Any
+    tyre_impulse_y_b: Any
+    tyre_moment_b: Any
+    tyre_loss_b: Any
+
+
 class Passed(NamedTuple):
     """The answer of a contact that took time: that of an ``Answer``, what tyres did, and the state at maximum engagement."""
 
