@@ -1616,7 +1616,9 @@ def test_evidence_that_cannot_be_drawn(two_speeds):
 @pytest.mark.parametrize("units", SYSTEMS)
 def test_the_way_to_rest_is_drawn_where_it_was(units):
     """Way, marks and both outlines in the units of the axes; the one at rest is filled and stands where the vehicle rests."""
-    ways = [travel.simulate(side.after, travel.Tyres(0.7, 0.4, 2.7, 1.5)) for side in (IMPACTS["sticking"].a, IMPACTS["sticking"].b)]
+    ways = [
+        travel.simulate(side.after, travel.Tyres(0.7, 0.4, 2.7, 1.5)) for side in (IMPACTS["sticking"].a, IMPACTS["sticking"].b)
+    ]
     axes = plot.path(*ways, outline_a=(4.4, 1.8), outline_b=(4.1, 1.7), units=units)
     metre = UREG("1 m").m_as(SHOWN[units]["length"])
     drawn = {}

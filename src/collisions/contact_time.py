@@ -203,7 +203,7 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     """
     bare = replace(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
     first = solve(bare, True)
-    pushes = {label: _held(inputs, first, label) for label in "ab"}
+    pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
     outside: dict[str, Any] = {
         name: tuple(one + more for one, more in zip(getattr(inputs, name) or NO_IMPULSE, pushes[name[-1]], strict=True))
         for name in OUTSIDE
@@ -224,13 +224,13 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
             )
             names = ("tyre_impulse_x", "tyre_impulse_y", "tyre_moment")
             found |= {f"{name}_{label}": part for name, part in zip(names, push, strict=True)}
-            found[f"tyre_loss_{label}"] = answered - sum(part * mean for part, mean in zip(push, means, strict=True))
+            found[f"tyre_loss_{label}"] = answered + 0.0 - sum(part * mean for part, mean in zip(push, means, strict=True))
     if inputs.shape is not None:
         found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
     return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
 
 
-def _held(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
+def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
     """Impulse of the tyres of one vehicle during the contact, and its moment about the centre of mass."""
     tyres, body = inputs.tyres.get(label), getattr(inputs, label)
     if tyres is None or body.heading is None:

@@ -185,8 +185,9 @@ def part_of_inputs(inputs: Inputs, take: Callable[[Any], Any]) -> Inputs:
         try:
             return part_of(value, take)
         except InputError as error:
-            named = error.fields | {"vehicle": label}
-            raise type(error)(f"{with_name(label, value)}: {error}", code=error.code, **named) from None
+            named = error.fields | {"vehicle": label[-1]}
+            who = with_name(label, value) if isinstance(value, Vehicle) else label
+            raise type(error)(f"{who}: {error}", code=error.code, **named) from None
 
     return Inputs(**{f.name: taken(f.name, getattr(inputs, f.name)) for f in fields(inputs)})
 

@@ -29,6 +29,7 @@ from .kernels.elementwise import (
 from .kernels.status import Answer, Passed, Status
 from .models import TIME_RESOLVED, Model, float_function, in_form, kind_of, model_of, read_again
 from .progress import reporter
+from .quantities import lock
 from .tyres import DOMAINS as TYRE_DOMAINS
 from .tyres import could_lift
 from .units import shown
@@ -56,15 +57,20 @@ def solve_inputs(
         if model.name == "eccentric":
 
             def solve(one: Inputs, quiet: bool) -> Any:
+                quiet = quiet or inputs.shape is not None
                 with quietly() if quiet else nullcontext():
                     return solve_inputs(in_form(model, one), one, "nan" if quiet else on_failure, threads, progress, carrying)
 
-            return with_tyres(inputs, solve)
+            raw: Any = with_tyres(inputs, solve)
+            if inputs.shape is not None:
+                raw = _where_tyres_hold(inputs, raw)
+                say_of_cases(inputs, raw, on_failure)
+            return raw
         if model is not TIME_RESOLVED:
             inputs = replace(inputs, tyres_a=None, tyres_b=None, duration=None)
     if inputs.shape is not None:
         if model is TIME_RESOLVED:
-            raw: Any = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
+            raw = solve_cases_in_time(inputs, cases_of(inputs, inputs.shape, threads)[0], reporter(progress))
         else:
             raw = solve_cases((model,), None, inputs, inputs.shape, threads, progress, carrying)
         say_of_cases(inputs, raw, on_failure)
@@ -229,17 +235,43 @@ def _value_checks(inputs: Inputs, eps: float) -> list[Any]:
         found.append(Check(((without_length, Status.ZERO_NORMAL),), inputs.normal, all_with_length, implied=True))
     add_arrays(FINITE, *(inputs.point or ()), *(inputs.outside_a or ()), *(inputs.outside_b or ()))
     add_arrays(RULES[inputs.rule].domain, inputs.rule_value)
-    for tyres in inputs.tyres.values():
-        for name, value in tyres.named.items():
-            add_arrays(TYRE_DOMAINS[name.partition("[")[0]], value)
-        if any(isinstance(value, np.ndarray) for value in tyres.named.values()):
-            lifted = tyres.friction, tyres.height or 0.0, tyres.wheelbase, tyres.track
-            found.append(Check(((could_lift, Status.WHEEL_LIFTS),), lifted))
+    found += _tyre_checks(inputs)
     for name, domains in TIME_DOMAINS.items():
         given = getattr(inputs, name)
         for part, domain in zip(given if isinstance(given, tuple) else (given,), domains, strict=False):
             add_arrays(domain, part)
     return found
+
+
+def _tyre_checks(inputs: Inputs) -> list[Any]:
+    """The same of the tyres."""
+    from .kernels.batch import Check
+
+    found = []
+    for tyres in inputs.tyres.values():
+        for name, value in tyres.named.items():
+            domain = TYRE_DOMAINS[name.partition("[")[0]]
+            if isinstance(value, np.ndarray):
+                found.append(Check(domain.faults, (value,), domain.holds))
+        lifted = tyres.friction, 0.0 if tyres.height is None else tyres.height, tyres.wheelbase, tyres.track
+        if any(isinstance(value, np.ndarray) for value in lifted):
+            found.append(Check(((could_lift, Status.WHEEL_LIFTS),), lifted))
+    return found
+
+
+def _where_tyres_hold(inputs: Inputs, raw: Any) -> Any:
+    """The answers of a batch with NaN where a number of the tyres cannot be used, or what they give is beyond all numbers."""
+    with np.errstate(all="ignore"):
+        status = raw.status.copy()
+        for check in reversed(_tyre_checks(inputs)):
+            fault = np.broadcast_to(check.fault(*check.values), status.shape)
+            np.copyto(status, fault, where=np.not_equal(fault, Status.OK), casting="unsafe")
+    refused = status > Status.ENERGY_GAIN
+    if not refused.any():
+        return raw
+    found = {name: np.where(refused, name != "sticks" and math.nan, getattr(raw, name)) for name in raw._fields[1:]}
+    kinds = {name: value.astype(getattr(raw, name).dtype) for name, value in found.items()}
+    return raw._replace(status=lock(status), **lock(kinds))
 
 
 def _first_refusal(inputs: Inputs, status: Any, one: Callable[[Callable[[Any], Any]], Any] | None) -> CollisionsError:
