@@ -1044,7 +1044,7 @@ def test_a_batch_of_solve_with_a_duration():
     assert "law of restitution" not in page
     stray = json.loads(json.dumps(col.eccentric(col.Vehicle(**A), b, 0.1, **STRAIGHT).to_dict()))
     stray["inputs"]["duration"] = 0.1
-    with pytest.raises(col.InputError, match="eccentric takes no duration"):
+    with pytest.raises(col.InputError, match="eccentric takes a duration for tyres_a and tyres_b alone"):
         col.Impact.from_dict(stray)
 
 

@@ -142,7 +142,12 @@ def left_out(
         Duration of the contact, >= 0: 0.05 to 0.15 s for cars, the softer the longer.
     drag : float, str, Quantity or array
         Drag factor of the tyres of both vehicles on the ground, >= 0: a plain number, or a deceleration such as
-        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road; wheels that roll along their heading have hardly any.
+        ``"6.9 m/s**2"``. 0.7 is locked wheels on a dry road. It stands for wheels that slide whatever way they go; those that
+        roll hardly resist along themselves, and sideways with their full friction: give ``tyres_a`` and ``tyres_b``.
+    tyres_a, tyres_b : travel.Tyres, optional
+        The wheels of each vehicle in place of the drag, which then counts for neither: the impulse of the tyres is then that
+        which ``eccentric`` takes with them, and its bound that of their friction. Of an impact that has its tyres none are
+        left out; the duration is then that of the impact, unless another is given.
 
     Returns
     -------
