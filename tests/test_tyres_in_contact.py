@@ -265,6 +265,38 @@ def test_records_batches_and_balances(solver):
     assert one.again(tyres_a=None).a.tyre_impulse_x == 0.0
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_cases_that_differ_by_their_tyres_alone(solver):
+    """Arrays of tyres make a batch of what else is one case; float32 stays float32 where all arrays are."""
+    options = CONTACT | {"duration": 0.1, "tyres_b": STRUCK}
+    for kind in (np.float64, np.float32):
+        locks = np.array([0.0, 0.3, 1.0], dtype=kind)
+        many = SOLVERS[solver](A, B, 0.1, **options, tyres_a=ROLLING.replace(lock=locks))
+        assert many.a.delta_vx.dtype == many.a.tyre_impulse_x.dtype == kind
+        for at, lock in enumerate(locks):
+            one = SOLVERS[solver](A, B, 0.1, **options, tyres_a=ROLLING.replace(lock=float(lock)))
+            rounding = 1e-9 if kind is np.float64 else 2e-5
+            for label in "ab":
+                for name in ("delta_vx", "delta_vy", "delta_yaw_rate"):
+                    got, wanted = (getattr(getattr(impact, label), name) for impact in (many, one))
+                    assert got[at] == pytest.approx(wanted, rel=rounding, abs=rounding)
+    columns = many.to_columns()
+    assert len(columns["a.tyre_moment"]) == 3
+
+
+def test_more_cases_than_a_block(monkeypatch):
+    """Blocks of arrays have the same tyres as floats, on two threads as on one."""
+    speeds = np.linspace(3.0, 12.0, 40)
+    options = CONTACT | TYRES | {"duration": 0.1, "steps": 20}
+    wanted = col.time_resolved(A.replace(vx=speeds), B, 0.1, **options)
+    monkeypatch.setattr("collisions.contact_time._FEW", 0)
+    monkeypatch.setattr("collisions.contact_time._BLOCK", 16)
+    monkeypatch.setattr("collisions.kernels.time_resolved._LEAST", 0)
+    found = col.time_resolved(A.replace(vx=speeds), B, 0.1, **options, threads=2)
+    for name in ("delta_vx", "delta_vy", "delta_yaw_rate", "tyre_impulse_x", "tyre_loss"):
+        assert getattr(found.b, name) == pytest.approx(getattr(wanted.b, name), rel=1e-9, abs=1e-9)
+
+
 def test_the_least_model_with_tyres():
     """The eccentric candidate has its tyres; without a rung in time the central ones do not come into question."""
     options = CONTACT | TYRES | {"duration": 0.1}

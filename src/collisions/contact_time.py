@@ -13,7 +13,7 @@ import numpy as np
 from .directions import from_radians
 from .drag import GRAVITY, read_drag, read_duration
 from .errors import InputError, MissingInputError, ShapeError
-from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, read_inputs
+from .inputs import CRUSH_UNITS, NO_IMPULSE, OUTSIDE, STIFFNESSES, TYRES, Inputs, body_numbers, named_numbers, read_inputs
 from .kernels.contact_laws import BRACH
 from .kernels.elementwise import AT_LEAST_ZERO, POSITIVE_FINITE, select
 from .kernels.status import Answer, Passed, Status, WithTyres
@@ -201,7 +201,7 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     Solved twice: without the tyres for the motion before and after, between which their force is taken, and with what they
     give. ``solve`` solves inputs, quietly or not.
     """
-    bare = replace(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
+    bare = _alike(inputs, tyres_a=None, tyres_b=None, duration=None, given=None)
     first = solve(bare, True)
     pushes = {label: held_impulse(inputs, first, label) for label in "ab"}
     outside: dict[str, Any] = {
@@ -212,7 +212,16 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     with np.errstate(all="ignore"):
         refused = first.status > Status.ENERGY_GAIN
         outside = {name: tuple(select(refused, 0.0, part) for part in parts) for name, parts in outside.items()}
-    raw = solve(replace(bare, **outside, given=inputs.given), False)
+        if inputs.shape is not None:
+            # As precise as what they are worked out from.
+            from .kernels.batch import precision
+
+            dtype = precision(named_numbers(inputs).values())
+            outside = {
+                name: tuple(part.astype(dtype) if isinstance(part, np.ndarray) else part for part in parts)
+                for name, parts in outside.items()
+            }
+    raw = solve(_alike(inputs, tyres_a=None, tyres_b=None, duration=None, **outside), False)
     found: dict[str, Any] = {}
     with np.errstate(all="ignore"):
         answered = 0.0 * raw.normal_impulse
@@ -228,6 +237,14 @@ def with_tyres(inputs: Inputs, solve: Callable[[Inputs, bool], Any]) -> Any:
     if inputs.shape is not None:
         found = {name: np.asarray(value, raw.delta_vx_a.dtype) for name, value in found.items()}
     return WithTyres(*(getattr(raw, name) for name in Answer._fields), **lock(found))
+
+
+def _alike(inputs: Inputs, **changes: Any) -> Inputs:
+    """The inputs with some changed; a single case stays one."""
+    other = replace(inputs, **changes)
+    if inputs.shape is None:
+        vars(other)["shape"] = None
+    return other
 
 
 def held_impulse(inputs: Inputs, answer: Any, label: str) -> tuple[Any, Any, Any]:
