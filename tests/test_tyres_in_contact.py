@@ -358,6 +358,16 @@ def test_refusals(solver, changes, code, text):
     assert caught.value.code == code
 
 
+def test_what_if_does_not_forget_the_tyres():
+    """Its page works out one formula, without the second call."""
+    impact = col.eccentric(A, B, 0.1, **CONTACT, duration=0.1, **TYRES)
+    with pytest.raises(col.InputError, match="no page for an impact with tyres"):
+        col.what_if(impact, {"restitution": (0.0, 0.4)})
+    bare = impact.again(tyres_a=None, tyres_b=None, duration=None)
+    assert bare == col.eccentric(A, B, 0.1, **CONTACT)
+    assert "range" in col.what_if(bare, {"restitution": (0.0, 0.4)})
+
+
 def test_tyres_or_a_drag():
     """One of them; eccentric takes a duration only for tyres."""
     with pytest.raises(col.InputError, match="give drag or tyres, not both"):
