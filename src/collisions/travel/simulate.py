@@ -195,8 +195,8 @@ def simulate(
 
     The model holds for cars that stay on their wheels on an even ground: suspension, rollover, kerbs, furrowing in soft ground,
     other vehicles, driving forces, rolling resistance and air resistance are left out, and ``friction`` is the same at every
-    speed. Load transfer is left out unless ``Tyres`` has a height; then it is that of a vehicle without
-    suspension: with 0.55 m it moved the place of rest of 400 spun cars by 5 % of the way in the median, by 14 % in one of ten. Near rest,
+    speed. Load transfer is left out unless ``Tyres`` has a height; then it is that of a vehicle without suspension: with 0.55 m
+    it moved the places of rest of 400 spun cars by 5 % of the way in the median, and by 14 % or more in one of ten. Near rest,
     a rolling tyre is stiffer sideways than in reality. On a slope, positions are in plan, as in ``distance``.
 
     The integration is of orders 5 and 4 with its own step for each case, in a time that slows down with the vehicle, in which
