@@ -6,8 +6,8 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from ..document import Document
-from ..formatting import clock, typeset
+from ..quantities.document import Document
+from ..quantities.formatting import clock, typeset
 from .expressions import Expression, Pen, System
 from .symbols import Symbol
 

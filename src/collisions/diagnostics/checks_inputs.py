@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..drag import HIGHEST_DRAG
-from ..inputs import PLACED
+from ..impact.inputs import PLACED
 from ..reference import CONTACT_DURATION
-from ..vehicle import Vehicle
+from ..vehicle.drag import HIGHEST_DRAG
+from ..vehicle.vehicle import Vehicle
 from .case import Case, ImpactCase, MomentumCase, off_by
 from .finding import NOTE, Measured, above, below, finding
 

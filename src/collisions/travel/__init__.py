@@ -10,8 +10,8 @@ their speeds are 0.14 % higher than these; those of worksheets that use 32.2 ft/
 Results are SI floats. ``travel.q.speed``, ``travel.q.distance`` and ``travel.q.time`` give them as Quantities.
 """
 
-from ..drag import GRAVITY
-from ..quantities import in_quantities
+from ..quantities.attributes import in_quantities
+from ..vehicle.drag import GRAVITY
 from .run_out import RunOut, path
 from .simulate import SimulatedPath, simulate
 from .straight import distance, speed, time

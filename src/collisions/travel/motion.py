@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..drag import GRAVITY
-from ..quantities import hypot
+from ..quantities.attributes import hypot
+from ..vehicle.drag import GRAVITY
 
 # Speeds of a wheel over the ground, of that of the vehicle, below which its force falls to none: no force jumps where a wheel
 # stands still while the others move.

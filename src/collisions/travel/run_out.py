@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..directions import angle_of
-from ..drag import HIGHEST_DRAG, one_value
-from ..errors import InputError, OutOfRangeWarning
-from ..hints import hinted
 from ..kernels.elementwise import UNCHECKED, UNIT_INTERVAL, select
-from ..quantities import Shown, derived, hypot, in_units_of, numeric
-from ..quantity_names import RunOutQuantities
-from ..reading import ArgumentReader, at_least_zero, warn_if_large
-from ..units import Input, Pair, Texts, Value, shown, texts_of
-from ..warning import warn
+from ..messages.errors import InputError, OutOfRangeWarning
+from ..messages.hints import hinted
+from ..messages.warning import warn
+from ..quantities.attribute_stubs import RunOutQuantities
+from ..quantities.attributes import Shown, derived, hypot, in_units_of, numeric
+from ..quantities.directions import angle_of
+from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
+from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
+from ..vehicle.drag import HIGHEST_DRAG, one_value
 from .surfaces import (
     Segments,
     durations_along,

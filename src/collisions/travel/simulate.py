@@ -9,17 +9,17 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..drag import one_value
-from ..errors import InputError, NoSolutionError, ShapeError
-from ..hints import hinted
-from ..kernels.batch import precision
 from ..kernels.elementwise import POSITIVE_FINITE, UNIT_INTERVAL
-from ..quantities import Shown, hypot, in_units_of
-from ..quantities import lock as write_locked
-from ..reading import ArgumentReader, broadcast, is_whole
-from ..summary import Cells, Summary
-from ..units import Input, Pair, Texts, shown, texts_of
-from ..vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
+from ..messages.errors import InputError, NoSolutionError, ShapeError
+from ..messages.hints import hinted
+from ..quantities.attributes import Shown, hypot, in_units_of
+from ..quantities.attributes import lock as write_locked
+from ..quantities.precision import precision
+from ..quantities.reading import ArgumentReader, broadcast, is_whole
+from ..quantities.tables import Cells, Summary
+from ..quantities.units import Input, Pair, Texts, shown, texts_of
+from ..vehicle.drag import one_value
+from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehicle_of
 from .motion import Wheels, integrate, size
 from .run_out import read_friction
 from .surfaces import out_of_range, settle
